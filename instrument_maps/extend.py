@@ -9,14 +9,16 @@ BASE = "extends"
 """Key of the id of the map that is extended."""
 WITHOUT = "without"
 """Key of the names of its controls that the own instrument has not."""
+_OF_EACH = ("controls", "chart")
+"""Keys of the lists with a row for each control."""
 
 
 def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
     """Lay a map's own tables over those of the map it extends.
 
-    Tables are merged key by key and lists of named tables (controls) name by name. Own fingerings replace all that the
-    base has for the same written pitch, and what the base has outside the own range is left out, as are controls that
-    the own instrument is without. Everything else that the map says replaces what the base says.
+    Tables are merged key by key and lists of named tables (controls, their chart) name by name. Own fingerings replace
+    all that the base has for the same written pitch, and what the base has outside the own range is left out, as are
+    controls that the own instrument is without. Everything else that the map says replaces what the base says.
 
     Parameters
     ----------
@@ -24,7 +26,10 @@ def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
         As TOML gives them; ``base`` is itself extended already. Neither is changed.
     """
     if WITHOUT in own:
-        base = {**base, "controls": [row for row in _controls(base) if _name(row) not in own[WITHOUT]]}
+        base = {
+            **base,
+            **{key: [row for row in _rows(base, key) if _name(row) not in own[WITHOUT]] for key in _OF_EACH},
+        }
     merged = _merged(base, {key: value for key, value in own.items() if key not in (BASE, WITHOUT, "fingerings")})
     merged["fingerings"] = _fingerings(merged, base.get("fingerings", []), own.get("fingerings", []))
     return merged
@@ -35,12 +40,12 @@ def not_there(base: Mapping[str, Any], own: Mapping[str, Any]) -> str | None:
     names = own.get(WITHOUT, [])
     if not isinstance(names, list):
         return "is not a list of names of controls"
-    known = [_name(row) for row in _controls(base)]
+    known = [_name(row) for row in _rows(base, "controls")]
     return next((f"there is no control {name!r} in '{own[BASE]}'" for name in names if name not in known), None)
 
 
-def _controls(table: Mapping[str, Any]) -> list[Any]:
-    rows = table.get("controls", [])
+def _rows(table: Mapping[str, Any], key: str) -> list[Any]:
+    rows = table.get(key, [])
     return rows if isinstance(rows, list) else []
 
 

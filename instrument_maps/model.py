@@ -207,6 +207,31 @@ class MovingPart(NamedTuple):
     when: Literal["any", "all"] = "any"
 
 
+class ChartKey(MapTable, frozen=True):
+    """A control as players know it: its name, and its place in a drawn fingering.
+
+    Attributes
+    ----------
+    name : str
+        The control's.
+    en, ja : str
+        What it is called; no other control of the instrument is called so.
+    sign : str
+        A few letters that fit on its picture.
+    at : (float, float) or None
+        Its middle, counted in holes from the left hand's first, to the right and down; None: beside its finger's place.
+    round : bool
+        Drawn as a hole and not as a key.
+    """
+
+    name: str
+    en: str
+    ja: str
+    sign: str = ""
+    at: tuple[float, float] | None = None
+    round: bool = False
+
+
 class Fingering(MapTable, frozen=True):
     """One way to play one written note.
 
@@ -280,6 +305,8 @@ class InstrumentMap(MapTable, frozen=True):
         None: it is let out where no one sees it.
     stopped : Stopped or None
         None: no hand closes its bell.
+    chart : tuple of ChartKey
+        Names and places of the controls, in the order in which a fingering is said.
     fingerings : tuple of Fingering
         Sorted by written pitch and rank.
     size : float
@@ -312,6 +339,7 @@ class InstrumentMap(MapTable, frozen=True):
     stopped: Stopped | None = None
     acoustics: Acoustics | None = None
     sources: tuple[str, ...] = ()
+    chart: tuple[ChartKey, ...] = ()
     size: float = 1.0
 
     def control(self, name: str) -> Control:

@@ -14,7 +14,9 @@ from instrument_maps.validate_hold import contacts_problems, hold_problems, prox
 from instrument_maps.value_checks import REACH_M, UNIT_TOLERANCE, Problem, dot, near_point, unit_vector, within
 
 _MOST_NAME = 200
-
+_MOST_SIGN = 4
+_FURTHEST = 12.0
+"""Distance of a key from the first hole in a drawn fingering, in holes."""
 
 LIPS_MEET = frozenset({"cup", "air_jet"})
 """Kinds of embouchure with nothing between the lips."""
@@ -25,6 +27,7 @@ def problems(instrument: InstrumentMap) -> Iterator[Problem]:
     yield from _head(instrument)
     yield from _mouthpiece(instrument)
     yield from _controls(instrument)
+    yield from _chart(instrument)
     yield from _links(instrument)
     yield from _endpin(instrument)
     yield from contacts_problems(instrument)
@@ -140,6 +143,29 @@ def _motion(path: str, motion: ControlMotion) -> Iterator[Problem]:
             yield from near_point(f"{path}.pivot_m", motion.pivot_m)
     elif motion.pivot_m is not None:
         yield f"{path}.pivot_m", "has no meaning without angle_rad"
+
+
+def _chart(instrument: InstrumentMap) -> Iterator[Problem]:
+    known = {control.name for control in instrument.controls}
+    for key in ("name", "en", "ja"):
+        seen: set[str] = set()
+        for index, row in enumerate(instrument.chart):
+            value = getattr(row, key)
+            if value in seen:
+                yield f"chart[{index}].{key}", f"'{value}' is used twice"
+            seen.add(value)
+    for index, row in enumerate(instrument.chart):
+        path = f"chart[{index}]"
+        if row.name not in known:
+            yield f"{path}.name", f"there is no control named '{row.name}'"
+        for key, most in (("en", _MOST_NAME), ("ja", _MOST_NAME), ("sign", _MOST_SIGN)):
+            value = getattr(row, key)
+            if not value.strip() and key != "sign":
+                yield f"{path}.{key}", "is empty"
+            if len(value) > most:
+                yield f"{path}.{key}", f"is longer than {most} characters"
+        for number in row.at or ():
+            yield from within(f"{path}.at", number, -_FURTHEST, _FURTHEST)
 
 
 def _links(instrument: InstrumentMap) -> Iterator[Problem]:

@@ -29,13 +29,14 @@ from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, MuteEvent, TongueEvent
 from app.plan.music.pitch_bends import WRITTEN_BENDS, bends
-from app.plan.problem_lines import with_notes_named
+from app.plan.problem_lines import with_names
 from app.project.edit.marks import player_marks
 from app.project.performers import Dancer, Player
 from app.score.marks import Mark
 from app.score.model import Note, Score
 from app.score.mutes import is_muted
 from app.score.tempo import TempoMap
+from instrument_maps.fingering_words import fingering_words
 from instrument_maps.model import InstrumentMap
 
 Table = dict[str, Any]
@@ -176,10 +177,11 @@ def _dancer(dancer: Dancer) -> Table:
 
 
 class _Reasons:
-    """Reasons as sentences that name notes by pitch, bar and beat; many events have an equal one."""
+    """Reasons as sentences that name notes by pitch, bar and beat, and keys by their names; many events have an equal
+    one."""
 
-    def __init__(self, score: Score, part_id: str) -> None:
-        self._score, self._part_id = score, part_id
+    def __init__(self, score: Score, part_id: str, instrument: InstrumentMap) -> None:
+        self._score, self._part_id, self._instrument = score, part_id, instrument
         self._known: dict[int, tuple[Message, str]] = {}
         self._equal: dict[tuple[str, str], str] = {}
 
@@ -193,7 +195,7 @@ class _Reasons:
         key = message.id, repr(message.arguments)
         sentence = self._equal.get(key)
         if sentence is None:
-            sentence = self._equal[key] = text(with_notes_named(message, self._score, text, self._part_id))
+            sentence = self._equal[key] = text(with_names(message, self._score, text, self._part_id, self._instrument))
         return sentence
 
 
@@ -201,9 +203,11 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
     plan = performance.plan(player)
     clock = performance.piece.clock
     part = performance.project.part(player)
-    reason = _Reasons(performance.project.score, part.id)
+    reason = _Reasons(performance.project.score, part.id, instrument)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
+    labels = {event.label for event in plan.fingerings}
+    keys = {label: fingering_words(instrument, label, "en") for label in labels}
     loudness = {event.note_id: event.air for event in plan.embouchures}
     marks, blown = performance.marks(player), controller_input(part)
     tongues = {event.note_id: event for event in plan.tongues}
@@ -222,7 +226,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "musician": performance.project.musician(player).name,
         # Of notes struck together only one is played; the others are among what to look at.
         "notes": [
-            _note(note, fingerings[note.id], instrument, clock)
+            _note(note, fingerings[note.id], keys[fingerings[note.id].label], instrument, clock)
             | {
                 **_tongued(tongues.get(note.id), reason),
                 "bend": list(bent) or bends_of_marks.get(note.id, []),
@@ -272,7 +276,7 @@ def _tongued(event: TongueEvent | None, reason: _Reasons) -> Table:
     return {"articulation": event.articulation, "tongue": event.stroke, "tongue_reason": reason(event.reason)}
 
 
-def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, clock: TempoMap) -> Table:
+def _note(note: Note, fingering: FingeringEvent, keys: str, instrument: InstrumentMap, clock: TempoMap) -> Table:
     onset_s = clock.seconds(float(note.onset_tick))
     return {
         "id": note.id,
@@ -283,6 +287,7 @@ def _note(note: Note, fingering: FingeringEvent, instrument: InstrumentMap, cloc
         "pitch": note.pitch,
         "velocity": note.velocity,
         "fingering": fingering.label,
+        "fingering_keys": keys,
         "controls": {
             control.name: fingering.controls.get(control.name, control.rest_value) for control in instrument.controls
         },
@@ -367,7 +372,7 @@ def _tempo(tempos: list[Table]) -> str:
     return f"{min(values):.4g} to {max(values):.4g} ({_counted(len(values), 'change')})"
 
 
-FIRST, FIRST_WORDS = 10, 3
+FIRST, FIRST_WORDS = 10, 2
 """Number of fingerings shown of each player, and of words."""
 
 
@@ -382,7 +387,7 @@ def _row(player: Table) -> tuple[str, ...]:
         span,
         str(breaths),
         str(len(player["cues"])),
-        _fingerings([note["fingering"] for note in player["notes"][:FIRST]]),
+        _fingerings([note["fingering_keys"] for note in player["notes"][:FIRST]]),
     )
 
 

@@ -67,9 +67,12 @@ def list_maps(arguments: argparse.Namespace) -> None:
 
 def print_scale(arguments: argparse.Namespace) -> None:
     """Print the fingerings of a chromatic scale. Raises MapError where there is no such instrument."""
+    from instrument_maps.fingering_label import says_words
+    from instrument_maps.fingering_words import fingering_words
     from instrument_maps.library import find_map
 
     instrument = find_map(arguments.id)
+    words = says_words(instrument.controls)
     rows = []
     for pitch in range(instrument.range.low, instrument.range.high + 1):
         for fingering in instrument.fingerings_for(pitch)[: 1 if arguments.first else None]:
@@ -82,9 +85,11 @@ def print_scale(arguments: argparse.Namespace) -> None:
                     fingering.label,
                     f"{fingering.cents:+.0f}" if round(fingering.cents) else "",
                     ", ".join(fingering.tags),
+                    *([fingering_words(instrument, fingering.label, "en")] if words else []),
                 )
             )
-    say(*columns([("sounds", "written", "rank", "fingering", "cents", "for"), *rows], of_numbers=False))
+    head = ("sounds", "written", "rank", "fingering", "cents", "for", *(["keys"] if words else []))
+    say(*columns([head, *rows], of_numbers=False))
 
 
 def transposition(semitones: int) -> str:

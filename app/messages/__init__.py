@@ -81,6 +81,21 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 }
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
+FINGERINGS: Final[dict[str, tuple[str, ...]]] = {
+    **dict.fromkeys(("fingering.trill", "fingering.speed"), ("label", "first")),
+    **dict.fromkeys(
+        (
+            "fingering.first_choice",
+            "fingering.by_hand",
+            "fingering.written",
+            "fingering.starts_early",
+            "contact.out_of_reach",
+            "correction.no_such_fingering",
+        ),
+        ("label",),
+    ),
+}
+"""Arguments that are labels of fingerings: `instrument_maps.fingering_words` says them in words."""
 
 DETAILS: Final = frozenset({"detail", "reason"})
 """Arguments that `app.messages.details` words."""

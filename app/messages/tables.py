@@ -5,6 +5,10 @@ from __future__ import annotations
 from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    # So that who has only a wording knows whose names to fill it with.
+    "language.tag": ("en", "ja"),
+    "fingering_words.open": ("open", "開放"),
+    "fingering_words.half": ("{key} half open", "{key}（半開）"),
     "table.syntax": (
         "{file}, line {line}, column {column}: {detail}; correct it in a text editor",
         "{file}、{line} 行目 {column} 列目: {detail}。テキストエディターで修正してください",

@@ -163,7 +163,8 @@ def reported_lines(
     project = performance.project
     ignored = () if with_ignored else project.ignored_problems.get(player.id, ())
     counted, left = split_by_ignored(problems, ignored, project.score.tempo_map)
-    return problem_lines(counted, project.score, wording, player.part_id), len(left)
+    lines = problem_lines(counted, project.score, wording, player.part_id, performance.instrument(player))
+    return lines, len(left)
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:

@@ -1,4 +1,4 @@
-"""Problems as lines of a report: notes by pitch, bar and beat, and one line for what occurs repeatedly."""
+"""Problems as lines of a report: notes by place, fingerings in words, and one line for what occurs repeatedly."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Final, TypeAlias
 from app.errors import Argument, Message
 from app.plan.model import Problem
 from app.score.model import Note, Score
+from instrument_maps.fingering_words import in_words
+from instrument_maps.model import InstrumentMap
 
 Wording: TypeAlias = Callable[[Message], str]
 """Words a message, in the language of who reads it."""
@@ -20,7 +22,13 @@ MOST_PLACES: Final = 40
 """More are counted only."""
 
 
-def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, part_id: str | None = None) -> list[str]:
+def problem_lines(
+    problems: Iterable[Problem],
+    score: Score,
+    wording: Wording,
+    part_id: str | None = None,
+    instrument: InstrumentMap | None = None,
+) -> list[str]:
     """One line for each kind of problem of a player, by the time of its first.
 
     Parameters
@@ -32,8 +40,10 @@ def problem_lines(problems: Iterable[Problem], score: Score, wording: Wording, p
     wording : callable
     part_id : str or None
         The player's part, whose notes are looked up first.
+    instrument : InstrumentMap or None
+        The player's, which names the keys of fingerings.
     """
-    return [_line(found, score, wording, part_id) for found in problems_by_kind(problems)]
+    return [_line(found, score, wording, part_id, instrument) for found in problems_by_kind(problems)]
 
 
 def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
@@ -61,8 +71,12 @@ def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | No
     return None
 
 
-def with_notes_named(message: Message, score: Score, wording: Wording, part_id: str | None) -> Message:
-    """The message with notes by pitch, bar and beat instead of by id; what is no note of the score stays as it is."""
+def with_names(
+    message: Message, score: Score, wording: Wording, part_id: str | None, instrument: InstrumentMap | None
+) -> Message:
+    """The message with notes by pitch, bar and beat instead of by id, and fingerings by the names of their keys; what
+    is no note of the score stays as it is."""
+    message = in_words(message, instrument, wording(Message("language.tag")))
     named: dict[str, Argument] = {}
     for name in NOTES & message.arguments.keys():
         note = note_of(score, str(message.arguments[name]), part_id)
@@ -75,10 +89,12 @@ _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
 """Notes by id of each part that was searched, by part; made again where the part has other notes."""
 
 
-def _line(found: list[Problem], score: Score, wording: Wording, part_id: str | None) -> str:
+def _line(
+    found: list[Problem], score: Score, wording: Wording, part_id: str | None, instrument: InstrumentMap | None
+) -> str:
     """The first of some problems of a kind, and the places of the others."""
     message, first = found[0].message, _place(found[0], score, part_id)
-    line = wording(with_notes_named(message, score, wording, part_id))
+    line = wording(with_names(message, score, wording, part_id, instrument))
     if not NOTES & message.arguments.keys() and first:
         line = wording(Message("problem.at", {"problem": line, "place": first}))
     others: list[str] = []

@@ -10,7 +10,7 @@ from instrument_maps.model import InstrumentMap
 def language() -> str:
     """The language the editor speaks now: ``"en"`` or ``"ja"``."""
     # The translation of this word is the language's own tag, so that it always agrees with the texts around.
-    return tr("language.en")
+    return tr("language.tag")
 
 
 def instrument_name(instrument: InstrumentMap) -> str:

@@ -15,8 +15,9 @@ from app.plan.by_hand.additive_curve import CHANNELS
 from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.performers import Player
 from app.score.model import Note
+from instrument_maps.fingering_words import in_words
 from instrument_maps.library import all_maps
-from instrument_maps.model import PARTS
+from instrument_maps.model import PARTS, InstrumentMap
 from widgets.common.channel_names import channel_name
 from widgets.common.event_names import expression_name, gesture_name, kind_name, pose_name, style_name
 from widgets.common.field_names import field_name
@@ -30,11 +31,14 @@ def message_text(message: Message, session: Session | None = None, player_id: st
     Parameters
     ----------
     session : Session or None
-        With it notes are reported by pitch and place, named by the user's settings; without it notes by their ids.
+        With it notes are reported by pitch and place, named by the user's settings, and fingerings in words; without it
+        notes by their ids and fingerings by their signs.
     player_id : str or None
         Whose message it is; None: that of the player in front.
     """
     template = tr(message.id)
+    if session is not None:
+        message = in_words(message, _instrument(_player(session, player_id)), language())
     arguments = {name: _reported(message, name, session, player_id) for name in message.arguments}
     if session is None:
         named = PITCHES.get(message.id, ())
@@ -81,9 +85,13 @@ def _player(session: Session, player_id: str | None) -> Player | None:
     return next((player for player in players if player.id == player_id), None) if player_id else session.player
 
 
+def _instrument(player: Player | None) -> InstrumentMap | None:
+    return all_maps().get(player.instrument_id) if player is not None else None
+
+
 def player_pitch(session: Session, pitch: float, player: Player | None) -> str:
     """A sounding pitch as the user reads those of a player."""
-    instrument = all_maps().get(player.instrument_id) if player is not None else None
+    instrument = _instrument(player)
     semitones = instrument.transposition_semitones if instrument is not None else 0
     return pitch_text(session.pitch_display, round(pitch), semitones)
 
@@ -142,17 +150,6 @@ def _touches() -> dict[str, str]:
     return {part: templates[part.split(".")[1]].format(side=sides[part.split(".")[0]]) for part in PARTS}
 
 
-def _controls() -> dict[str, str]:
-    """Controls of instruments as people call them; one that is not here is called what its map calls it."""
-    valve = tr("word.valve")
-    slide = tr("word.slide_of_valve")
-    names = {f"valve_{number}": valve.format(number=number) for number in range(1, 7)}
-    names |= {
-        f"{word}_slide": slide.format(number=1 + index) for index, word in enumerate(("first", "second", "third"))
-    }
-    return names | {"slide": tr("word.slide"), "trigger": tr("word.trigger")}
-
-
 def parameter_text(text_id: str) -> str:
     """A text of a parameter (`app.plan.parameters`) in the language of the editor; empty where it has none."""
     return tr(text_id) if text_id else ""
@@ -165,7 +162,6 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "touch": _touches,
     "moved": lambda: {channel: channel_name(channel) for channel in CHANNELS},
     "map": lambda: {id: instrument_name(instrument) for id, instrument in all_maps().items()},
-    "control": _controls,
     "angle": lambda: {"up": tr("word.up_and_down"), "left": tr("word.to_side"), "roll": tr("word.leaning")},
     "leader_reason": lambda: {"chosen": tr("word.chosen_as_leader"), "melody": tr("word.leads_melody")},
 }

@@ -28,11 +28,11 @@ def opened(path: Path) -> Project:
 
 def found(*labels: str) -> dict[str, Any]:
     sources = dict.fromkeys(FACTS, "guess")
-    notes = [{"pitch": 60 + index, "fingering": label, "sources": sources} for index, label in enumerate(labels)]
+    notes = [{"pitch": 60 + index, "fingering_keys": label, "sources": sources} for index, label in enumerate(labels)]
     player = {"name": "One", "instrument": "thing", "notes": notes, "breaths": [], "cues": []}
     return {
         "duration_s": 1.0, "players": [player], "unplayed": [], "dancers": [], "left_out": [], "warnings": [],
-        "ticks_per_beat": 480, "tempo": [{"bpm": 120.0}],
+        "ignored_problems": 0, "ticks_per_beat": 480, "tempo": [{"bpm": 120.0}],
     }  # fmt: skip
 
 
@@ -41,8 +41,8 @@ def test_valves_stand_side_by_side() -> None:
 
 
 def test_fingerings_of_several_keys_are_distinguished() -> None:
-    lines = tables("x.mid", found("(open)", "L1 T", "L1 L2 T", "L1 L2 L3 T"))
-    assert any(line.endswith("(open), L1 T, L1 L2 T") for line in lines)
+    lines = tables("x.mid", found("open", "thumb hole + L1", "thumb hole + L1·2"))
+    assert any(line.endswith("open, thumb hole + L1") for line in lines)
 
 
 TECHNIQUE = "<technical>{}</technical>"
