@@ -57,12 +57,14 @@ def press(widget: QWidget, place: QPoint | None = None) -> None:
     AssertionError
         It is hidden, greyed out or out of sight.
     """
-    # Panels that a click before has resized are laid out again in some rounds.
-    for _ in range(20):
+
+    def is_seen() -> bool:
         bring_into_view(widget)
-        QApplication.processEvents()
-        if not widget.visibleRegion().isEmpty():
-            break
+        return not widget.isVisible() or not widget.visibleRegion().isEmpty()
+
+    # Panels that a click before has resized, or put back into the window, are laid out again after a moment.
+    QApplication.processEvents()
+    wait_until(is_seen)
     assert widget.isVisible(), "hidden"
     assert widget.isEnabled(), "greyed out"
     seen: QRect = widget.visibleRegion().boundingRect()

@@ -117,7 +117,6 @@ BAR_ONLY = ("typing fingerings",)
 WITH_BAR = ("no piece", "by hand")
 WITH_MENUS = ("by hand",)
 WITH_CONTEXT = ("by hand", "takes")
-OUT_OF_SIGHT = frozenset(("fault: AssertionError('out of sight')",))
 ARRANGED = frozenset(("folded", "full_screen", "lanes", "page", "panels", "workspace"))
 """Subjects of the window's layout."""
 
@@ -273,9 +272,6 @@ def faults(seen: dict[str, dict[str, frozenset[str]]]) -> list[str]:
             continue
         used.add(row.pattern)
         for state, found in states.items():
-            # A panel may be too small for all it holds in one state; in some state its controls act.
-            if found == OUT_OF_SIGHT:
-                continue
             is_idle = not found - NOTHING - (row.besides - row.changes)
             if found == CHOSEN or (is_idle and row.may_be_idle):
                 continue
