@@ -100,6 +100,26 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
         "this has no amount to type; drag it to move it, or an edge to resize it",
         "これには入力できる量がありません。ドラッグで移動、端で長さを変更できます",
     ),
+    "fingering.no_note_here": (
+        "no note sounds here; click a note to see its fingerings, or type one",
+        "ここには音符がありません。音符をクリックすると運指を選択・入力できます",
+    ),
+    "audio.none_here": (
+        "no audio yet; drop an audio file here, or choose File > Import Audio",
+        "音源がまだありません。ここにドロップするか、「ファイル > 音源を読み込む」で選んでください",
+    ),
+    "problems.none_here": (
+        "no problem here; press F8 to go to the next one",
+        "ここに問題はありません。F8 で次の問題へ移動します",
+    ),
+    "dance.no_step_here": (
+        "no step here; double-click a step to see what else could be danced there",
+        "ここにステップはありません。ステップをダブルクリックすると、ほかの候補を選べます",
+    ),
+    "take.row_is_swiped": (
+        "drag over a take to use that part of it; double-click its name to use all of it",
+        "テイクの上をドラッグするとその部分を、名前をダブルクリックすると全体を採用します",
+    ),
     "curves.no_note_here": (
         "no note sounds here; double-click a note to type its value",
         "ここには音符がありません。音符の上でダブルクリックすると値を入力できます",

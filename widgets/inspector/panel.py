@@ -82,7 +82,6 @@ class InspectorPanel(Retranslated, QWidget):
             self._tabs.addTab(page, "")
         self._tabs.setDocumentMode(True)
         self._tabs.setUsesScrollButtons(True)
-        self._tabs.setMinimumHeight(120)
         self._splitter = QSplitter(Qt.Orientation.Vertical)
         self._splitter.addWidget(scroll)
         self._splitter.addWidget(self._tabs)

@@ -27,7 +27,7 @@ from app.project.model import Project
 from app.project.performers import Dancer
 from app.score.model import Note
 from tests.gui.timeline.conftest import TPQ, scale_project
-from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, planned
+from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, double_click, planned
 from tests.support.dances import model
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child, show_in_front
@@ -143,6 +143,14 @@ def test_a_segment_is_chosen_from_the_menu(lane: DanceLane) -> None:
     menu.close()
 
 
+def test_a_double_click_opens_the_menu_of_a_step(lane: DanceLane) -> None:
+    double_click(lane, place(lane, 6))
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    menu.close()
+    assert not lane.session.document.done
+
+
 def test_a_motion_is_dragged_to_other_beats_and_stays_itself(lane: DanceLane) -> None:
     dance = lane.dances[MARY]
     before, tick = dance.steps[6], dance.ticks[6]
@@ -211,3 +219,7 @@ def test_an_unreadable_choreography_is_said_in_its_row_alone(lane: DanceLane, tm
     assert lane.dances[MARY].steps
     lane.hover(lane.mouse_at(lane.row_rect(1).center()))
     assert "broken.choreography" in lane.plot.toolTip()
+    reported: list[str] = []
+    lane.session.noticed.connect(lambda message, _: reported.append(message.id))
+    double_click(lane, lane.row_rect(1).center())
+    assert reported == ["dance.no_step_here"]

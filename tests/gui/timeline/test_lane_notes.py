@@ -363,4 +363,8 @@ def test_a_double_click_where_nothing_can_be_typed_says_why(panel: TimelinePanel
     first_breath = min(region.start_s for region in breaths.regions)
     double_click(breaths, QPointF(panel.axis.x_px(first_breath) - 20.0, 4.0))
     assert reported == ["curves.no_note_here", "edit.is_there"]
+    reported.clear()
+    for id in ("fingering", "audio", "problems"):
+        double_click(panel.lanes[id], QPointF(panel.axis.x_px(first.start_s) - 40.0, 20.0))
+    assert reported == ["fingering.no_note_here", "audio.none_here", "problems.none_here"]
     assert not session.document.done

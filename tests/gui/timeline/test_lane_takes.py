@@ -409,8 +409,11 @@ def test_rows_keep_their_places_when_the_tempo_changes(lane: TakesLane) -> None:
 
 
 def test_double_clicking_a_row_is_no_swipe(lane: TakesLane) -> None:
+    reported: list[str] = []
+    lane.session.noticed.connect(lambda message, _: reported.append(message.id))
     double_click(lane, place(lane, 3, 1))
     assert steps(lane) == []
+    assert reported == ["take.row_is_swiped"]
 
 
 def test_the_part_goes_back_to_what_was_before_only_where_it_is_something_else(lane: TakesLane) -> None:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.editor.problems import go_to_problem
 from app.editor.selection import Selection
 from app.editor.session import Session
+from app.errors import Message
 from app.plan.model import Problem
 from widgets.common.controls import named
 from widgets.common.plain import Label
@@ -158,6 +159,10 @@ class ProblemsLane(Lane):
             return
         if self.session.player is not None:
             go_to_problem(self.session, self.session.player.id, problem)
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        if self.problem_at(mouse) is None:
+            self.session.notice(Message("problems.none_here"))
 
     def hover(self, mouse: LaneMouse | None) -> None:
         problem = self.problem_at(mouse) if mouse is not None else None

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QMenu, QWidget
 
-from app.editor.session import Session
+from app.editor.session import Session, Severity
 from app.errors import Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.project import limits
@@ -180,6 +180,15 @@ class DanceLane(RowLane):
     def cancel(self) -> None:
         self.moving = None
         self.update_items()
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        """Open the menu of a step."""
+        self.moving = None
+        menu = self.context_menu(mouse)
+        if menu is None:
+            self.session.notice(Message("dance.no_step_here"), Severity.WARNING)
+        else:
+            menu.popup(self.plot.mapToGlobal(QPoint(round(mouse.x_px), round(mouse.y_px))))
 
     def hover(self, mouse: LaneMouse | None) -> None:
         step, dance = (self.step_at(mouse), self._dance_at(mouse)) if mouse is not None else (None, None)

@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.editor.selection import Selection
-from app.editor.session import Session
-from app.errors import AppError
+from app.editor.session import Session, Severity
+from app.errors import AppError, Message
 from app.plan.model import FingeringEvent, MuteEvent, PlayerPlan
 from app.project.document import Change
 from app.project.performers import Player
@@ -316,6 +316,10 @@ class FingeringLane(Lane):
             self.session.select(Selection(notes=notes | {event.note_id}))
         elif event.note_id not in notes:
             self.session.select(Selection(notes=frozenset({event.note_id})))
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        if self.event_at(mouse.time_s) is None:
+            self.session.notice(Message("fingering.no_note_here"), Severity.WARNING)
 
     def drag(self, mouse: LaneMouse) -> None:
         start = self._pressed_at

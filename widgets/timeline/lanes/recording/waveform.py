@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.arrays import FloatArray
 from app.audio.peaks import Peaks
-from app.editor.session import Session
+from app.editor.session import Session, Severity
 from app.errors import Message
 from app.project.document import Change
 from app.project.edit.piece import set_offset
@@ -184,9 +184,10 @@ class WaveformLane(Lane):
     def double_click(self, mouse: LaneMouse) -> None:
         audio = self.session.project.audio
         self._drag = None
-        if audio is None or self.anchors.double_click(mouse):
-            return
-        self._type_offset()
+        if audio is None:
+            self.session.notice(Message("audio.none_here"), Severity.WARNING)
+        elif not self.anchors.double_click(mouse):
+            self._type_offset()
 
     def _type_offset(self) -> None:
         audio = self.session.project.audio

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.selection import Selection
 from app.editor.session import Session
+from app.errors import Message
 from app.project.document import Change
 from app.project.edit.placed_takes import BEFORE
 from app.project.model import CompSpan
@@ -222,6 +223,9 @@ class TakesLane(RowLane):
             if swipe.edge is not None:
                 self._select_span((swiped.start_tick + swiped.end_tick) / 2)
         self.update_items()
+
+    def double_click(self, mouse: LaneMouse) -> None:
+        self.session.notice(Message("take.row_is_swiped"))
 
     def cancel(self) -> None:
         self._cancel_swipe()
