@@ -12,8 +12,11 @@ from app.audio.decode import AudioRecording, decode
 from app.audio.synth import RenderedPhrase, Synthesiser, drum_phrases, phrases, program_of
 from app.audio.track import RATE_HZ, AudioSegment, Block, Mix, MixTrack
 from app.errors import Progress, StopRequested, raise_if_stopped
+from app.plan.parameters import PlayerParameters
+from app.project.casting import StagePosition
 from app.project.model import Project
 from app.project.performers import Player
+from app.score.model import Score
 from instrument_maps.library import all_maps
 
 _LEVEL: Final = 4.5
@@ -24,6 +27,15 @@ _PERCUSSION_LEVEL: Final = 0.5
 """Level of the percussion relative to the players: a kit's loudest strokes are far above a wind's tone."""
 _SIDE: Final = 0.6
 """Pan of the outermost player; 1 is one channel alone."""
+
+
+def project_to_hear(score: Score) -> Project:
+    """A project in which every part of a score sounds, for listening only: its players have neither instruments nor
+    characters."""
+    place = StagePosition(0.0, 0.0, 0.0)
+    return Project(
+        score, tuple(Player(part.id, part.name, part.id, "", "", PlayerParameters(), place) for part in score.parts)
+    )
 
 
 def player_phrases(project: Project, player: Player) -> tuple[RenderedPhrase, ...]:

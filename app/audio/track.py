@@ -59,6 +59,12 @@ class MixTrack:
     def _longest(self) -> int:
         return max((len(piece.samples) for piece in self.pieces), default=0)
 
+    def moved(self, samples: int) -> MixTrack:
+        """The track with everything so many samples later."""
+        track = MixTrack(AudioSegment(piece.start + samples, piece.samples) for piece in self.pieces)
+        track.gains = self.gains
+        return track
+
     @property
     def end(self) -> int:
         """Return where the last piece ends, in samples; 0 without pieces."""

@@ -21,6 +21,7 @@ from app.encoding import guessed, shown
 from app.errors import FileError
 from app.formats.files import read_file
 from app.score.contents import uncast_score
+from app.score.model import Score
 from app.score.read import read_contents
 
 CREDITS_SUFFIX: Final = ".txt"
@@ -29,10 +30,11 @@ MOST_CREDITS_BYTES: Final = 2**20
 
 @dataclass(frozen=True, eq=False)
 class ReadPair:
-    """A pair, and what was guessed about its motion's file."""
+    """A pair, what was guessed about its motion's file, and its music as it is heard."""
 
     pair: Pair
     motion: ReadMotion
+    score: Score
 
 
 def read_pair(
@@ -70,7 +72,8 @@ def read_pair(
         A file cannot be read, is none of the kind, or has cuts that do not fit the motion.
     """
     read = read_motion(motion, fps)
-    rhythm = score_rhythm(uncast_score(read_contents(music)))
+    score = uncast_score(read_contents(music))
+    rhythm = score_rhythm(score)
     if not len(rhythm.hits_s):
         raise FileError("learn.no_percussion", file=str(music))
     beside = motion.with_suffix(CREDITS_SUFFIX)
@@ -79,7 +82,7 @@ def read_pair(
     text = "" if credits is None else guessed(read_file(credits, MOST_CREDITS_BYTES)).strip()
     of_clip_s = None if offset_s is None else offset_s - read.start_s
     pair = Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text)
-    return ReadPair(pair if cuts is None else _cut(pair, read, read_times(cuts)), read)
+    return ReadPair(pair if cuts is None else _cut(pair, read, read_times(cuts)), read, score)
 
 
 def _cut(pair: Pair, read: ReadMotion, times_s: Sequence[Sequence[float]]) -> Pair:

@@ -54,11 +54,18 @@ class _Job:
     share: float = 0.0
     """0..1 of it that is."""
     is_cut: bool = False
+    is_stopped: bool = False
+    """The window's thread does not need it any more."""
     has_ended: bool = False
 
 
 class Stems(QObject):
     """The players' tracks.
+
+    Parameters
+    ----------
+    key : str
+        Of the rendering among the tasks (`Tasks.run`).
 
     Signals
     -------
@@ -68,9 +75,9 @@ class Stems(QObject):
 
     changed = Signal()
 
-    def __init__(self, tasks: Tasks, parent: QObject) -> None:
+    def __init__(self, tasks: Tasks, parent: QObject, key: str = "synthesise") -> None:
         super().__init__(parent)
-        self._tasks = tasks
+        self._tasks, self._key = tasks, key
         self._synthesiser = Synthesiser(Shelved(RenderProcess()))
         self._made: dict[str, _Made] = {}
         self._job: _Job | None = None
@@ -109,6 +116,13 @@ class Stems(QObject):
         ):
             self._settle_timer.start()
 
+    def stop(self) -> None:
+        """Render nothing more."""
+        self._settle_timer.stop()
+        self._look_timer.stop()
+        if self._job is not None:
+            self._job.is_stopped = True
+
     def covers(self, at_s: float) -> bool:
         """Return whether what sounds next at a moment is rendered, or being rendered."""
         if self._job is None:
@@ -144,11 +158,14 @@ class Stems(QObject):
         job = self._job = _Job(project)
 
         def work(progress: Progress, stop_requested: StopRequested) -> None:
+            def stopped() -> bool:
+                return job.is_stopped or stop_requested()
+
             try:
                 made = {}
                 for voice, player in _voices(project).items():
                     made[voice] = _made(project, player, before.get(voice))
-                    raise_if_stopped(stop_requested)
+                    raise_if_stopped(stopped)
                 everything = [(player_id, phrase) for player_id, one in made.items() for phrase in one.phrases]
                 requested, job.window_s = _next_phrases(everything, from_s)
                 gone = synthesiser.forget(phrase for _, phrase in requested)
@@ -156,7 +173,7 @@ class Stems(QObject):
                 missing = [item for item in requested if synthesiser.ready(item[1]) is None]
                 job.made, job.is_cut = made, True
                 for index, (player_id, phrase) in enumerate(missing):
-                    raise_if_stopped(stop_requested)
+                    raise_if_stopped(stopped)
                     synthesiser.render(phrase)
                     stale.append(player_id)
                     job.share = (len(requested) - len(missing) + index + 1) / len(requested)
@@ -166,7 +183,7 @@ class Stems(QObject):
                 job.has_ended = True
 
         self._look_timer.start()
-        self._tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key="synthesise")
+        self._tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key=self._key)
 
     def _look(self) -> None:
         """Take what is there."""

@@ -266,6 +266,11 @@ class IconButton(Retranslated, QToolButton):
         self._draw()
         self.texted(self, tip=tip_id, name=tip_id)
 
+    def show_picture(self, picture: str) -> None:
+        """Show another picture."""
+        self._picture = picture
+        self._draw()
+
     def _draw(self) -> None:
         tokens = self._session.tokens
         self.setIcon(icon(self._picture, tokens, tokens.text_dim if self._dim else None))

@@ -36,6 +36,7 @@ class AutomaticNumber(QWidget):
         self.check.setObjectName(f"{name}_automatic")
         self.number.setObjectName(name)
         self.number.setDecimals(decimals)
+        self._range = least, most
         self.number.setRange(least, most)
         self.number.setSingleStep(step)
         self.number.setKeyboardTracking(False)
@@ -52,12 +53,18 @@ class AutomaticNumber(QWidget):
         """The typed number; None while it is found automatically."""
         return None if self.check.isChecked() else self.number.value()
 
+    def set_range(self, least: float, most: float) -> None:
+        """Offer only numbers from here to there; `show_value` still shows one beyond them as it is."""
+        self._range = least, most
+
     def show_value(self, value: float | None, found: float | None) -> None:
         """Show a value, or what was found where it is None, without a signal."""
         self.number.blockSignals(True)
         self.check.setChecked(value is None)
         self.number.setEnabled(value is not None)
         shown = found if value is None else value
+        least, most = self._range
+        self.number.setRange(min(least, least if shown is None else shown), max(most, most if shown is None else shown))
         if shown is not None:
             self.number.setValue(shown)
         # What is not known is not shown as a number.

@@ -90,11 +90,12 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         (
             "Angular acceleration (rad/s²) over motion time (s). Blue: cuts; orange: accents; green: percussion of "
             "the music. Drag a line to move it, double-click to add a cut, press Delete to remove it. Ctrl+wheel "
-            "zooms."
+            "zooms; drag in the time axis to scrub."
         ),
         (
             "モーションの時刻（秒）に対する角加速度（rad/s²）。青: 区切り、オレンジ: アクセント、緑: 音楽の打楽器。"
-            "線をドラッグで移動、ダブルクリックで区切りを追加、Delete で削除、Ctrl+ホイールで拡大縮小します。"
+            "線をドラッグで移動、ダブルクリックで区切りを追加、Delete で削除、Ctrl+ホイールで拡大縮小、"
+            "時間軸のドラッグで再生位置を移動します。"
         ),
     ),
     "cut_panel.cuts_of_motion": ("Motion cuts", "モーションの区切り"),
@@ -154,6 +155,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Pair {n}: select a MIDI file or score.",
         "組 {n}: MIDI ファイルか楽譜を選んでください。",
     ),
+    "learn_dialog.pair_offset_outside": (
+        "Pair {n}: no percussion sounds during the motion with this offset. Set one from {least} to {most} s.",
+        "組 {n}: このオフセットではモーションの間に打楽器が鳴りません。{least}～{most} 秒にしてください。",
+    ),
     "learn_dialog.pairs_of_motion_and_music": ("Motion and music pairs", "モーションと音楽の組"),
     "learn_dialog.reading_files": ("Reading files…", "ファイルを読み込み中…"),
     "learn_dialog.remove": ("Remove", "削除"),
@@ -207,6 +212,10 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
             "音楽の開始位置が違う場合は入力してください。"
         ),
     ),
+    "pair_form.offset_outside": (
+        "With this offset no percussion sounds during the motion: set one from {least} to {most} s, or Automatic.",
+        ("このオフセットではモーションの間に打楽器が鳴りません。{least}～{most} 秒の値か「自動」にしてください。"),
+    ),
     "pair_form.pair_is_motion_and_midi": (
         "A pair is a motion and the MIDI file or score of its music.",
         "組は、モーションと、その音楽の MIDI ファイルか楽譜からなります。",
@@ -216,6 +225,17 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "pair_form.text_files": ("Text files", "テキストファイル"),
     "pair_form.time_of_motion_at_which": ("Motion time at which the music starts", "音楽が始まる、モーション内の時刻"),
     "pair_form.to_check": ("Check: {notes}", "要確認: {notes}"),
+    "pair_player.drag_to_scrub": (
+        "Drag to move through the motion and hear its music",
+        "ドラッグすると、音楽を聞きながらモーション内を移動します",
+    ),
+    "pair_player.no_audio_device": ("no audio device", "音声デバイスなし"),
+    "pair_player.play_space": (
+        "Play the motion with its music (Space)",
+        "モーションを音楽と一緒に再生（Space）",
+    ),
+    "pair_player.preparing_sound": ("preparing sound, {percent} %", "音を準備中 {percent} %"),
+    "pair_player.time": ("{seconds} / {end} s", "{seconds} / {end} 秒"),
     "pair_form.true_frame_rate_of_motion": (
         "Correct frame rate of the motion, if the file states a wrong one",
         "ファイルの値が誤っている場合の、正しいフレームレート",

@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
 
+from app.audio.playback import Playback
 from app.choreography.cuts_by_hand import Cuts
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, Check, IconButton, Retranslated
@@ -17,7 +18,8 @@ from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 from widgets.dialogs.choreography.cut_figure import PoseFigure, pose_of
 from widgets.dialogs.choreography.cut_plot import CutPlot
-from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
+from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft, offset_s_of
+from widgets.dialogs.choreography.pair_player import PairPlayer
 
 _EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
 
@@ -61,11 +63,12 @@ class CutPanel(Retranslated, QWidget):
 
     changed = Signal(object)
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, playback: Playback, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self._draft, self._found, self._history = PairDraft(), PairContents(), CutHistory()
         self.plot, self.figure = CutPlot(session), PoseFigure(session)
+        self.player = PairPlayer(session, playback)
         self._title, self._place, self._hint = Label(), Label(), Caption("cut_panel.angular_acceleration_rad_s_over")
         self._place.setObjectName("cut_place")
         self._hint.setObjectName("cut_hint")
@@ -81,12 +84,17 @@ class CutPanel(Retranslated, QWidget):
         self._snap.setChecked(True)
         tools = in_row(self._title, STRETCH, self._place, 14, *self._buttons.values(), self._snap, self._reset)
         pictures = in_row((self.plot, 1), self.figure)
-        in_column(tools, (pictures, 1), self._hint, of=self, margins=0)
+        in_column(tools, (pictures, 1), self.player, self._hint, of=self, margins=0)
         self.plot.edited.connect(self._edit)
-        self.plot.pointed.connect(self._point)
+        self.plot.pointed.connect(self._point_at)
+        self.plot.scrubbed.connect(self.player.scrub)
+        self.player.moved.connect(self._follow)
         self._snap.toggled.connect(self._set_snaps)
         for key, step in ((QKeySequence.StandardKey.Undo, self.undo), (QKeySequence.StandardKey.Redo, self.redo)):
             QShortcut(QKeySequence(key), self).activated.connect(step)
+        play = QShortcut(QKeySequence(Qt.Key.Key_Space), self.plot)
+        play.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+        play.activated.connect(self.player.toggle)
         self.texted(self.plot.plot, name="cut_panel.cuts_of_motion")
         self.retranslate()
 
@@ -94,18 +102,20 @@ class CutPanel(Retranslated, QWidget):
         """Show the cuts of a pair."""
         before, read, analysis = self._found, found.read, found.analysis
         self._draft, self._found, self._history = draft, found, history
+        self.player.show_pair(draft, found)
         if read is None or analysis is None:
             self.plot.setEnabled(False)
+            self.plot.show_playhead(None)
             self.figure.show_pose(None)
             self._place.setText("")
             if before.analysis is not None:
                 self.plot.show_motion(*_EMPTY)
         else:
             start_s = read.motion.start_s
-            music_s = analysis.offset.offset_s + start_s if draft.offset_s is None else draft.offset_s
-            hits_s = read.pair.rhythm.hits_s + music_s
+            hits_s = read.pair.rhythm.hits_s + offset_s_of(draft, found)
             if before.analysis is not analysis:
                 self.plot.show_motion(analysis.segmentation.curve_rad_s2, analysis.clip.fps, start_s, hits_s)
+                self.plot.show_playhead(start_s)
                 self._point(0)
             else:
                 self.plot.show_hits(hits_s)
@@ -127,6 +137,17 @@ class CutPanel(Retranslated, QWidget):
         if cuts != self._draft.cuts:
             self._history.push(self._draft.cuts, token)
             self.changed.emit(cuts)
+
+    def _point_at(self, frame: int) -> None:
+        """Show the frame under the mouse, unless the motion is played."""
+        if not self.player.is_playing:
+            self._point(frame)
+
+    def _follow(self, time_s: float) -> None:
+        """Show the motion at the playhead."""
+        if self._found.analysis is not None:
+            self.plot.show_playhead(time_s)
+            self._point(self.plot.frame_of(time_s))
 
     def _point(self, frame: int) -> None:
         analysis = self._found.analysis

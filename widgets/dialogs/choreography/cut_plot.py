@@ -74,6 +74,8 @@ class CutPlot(QWidget):
         The user changes the cuts; those of one drag come with one token, others with None.
     pointed(int)
         The mouse is over this frame, or a line was moved there.
+    scrubbed(float)
+        The mouse is pressed or dragged in the axis of time: a time of the file, in seconds.
 
     Parameters
     ----------
@@ -83,6 +85,7 @@ class CutPlot(QWidget):
 
     edited = Signal(object, object)
     pointed = Signal(int)
+    scrubbed = Signal(float)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -97,6 +100,7 @@ class CutPlot(QWidget):
         self._selected: CutLine | None = None
         self._drag: _Drag | None = None
         self._token: object = None
+        self._scrubs = False
         # Not a PlotWidget, which leaves menus behind that no one sees.
         self.plot: Any = pg.GraphicsView(self)
         self.plot.setObjectName("cut_plot")
@@ -104,7 +108,7 @@ class CutPlot(QWidget):
         self._axes: tuple[Any, Any] = pg.AxisItem("left", linkView=self.view), pg.AxisItem("bottom", linkView=self.view)
         self._items: dict[str, Any] = {
             name: pg.PlotCurveItem(connect="all" if name == "curve" else "pairs")
-            for name in ("hits", "curve", "bound", "accent", "selected")
+            for name in ("hits", "curve", "bound", "accent", "selected", "playhead")
         }
         self._dots: Any = pg.ScatterPlotItem(size=7, pen=None)
         in_column(self.plot, of=self, margins=0)
@@ -174,6 +178,11 @@ class CutPlot(QWidget):
         self._hits_s = hits_s
         self._items["hits"].setData(*_uprights(hits_s, np.full(len(hits_s), _HITS_PART * self._top)))
 
+    def show_playhead(self, time_s: float | None) -> None:
+        """Show where the motion is played; None: nowhere."""
+        times_s = np.array([] if time_s is None else [time_s], np.float64)
+        self._items["playhead"].setData(*_uprights(times_s, np.full(len(times_s), self._top)))
+
     def show_cuts(self, cuts: Cuts) -> None:
         """Show other cuts of the motion."""
         self._cuts = cuts
@@ -235,9 +244,10 @@ class CutPlot(QWidget):
 
     def frame_at(self, x_px: float) -> int:
         """The frame under a place of the plot's viewport."""
-        return self._frame_of(self._time_at(x_px))
+        return self.frame_of(self._time_at(x_px))
 
-    def _frame_of(self, time_s: float) -> int:
+    def frame_of(self, time_s: float) -> int:
+        """The frame at a time of the file; the first or the last one beyond them."""
         frame = round((time_s - self._start_s) * float(self._fps))
         return min(max(frame, 0), max(len(self._curve) - 1, 0))
 
@@ -255,6 +265,11 @@ class CutPlot(QWidget):
                 found.append((float(aside[number]) * frame_px, CutLine(kind, number)))
         near, line = min(found, key=lambda one: one[0], default=(math.inf, None))
         return line if near <= NEAR_PX else None
+
+    def _is_axis(self, event: QMouseEvent) -> bool:
+        """Return whether the mouse is in the axis of time, below the curve."""
+        bottom = self.plot.viewportTransform().map(self.view.sceneBoundingRect().bottomLeft()).y()
+        return bool(event.position().y() > bottom)
 
     # Editing
 
@@ -375,7 +390,7 @@ class CutPlot(QWidget):
             else:
                 self._step(by * step)
         elif key == Qt.Key.Key_Insert:
-            self.add(self._frame_of(middle_s))
+            self.add(self.frame_of(middle_s))
         elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus):
             self.zoom(ZOOM if key != Qt.Key.Key_Minus else 1.0 / ZOOM, middle_s)
         elif key == Qt.Key.Key_F:
@@ -396,6 +411,7 @@ class CutPlot(QWidget):
             "bound": pg.mkPen(tokens.accent, width=1),
             "accent": pg.mkPen(tokens.players[1], width=1, style=Qt.PenStyle.DashLine),
             "selected": pg.mkPen(tokens.by_hand, width=3),
+            "playhead": pg.mkPen(tokens.accent, width=3),
         }
         for name, pen in pens.items():
             self._items[name].setPen(pen)
@@ -410,15 +426,22 @@ class CutPlot(QWidget):
         if watched is self.plot or not self.isEnabled():
             return False
         if kind == QEvent.Type.MouseButtonPress and isinstance(event, QMouseEvent):
-            if event.button() in (_LEFT, _MIDDLE):
+            self._scrubs = event.button() == _LEFT and self._is_axis(event)
+            if self._scrubs:
+                self.plot.setFocus(Qt.FocusReason.MouseFocusReason)
+                self.scrubbed.emit(self._time_at(event.position().x()))
+            elif event.button() in (_LEFT, _MIDDLE):
                 self._pressed(event)
         elif kind == QEvent.Type.MouseMove and isinstance(event, QMouseEvent):
-            self._moved(event)
+            if self._scrubs:
+                self.scrubbed.emit(self._time_at(event.position().x()))
+            else:
+                self._moved(event)
         elif kind == QEvent.Type.MouseButtonRelease:
-            self._drag = None
+            self._drag, self._scrubs = None, False
         elif kind == QEvent.Type.MouseButtonDblClick and isinstance(event, QMouseEvent):
             x_px = event.position().x()
-            if event.button() == _LEFT and self._line_at(x_px) is None:
+            if event.button() == _LEFT and not self._is_axis(event) and self._line_at(x_px) is None:
                 self.add(self.frame_at(x_px))
         elif kind == QEvent.Type.Wheel and isinstance(event, QWheelEvent):
             self._wheeled(event)

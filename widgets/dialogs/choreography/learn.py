@@ -12,6 +12,8 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QKeyEvent
 from PySide6.QtWidgets import QPushButton, QSpinBox, QWidget
 
+from app.audio.output import open_output
+from app.audio.playback import Playback
 from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import analyse, learn, summary
 from app.choreography.model import ChoreographyModel
@@ -69,11 +71,15 @@ class LearnDialog(WorkingDialog):
     ----------
     folder : Path
         Where files are looked for, and where the choreography is saved unless the user says otherwise.
+    playback : Playback, optional
+        Plays the music of a pair; one on the system's device, if None and the piece can be heard.
     """
 
     used = Signal(object)
 
-    def __init__(self, session: Session, folder: Path, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, session: Session, folder: Path, parent: QWidget | None = None, playback: Playback | None = None
+    ) -> None:
         super().__init__("learn_choreography", "learn", parent)
         self.setAcceptDrops(True)
         self._session, self._folder = session, folder
@@ -86,7 +92,9 @@ class LearnDialog(WorkingDialog):
         self._unknown: tuple[Path, ...] = ()
 
         self.list = self.texted(PairList(), name="learn_dialog.pairs_of_motion_and_music")
-        self.form, self.cuts = PairForm(), CutPanel(session)
+        # Where the piece has no sound, as in a picture made without a window, the pair plays in time without one.
+        playback = playback or Playback(open_output if session.playback is not None else lambda: None)
+        self.form, self.cuts = PairForm(), CutPanel(session, playback)
         self._add = Button("learn_dialog.add", self._ask_for_files, "learn_add")
         self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
         self._states = self.texted(
@@ -386,6 +394,10 @@ class LearnDialog(WorkingDialog):
         self._show_all()
 
     # Qt's own names
+
+    def done(self, result: int) -> None:
+        self.cuts.player.close_down()
+        super().done(result)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Delete and self.list.hasFocus():

@@ -52,6 +52,30 @@ class PairContents(msgspec.Struct, frozen=True):
     error: Message | None = None
 
 
+def offset_s_of(draft: PairDraft, found: PairContents) -> float:
+    """Time of the motion's file at which the music begins: as it is set, else as it was found; 0 before that."""
+    if draft.offset_s is not None:
+        return draft.offset_s
+    if found.read is None or found.analysis is None:
+        return 0.0
+    return found.analysis.offset.offset_s + found.read.motion.start_s
+
+
+def offset_range_s(found: PairContents) -> tuple[float, float] | None:
+    """The least and the greatest offset with which some of the percussion sounds during the motion; None before the
+    files are read."""
+    if found.read is None or found.analysis is None:
+        return None
+    start_s, hits_s = found.read.motion.start_s, found.read.pair.rhythm.hits_s
+    return start_s - float(hits_s[-1]), start_s + found.analysis.clip.length_s - float(hits_s[0])
+
+
+def is_offset_outside(draft: PairDraft, found: PairContents) -> bool:
+    """Return whether the offset that is set leaves the motion without music, as after a change of its file."""
+    bounds = offset_range_s(found)
+    return bounds is not None and draft.offset_s is not None and not bounds[0] <= draft.offset_s <= bounds[1]
+
+
 def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tuple[PairDraft, ...], tuple[Path, ...]]:
     """Pairs to which files are added, and files that are none of the kinds.
 

@@ -22,7 +22,13 @@ from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import AutomaticNumber
-from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
+from widgets.dialogs.choreography.learn_draft import (
+    PairContents,
+    PairDraft,
+    is_offset_outside,
+    offset_range_s,
+    offset_s_of,
+)
 
 _FILES = {"motion": MOTION_SUFFIXES, "music": MUSIC, "credits": (CREDITS_SUFFIX,)}
 _LABELS: Final = {
@@ -38,6 +44,7 @@ _PLACEHOLDERS: Final = {
     "credits": "pair_form.txt_file_beside_motion",
 }
 _LONGEST_S = 24 * 3600.0
+"""Bound of an offset before the files are read."""
 _NOTES_PX = 54
 """Room for three lines; of more the rest is scrolled to."""
 
@@ -111,8 +118,10 @@ class PairForm(Retranslated, QWidget):
 
     def _show_numbers(self) -> None:
         read, analysis = self._found.read, self._found.analysis
-        start_s = 0.0 if read is None else read.motion.start_s
-        self._offset.show_value(self._draft.offset_s, None if analysis is None else analysis.offset.offset_s + start_s)
+        self._offset.set_range(*(offset_range_s(self._found) or (-_LONGEST_S, _LONGEST_S)))
+        self._offset.show_value(
+            self._draft.offset_s, None if analysis is None else offset_s_of(PairDraft(), self._found)
+        )
         fps = self._draft.fps
         self._fps.show_value(None if fps is None else float(fps), None if read is None else float(read.motion.file_fps))
 
@@ -126,6 +135,10 @@ class PairForm(Retranslated, QWidget):
         elif self._draft.motion is None or self._draft.music is None:
             notes.append(self.tr("pair_form.pair_is_motion_and_midi"))
         elif read is not None and analysis is not None:
+            bounds = offset_range_s(self._found)
+            if bounds is not None and is_offset_outside(self._draft, self._found):
+                least, most = (f"{bound_s:.3f}" for bound_s in bounds)
+                notes.append(self.tr("pair_form.offset_outside").format(least=least, most=most))
             if self._draft.offset_s is None:
                 confidence = f"{analysis.offset.confidence:.2f}"
                 notes.append(

@@ -19,7 +19,13 @@ from app.encoding import shown
 from widgets.common.controls import ColumnList
 from widgets.common.text import message_text
 from widgets.dialogs.choreography.cut_panel import CutHistory
-from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
+from widgets.dialogs.choreography.learn_draft import (
+    PairContents,
+    PairDraft,
+    is_offset_outside,
+    offset_range_s,
+    offset_s_of,
+)
 from widgets.dialogs.choreography.learn_pair import file_name
 
 _RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
@@ -86,13 +92,12 @@ def row_texts(row: PairRow) -> tuple[str, ...]:
     names = file_name(draft.motion), file_name(draft.music)
     if read is None or analysis is None:
         return *names, *("…" if row.reading else "–" for _ in range(2, len(COLUMNS)))
-    found_s = analysis.offset.offset_s + read.motion.start_s
     return (
         *names,
         f"{analysis.clip.length_s:.1f}",
         str(len(analysis.segmentation.cuts if draft.cuts is None else draft.cuts)),
         "–" if row.states is None else str(row.states),
-        f"{found_s if draft.offset_s is None else draft.offset_s:.2f}",
+        f"{offset_s_of(draft, row.found):.2f}",
         f"{analysis.offset.confidence:.2f}" if draft.offset_s is None else "–",
     )
 
@@ -108,6 +113,10 @@ def missing_text(rows: Sequence[PairRow]) -> str:
             return tr("learn_dialog.pair_choose_its_music").format(n=at + 1)
         if row.found.error is not None:
             return tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
+        bounds = offset_range_s(row.found)
+        if bounds is not None and is_offset_outside(row.draft, row.found):
+            least, most = (f"{bound_s:.3f}" for bound_s in bounds)
+            return tr("learn_dialog.pair_offset_outside").format(n=at + 1, least=least, most=most)
     if any(row.reading for row in rows):
         return tr("learn_dialog.reading_files")
     return ""
