@@ -69,6 +69,10 @@ class Generator(QObject):
         """Number of the newest that was shown, or would be of no use: older ones are dropped."""
         self._long = False
         """True while a long planning is under way."""
+        self._opened = True
+        """True until all plans of an opened piece are made ..."""
+        self._coming: Performance | None = None
+        """... and what is being planned meanwhile, once players in front have plans."""
         self._holding: frozenset[tuple[str, str]] = frozenset()
         """Characters and instruments whose holds are being found ..."""
         self._hold_stopped: StopRequested = _goes_on
@@ -79,7 +83,8 @@ class Generator(QObject):
         reports = Reports(
             Generator._planned, Generator._moved, Generator._worked, Generator._show_broken, Generator._fell
         )
-        self._worker = PlanWorker(self.live, Reporter(self, lambda generator: generator._end.alive), reports)
+        self._report = Reporter(self, lambda generator: generator._end.alive)
+        self._worker = PlanWorker(self.live, self._report, reports)
         self._end = weakref.finalize(self, self._worker.close)
         session.changed.connect(self._project_changed)
         session.performance_changed.connect(self._show)
@@ -88,7 +93,7 @@ class Generator(QObject):
         session.choreographies_changed.connect(self._plan_again)
         session.metadata_changed.connect(self._plan_again)
         session.playhead_changed.connect(self._request_poses)
-        session.players_changed.connect(self._request_poses)
+        session.players_changed.connect(self._show_front)
         session.playing_changed.connect(self._worker.set_playing)
         self._request_poses()
         self._worker.start()
@@ -115,6 +120,7 @@ class Generator(QObject):
         if change.opened:
             self._shown = self._asked
             self._long = False
+            self._opened = True
             self._worker.drop()
         self._plan(change.after)
 
@@ -195,12 +201,18 @@ class Generator(QObject):
         self._tasks.run(name, work, lambda _: self._plan_again(), key="hold", ended=ended)
 
     def _plan_reported(self, performance: Performance) -> None:
-        number = self._asked
+        number, session = self._asked, self._session
         self._long = True
+
+        def planned(player_ids: tuple[str, ...]) -> None:
+            if not set(player_ids).isdisjoint(session.players):
+                self._report(lambda generator: generator._first_planned(performance, number))
 
         def work(progress: Progress, stop_requested: StopRequested) -> Performance:
             try:
-                performance.prepare(lambda: stop_requested() or self._shown >= number, progress)
+                performance.prepare(
+                    lambda: stop_requested() or self._shown >= number, progress, lambda: session.players, planned
+                )
             finally:
                 # Also where the user stopped it: then no one is reported.
                 if self._shown < number:
@@ -216,6 +228,20 @@ class Generator(QObject):
             key="plan",
         )
 
+    def _first_planned(self, performance: Performance, number: int) -> None:
+        if number > self._shown and self._opened:
+            self._coming = performance
+            self._show_front()
+
+    def _show_front(self) -> None:
+        """Players in front of a piece that was opened move while the others are being planned."""
+        coming = self._coming
+        if coming is not None:
+            musicians = [coming.project.player(one) for one in self._session.players if coming.is_planned(one)]
+            played = [player.id for one in musicians for player in coming.project.played_by(one)]
+            self.live.show_first(coming, played)
+        self._request_poses()
+
     def _planned(self, performance: Performance, number: int, error: AppError | None) -> None:
         if number <= self._shown:
             return
@@ -228,6 +254,7 @@ class Generator(QObject):
             self._plan(self._session.project)
 
     def _show(self) -> None:
+        self._opened, self._coming = False, None
         self.live.show(self._session.performance)
         self.live.request(self._session.playhead_s, player_ids=self._session.players)
         # Once the panels have shown the plans: two threads of Python hold each other up.

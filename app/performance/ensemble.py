@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from threading import RLock
 from typing import Final
@@ -26,7 +26,7 @@ from app.plan.acting import with_style
 from app.plan.by_hand.mark_corrections import corrected_marks
 from app.plan.doubling import InstrumentChange, changes, first_played
 from app.plan.faces.glances import StagePlace
-from app.plan.generate import EnsemblePlan, MonophonicPart, Piece, frame_around, plan_ensemble
+from app.plan.generate import EnsemblePlan, EnsemblePlanning, MonophonicPart, Piece, frame_around
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
 from app.plan.music.dynamics_from_velocities import VelocityReading, read_velocities
 from app.plan.music.written_dynamics import written_dynamics
@@ -92,6 +92,12 @@ class Performance:
         # One that was never played knows nothing, but may know of one that was.
         self._before: Performance | None = before if before is None or before.planned else before._before
         self._lock = RLock()
+        """Held while a step is done."""
+        self._planning = RLock()
+        """Held until all plans are made."""
+        self._plans = dict[str, PlayerPlan]()
+        """By player id, as far as they are made."""
+        self._problems = dict[str, tuple[Problem, ...]]()
         known = dict[str, StepResults]() if self._before is None else self._before._players
         self._players: dict[str, StepResults] = {
             player.id: self._begun(player, known.get(player.id)) for player in project.players
@@ -206,45 +212,84 @@ class Performance:
         self.prepare()
         return self._ensemble
 
-    def prepare(self, stop_requested: StopRequested = lambda: False, progress: Progress = lambda share: None) -> None:
-        """Make all plans, if they are not made yet.
+    def prepare(
+        self,
+        stop_requested: StopRequested = lambda: False,
+        progress: Progress = lambda share: None,
+        first: Callable[[], Sequence[str]] = tuple,
+        planned: Callable[[tuple[str, ...]], None] = lambda player_ids: None,
+    ) -> None:
+        """Make all plans, if they are not made yet; another thread may use those that are made.
+
+        Parameters
+        ----------
+        stop_requested, progress : callable
+            Asked, and called with the share 0..1 that is done, between two musicians.
+        first : callable
+            Asked there too: ids of the players to plan before all others. The plans are the same in any order.
+        planned : callable
+            Called there with the ids of a musician's players, whose `plan` and `problems` are final.
 
         Raises
         ------
         Cancelled
             ``stop_requested`` said so; the next one begins again.
         """
-        with self._lock:
+        with self._planning:
             if self.planned:
                 return
-            known = self._before
-            made = plan_ensemble(
-                self.piece,
-                self.lines,
-                self.time_frame,
-                self.project.seed,
-                expressions=self.expressions,
-                rules=self.metadata.all_rules,
-                gestures=self.metadata.gestures.items,
-                places=self.places,
-                before=None if known is None else known._ensemble,
-                stop_requested=stop_requested,
-                progress=progress,
-            )
-            self.unseen = dict[str, Message]()
-            turns = dict[str, tuple[str, tuple[InstrumentChange, ...]]]()
-            self._plans = {player.id: self._in_hands(player, made, turns) for player in self.project.players}
-            problems = {}
-            for player in self.project.players:
-                # Whether hands reach is found out by posing them: with many players it takes as long as planning.
-                raise_if_stopped(stop_requested)
-                problems[player.id] = self._problems_of(player, self._plans[player.id])
-            self._problems = problems
-            _CHECKED.update(player.parameters.choreography for player in self.project.players)
-            self.__dict__["_ensemble"] = made
-            for results in (self._whole, *self._players.values(), *self._lines.values(), *self._held.values()):
-                results.close()
-            self._before = None
+            with self._lock:
+                planning = self._begin_planning(stop_requested)
+            left = {musician.id: self.project.played_by(musician) for musician in self.project.bodies}
+            musicians = {player.id: musician for musician, played in left.items() for player in played}
+            count = len(left)
+            while left:
+                asked = (musicians.get(player_id) for player_id in first())
+                played = left.pop(next((one for one in asked if one in left), next(iter(left))))
+                with self._lock:
+                    self._plan_musician(planning, played, stop_requested)
+                progress(1.0 - len(left) / count)
+                planned(tuple(player.id for player in played))
+            with self._lock:
+                self._end_planning(planning)
+
+    def _begin_planning(self, stop_requested: StopRequested) -> EnsemblePlanning:
+        self.unseen, self._plans, self._problems = {}, {}, {}
+        return EnsemblePlanning(
+            self.piece,
+            self.lines,
+            self.time_frame,
+            self.project.seed,
+            expressions=self.expressions,
+            rules=self.metadata.all_rules,
+            gestures=self.metadata.gestures.items,
+            places=self.places,
+            before=None if self._before is None else self._before._ensemble,
+            stop_requested=stop_requested,
+        )
+
+    def _plan_musician(
+        self, planning: EnsemblePlanning, played: tuple[Player, ...], stop_requested: StopRequested
+    ) -> None:
+        """Plan everything that one musician plays, and find its problems."""
+        lines = {line.player_id for line in self.lines}
+        made = {player.id: planning.plan(player.id) for player in played if player.id in lines}
+        turns = (first_played(made), changes(made)) if len(made) > 1 else None
+        for player in played:
+            # Hands are posed to find out what they reach: with many players it takes as long as planning.
+            raise_if_stopped(stop_requested)
+            plan = self._in_hands(player, made, turns)
+            self._problems[player.id] = self._problems_of(player, plan)
+            self._plans[player.id] = plan
+
+    def _end_planning(self, planning: EnsemblePlanning) -> None:
+        made = planning.finished()
+        self._plans = {player.id: self._plans[player.id] for player in self.project.players}
+        _CHECKED.update(player.parameters.choreography for player in self.project.players)
+        self.__dict__["_ensemble"] = made
+        for results in (self._whole, *self._players.values(), *self._lines.values(), *self._held.values()):
+            results.close()
+        self._before = None
 
     def prepare_within(self, cpu_s: float) -> bool:
         """Make all plans unless that takes the calling thread longer; whether they are made.
@@ -265,27 +310,25 @@ class Performance:
         return True
 
     def _in_hands(
-        self, player: Player, made: EnsemblePlan, turns: dict[str, tuple[str, tuple[InstrumentChange, ...]]]
+        self,
+        player: Player,
+        made: Mapping[str, PlayerPlan],
+        turns: tuple[str, tuple[InstrumentChange, ...]] | None,
     ) -> PlayerPlan:
         """A player's plan, empty without an instrument; of a musician with several, without what is done while this one
-        is put aside. ``turns`` keeps the changes of each musician's instruments."""
-        plan = made.plans.get(player.id)
+        is put aside. ``made`` are the plans of what the musician plays, ``turns`` the changes of instruments."""
+        plan = made.get(player.id)
         if plan is None:
             return no_events(player.id, self.time_frame)
-        played = [one for one in self.project.played_by(player) if one.id in made.plans]
-        if len(played) == 1:
+        if turns is None:
             return plan
-        musician = played[0].id
-        if musician not in turns:
-            plans = {one.id: made.plans[one.id] for one in played}
-            turns[musician] = first_played(plans), changes(plans)
-        first, found = turns[musician]
+        first, found = turns
         self._held[player.id] = HELD.begin(
             None if self._before is None else self._before._held.get(player.id),
             plan=plan,
             first=first,
             found=found,
-            names={one.id: one.name for one in played},
+            names={one: self.project.player(one).name for one in made},
         )
         return self._held[player.id].of(with_parts)
 
@@ -317,7 +360,8 @@ class Performance:
     def problems(self, player_id: str) -> tuple[Problem, ...]:
         """Problems of a player's performance by time, known before its motion: of the plan, of the instrument and
         character, and of the body's reach. Dancers have none."""
-        self.prepare()
+        if player_id not in self._plans:
+            self.prepare()
         return self._problems.get(player_id, ())
 
     @cached_property
@@ -346,9 +390,14 @@ class Performance:
         """True if the plans are made already: asking for them then costs nothing."""
         return "_ensemble" in self.__dict__
 
+    def is_planned(self, player_id: str) -> bool:
+        """Return whether a player's plan is made already; the others' may not be."""
+        return player_id in self._plans
+
     def plan(self, player: Player) -> PlayerPlan:
         """One player's plan."""
-        return self.plans[player.id]
+        known = self._plans.get(player.id)
+        return self.plans[player.id] if known is None else known
 
     def instrument(self, player: Player) -> InstrumentMap:
         """The map of what a player plays. Raises MapError where there is none: see `lacking`."""

@@ -28,6 +28,8 @@ BUDGET_BYTES = 128 * 1024 * 1024
 played."""
 SEEN_S = 4.0
 """Looked at by default."""
+MOST_UNJUDGED = 256
+"""Motions of chunks that are kept until their contacts are judged, while others are awaited."""
 BEHIND_COSTS = 3
 """Cost of a moment before the playhead, as a multiple of one at the same distance after it."""
 
@@ -67,6 +69,21 @@ class LiveMotion:
     def performance(self) -> Performance:
         """The performance that is shown."""
         return self._shown.performance
+
+    def show_first(self, performance: Performance, player_ids: Sequence[str]) -> None:
+        """Show players of a performance whose other players are being planned yet: beside those that were shown in this
+        way, and in place of another performance."""
+        with self._lock:
+            before, project = self._shown, performance.project
+            tracks = before.tracks if before.performance is performance else {}
+            begun = {
+                player.id: LiveTrack(player, performance.plan(player), performance.problems(player.id))
+                for player in map(project.player, player_ids)
+                if player.id not in tracks
+            }
+            self._shown = ShownTracks(performance, FrameGrid.of(performance.time_frame, project.fps), tracks | begun)
+            self._todo = self._unjudged = None
+            self._report(self._shown)
 
     def show(self, performance: Performance) -> None:
         """Show another performance. What did not change stays; what did is shown as it was until it is made again."""
@@ -192,7 +209,14 @@ class LiveMotion:
     def work(self, stop_requested: StopRequested = lambda: False) -> bool:
         """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
         player."""
-        self._judge_made()
+        if self.is_seen or len(self._made) >= MOST_UNJUDGED:
+            self._judge_made()
+        more = self._make_missing(stop_requested)
+        if not more:
+            self._judge_made()
+        return more
+
+    def _make_missing(self, stop_requested: StopRequested) -> bool:
         if stop_requested():
             return True
         with self._lock:
@@ -276,6 +300,8 @@ class LiveMotion:
         """
         with self._lock:
             shown = self._shown
+            if not shown.is_whole:
+                return False
             if self._unjudged is None:
                 tracks = tuple(shown.tracks.values())
                 self._unjudged = ((track, index) for track in tracks for index in range(shown.grid.chunks))
@@ -309,7 +335,7 @@ class LiveMotion:
         """True if everything that is looked at is made, so that no one waits for what is left."""
         shown = self._shown
         places = self._in_sight(shown.grid)
-        return all(
+        return shown.is_whole and all(
             track.error is not None or (track.basis is None and all(index in track.chunks for index in places))
             for track in shown.tracks.values()
         )
@@ -353,7 +379,8 @@ class LiveMotion:
         """Return how much is made of what there is room for, 0..1."""
         shown = self._shown
         ready = sum(len(track.chunks) for track in shown.tracks.values())
-        requested = shown.grid.chunks * sum(1 for track in shown.tracks.values() if track.error is None)
+        performers = len(shown.performance.project.performers)
+        requested = shown.grid.chunks * (performers - sum(track.error is not None for track in shown.tracks.values()))
         if self._chunk_bytes:
             requested = min(requested, self._budget_bytes // self._chunk_bytes)
         return min(ready / requested, 1.0) if requested else 1.0
@@ -402,6 +429,9 @@ class LiveMotion:
         # The active player first, then all at the playhead, then what is seen next.
         for index in (places := self._in_sight(grid)):
             yield from ((player_id, index) for player_id in everyone)
+        if not shown.is_whole:
+            # What follows would hold up the plans of the others.
+            return
         for index in sorted(range(grid.chunks), key=lambda index: _distance(index, places[0])):
             yield from ((player_id, index) for player_id in everyone)
 

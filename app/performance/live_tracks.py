@@ -155,6 +155,11 @@ class ShownTracks:
     grid: FrameGrid
     tracks: dict[str, LiveTrack]
 
+    @property
+    def is_whole(self) -> bool:
+        """True if all performers are shown; False while some are being planned yet."""
+        return len(self.tracks) == len(self.performance.project.performers)
+
 
 def motion_changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
     """Spans (K, 2) in which the motion of one is not that of the other."""

@@ -9,7 +9,7 @@ from typing import Final, NamedTuple
 
 import msgspec
 
-from app.errors import Progress, StopRequested, raise_if_stopped
+from app.errors import StopRequested, raise_if_stopped
 from app.plan.breath.staggered_breaths import Breathed, breathed_of, shared_line
 from app.plan.by_hand.corrected_events import sound_corrections
 from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds
@@ -37,7 +37,7 @@ from metadata.load import load_expressions
 from metadata.model import Expression
 from metadata.rules import Rule
 
-__all__ = ["EnsemblePlan", "MonophonicPart", "Piece", "make_plans", "plan_ensemble", "time_frame"]
+__all__ = ["EnsemblePlan", "EnsemblePlanning", "MonophonicPart", "Piece", "make_plans", "plan_ensemble", "time_frame"]
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -143,10 +143,25 @@ def plan_ensemble(
     gestures: Mapping[str, Gesture] | None = None,
     places: Mapping[str, StagePlace] | None = None,
     before: EnsemblePlan | None = None,
-    stop_requested: StopRequested = lambda: False,
-    progress: Progress = lambda share: None,
 ) -> EnsemblePlan:
-    """Plan every line of the ensemble, in order.
+    """Plan every line of the ensemble, in order; parameters are those of `EnsemblePlanning`."""
+    return EnsemblePlanning(
+        piece,
+        lines,
+        frame,
+        seed,
+        expressions=expressions,
+        rules=rules,
+        gestures=gestures,
+        places=places,
+        before=before,
+    ).finished()
+
+
+class EnsemblePlanning:
+    """Plans of an ensemble in the making, one player after another in any order: the plans are the same in each.
+
+    Of the players before one that is asked for no more is computed than when they breathe.
 
     Parameters
     ----------
@@ -158,40 +173,88 @@ def plan_ensemble(
         Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
     before : EnsemblePlan, optional
         Of the same ensemble before an edit: what has not changed is taken from there, to the object.
-    stop_requested, progress : callable
-        Asked, and called with the share that is done, between two players.
+    stop_requested : callable
+        Asked between two players.
 
     Raises
     ------
     Cancelled
         ``stop_requested`` said so.
     """
-    known = _NO_ENSEMBLE if before is None else before
-    everyone: dict[str, object] = {"piece": piece, "frame": frame, "seed": seed, "stage": places or {}}
-    everyone |= {
-        "faces": load_expressions() if expressions is None else expressions,
-        "rules": bundled_rules() if rules is None else rules,
-        "known_gestures": bundled_gestures() if gestures is None else gestures,
-    }
-    playable: dict[str, StepResults] = {}
-    for line in lines:
-        raise_if_stopped(stop_requested)
-        playable[line.player_id] = LINE.begin(known.lines.get(line.player_id), **everyone, **_fields(line))
-    shared = _shared_by_all(lines, playable, everyone, known)
-    everyone |= {name: shared[name] for name in ("fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
-    everyone |= {"piece": shared["piece_felt"], "piece_ending": shared["ending"]}
-    apart = _shared_lines(playable, everyone, known)
-    made = EnsemblePlan({}, shared, playable, apart, {}, {})
-    together = [results.of(shared_line) for results in apart.values()]
-    breathed: list[Breathed] = []
-    for done, line in enumerate(lines):
-        raise_if_stopped(stop_requested)
-        others = (*together[:done], *together[done + 1 :])
-        neighbours = {"shared_line": together[done], "others": others, "breathed": tuple(breathed)}
-        breathed.append(_plan_player(made, line, everyone | neighbours, known))
-        progress((done + 1) / len(lines))
-    made.close()
-    return made
+
+    def __init__(
+        self,
+        piece: Piece,
+        lines: tuple[MonophonicPart, ...],
+        frame: TimeFrame,
+        seed: int = 0,
+        *,
+        expressions: Mapping[str, Expression] | None = None,
+        rules: tuple[Rule, ...] | None = None,
+        gestures: Mapping[str, Gesture] | None = None,
+        places: Mapping[str, StagePlace] | None = None,
+        before: EnsemblePlan | None = None,
+        stop_requested: StopRequested = lambda: False,
+    ) -> None:
+        self._known = known = _NO_ENSEMBLE if before is None else before
+        everyone: dict[str, object] = {"piece": piece, "frame": frame, "seed": seed, "stage": places or {}}
+        everyone |= {
+            "faces": load_expressions() if expressions is None else expressions,
+            "rules": bundled_rules() if rules is None else rules,
+            "known_gestures": bundled_gestures() if gestures is None else gestures,
+        }
+        playable: dict[str, StepResults] = {}
+        for line in lines:
+            raise_if_stopped(stop_requested)
+            playable[line.player_id] = LINE.begin(known.lines.get(line.player_id), **everyone, **_fields(line))
+        shared = _shared_by_all(lines, playable, everyone, known)
+        everyone |= {name: shared[name] for name in ("fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
+        everyone |= {"piece": shared["piece_felt"], "piece_ending": shared["ending"]}
+        self._everyone = everyone
+        apart = _shared_lines(playable, everyone, known)
+        self._made = EnsemblePlan({}, shared, playable, apart, {}, {})
+        self._together = [results.of(shared_line) for results in apart.values()]
+        self._numbers = {line.player_id: number for number, line in enumerate(lines)}
+        self._lines, self._stop_requested = lines, stop_requested
+        self._breathed: list[Breathed] = []
+
+    def plan(self, player_id: str) -> PlayerPlan:
+        """Plan a player, if that is not done yet. Raises Cancelled."""
+        if player_id not in self._made.plans:
+            number = self._numbers[player_id]
+            while len(self._breathed) < number:
+                raise_if_stopped(self._stop_requested)
+                self._breathed.append(self._begun(len(self._breathed)).of(breathed_of))
+            raise_if_stopped(self._stop_requested)
+            self._made.plans[player_id] = self._begun(number).of(PlayerPlan)
+        return self._made.plans[player_id]
+
+    def finished(self) -> EnsemblePlan:
+        """Plan who is left, and return it all. Raises Cancelled."""
+        plans = {player_id: self.plan(player_id) for player_id in self._numbers}
+        self._made.close()
+        return self._made._replace(plans=plans)
+
+    def _begun(self, number: int) -> StepResults:
+        """Begin the steps of a player's plan, after those whose breaths are placed already."""
+        part, made, known = self._lines[number], self._made, self._known
+        player_id, results, musicians = part.player_id, made.lines[part.player_id], made.shared["musicians"]
+        if player_id in made.players:
+            return made.players[player_id]
+        others = (*self._together[:number], *self._together[number + 1 :])
+        neighbours = {"shared_line": self._together[number], "others": others}
+        own = {**self._everyone, **neighbours, "breathed": tuple(self._breathed[:number])}
+        own |= {"times": results.of(note_times), "player_id": player_id}
+        among = made.among[player_id] = AMONG_OTHERS.begin(known.among.get(player_id), **own)
+        begun = made.players[player_id] = PLAYER.begin(
+            known.players.get(player_id),
+            **own | _fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
+            **{name: among[name] for name in AMONG_OTHERS.functions},
+            reported=results["reported"],
+            written=results.of(written_marks),
+            alone=musicians.count(part.musician or player_id) == 1,
+        )
+        return begun
 
 
 def _shared_by_all(
@@ -221,25 +284,6 @@ def _shared_lines(
         player_id: SHARED_LINE.begin(known.shared_lines.get(player_id), **everyone, times=results.of(note_times))
         for player_id, results in playable.items()
     }
-
-
-def _plan_player(
-    made: EnsemblePlan, part: MonophonicPart, given: Mapping[str, object], known: EnsemblePlan
-) -> Breathed:
-    """Plan a player after those whose plans are made; return when the player breathes."""
-    player_id, results, musicians = part.player_id, made.lines[part.player_id], made.shared["musicians"]
-    own = {**given, "times": results.of(note_times), "player_id": player_id}
-    among = made.among[player_id] = AMONG_OTHERS.begin(known.among.get(player_id), **own)
-    planned = made.players[player_id] = PLAYER.begin(
-        known.players.get(player_id),
-        **own | _fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
-        **{name: among[name] for name in AMONG_OTHERS.functions},
-        reported=results["reported"],
-        written=results.of(written_marks),
-        alone=musicians.count(part.musician or player_id) == 1,
-    )
-    made.plans[player_id] = planned.of(PlayerPlan)
-    return planned.of(breathed_of)
 
 
 def _fields(part: MonophonicPart) -> dict[str, object]:

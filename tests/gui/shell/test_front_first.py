@@ -1,0 +1,146 @@
+"""An opened piece that takes long to plan: the players in front move first, in the editor as it runs."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.editor import generator as module
+from app.editor.generator import Generator
+from app.editor.session import Session
+from app.editor.tasks import ThreadTasks
+from app.errors import Progress, StopRequested, raise_if_stopped
+from app.performance.ensemble import Performance
+
+pytestmark = pytest.mark.drawn
+
+
+class SlowPlanning:
+    """Planning in which every player waits to be let through."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self._through = threading.Semaphore(0)
+        prepare, through = Performance.prepare, self._through
+
+        def slow(
+            performance: Performance,
+            stop_requested: StopRequested = lambda: False,
+            progress: Progress = lambda share: None,
+            first: Callable[[], Sequence[str]] = tuple,
+            planned: Callable[[tuple[str, ...]], None] = lambda player_ids: None,
+        ) -> None:
+            def waiting() -> Sequence[str]:
+                while not through.acquire(timeout=0.005):
+                    raise_if_stopped(stop_requested)
+                return first()
+
+            prepare(performance, stop_requested, progress, waiting, planned)
+
+        monkeypatch.setattr(Performance, "prepare", slow)
+        monkeypatch.setattr(module, "AT_ONCE_NOTES", 1)
+        monkeypatch.setattr(module, "REPORTED_NOTES", 2)
+
+    def let_through(self, players: int) -> None:
+        self._through.release(players)
+
+
+@pytest.fixture
+def planning(session: Session, monkeypatch: pytest.MonkeyPatch) -> SlowPlanning:
+    assert session.performance.plans, "they are known, and not waited for"
+    return SlowPlanning(monkeypatch)
+
+
+@pytest.fixture
+def generator(session: Session, planning: SlowPlanning) -> Iterator[Generator]:
+    tasks = ThreadTasks()
+    made = Generator(session, tasks)
+    yield made
+    made.close()
+    tasks.cancel_all(2.0)
+
+
+def test_who_is_in_front_moves_before_the_others_are_planned(
+    session: Session, planning: SlowPlanning, generator: Generator, qtbot: QtBot
+) -> None:
+    live, ids = generator.live, [player.id for player in session.project.players]
+    shares = list[float]()
+    generator.ready_changed.connect(shares.append)
+
+    def moving(at_s: float) -> list[str]:
+        return [one for one in ids if live.pose(one, at_s) is not None]
+
+    session.set_playhead(6.0)
+    session.document.open(replace(session.project, seed=5))
+    planning.let_through(1)
+    qtbot.waitUntil(lambda: moving(6.0) == [ids[0]] and live.performance.project is session.project)
+    qtbot.waitUntil(lambda: bool(shares) and 0.0 < shares[-1] < 0.2)
+    assert not generator.up_to_date
+    # It plays on, and another player is next once brought to the front.
+    session.set_playhead(20.0)
+    qtbot.waitUntil(lambda: moving(20.0) == [ids[0]])
+    session.set_players((ids[3],))
+    planning.let_through(1)
+    qtbot.waitUntil(lambda: moving(20.0) == [ids[0], ids[3]])
+    assert not generator.up_to_date
+    before = live.pose(ids[3], 20.0)
+    planning.let_through(10 * len(ids))
+    qtbot.waitUntil(lambda: generator.up_to_date)
+    after = live.pose(ids[3], 20.0)
+    assert before is not None
+    assert after is not None
+    assert (before.rotations == after.rotations).all()
+    assert session.playhead_s == 20.0
+    assert session.performance.plans == Performance(session.project).plans
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
+
+
+def test_a_player_whose_plan_is_there_moves_as_soon_as_brought_to_the_front(
+    session: Session, planning: SlowPlanning, generator: Generator, qtbot: QtBot
+) -> None:
+    live, ids = generator.live, [player.id for player in session.project.players]
+    session.document.open(replace(session.project, seed=5))
+    planning.let_through(2)
+    qtbot.waitUntil(lambda: live.performance.project is session.project)
+    qtbot.waitUntil(lambda: live.pose(ids[0], 0.0) is not None)
+    qtbot.waitUntil(lambda: live.performance.is_planned(ids[1]))
+    assert live.pose(ids[1], 0.0) is None
+    session.set_players((ids[1],))
+    qtbot.waitUntil(lambda: live.pose(ids[1], 0.0) is not None)
+    assert not generator.up_to_date
+
+
+def test_another_piece_opened_meanwhile_is_not_mixed_with_it(
+    session: Session, planning: SlowPlanning, generator: Generator, qtbot: QtBot
+) -> None:
+    live, shown = generator.live, list[object]()
+    generator.motion_changed.connect(lambda: shown.append(live.performance.project))
+    session.document.open(replace(session.project, seed=5))
+    dropped = session.project
+    planning.let_through(1)
+    qtbot.waitUntil(lambda: live.performance.project is dropped)
+    session.document.open(replace(session.project, seed=6))
+    shown.clear()
+    planning.let_through(20)
+    qtbot.waitUntil(lambda: generator.up_to_date)
+    assert live.performance.project is session.project
+    assert session.performance.project is session.project
+    qtbot.waitUntil(lambda: generator.ready_share == 1.0)
+    assert shown[-1] is session.project
+
+
+def test_the_editor_may_be_closed_meanwhile(session: Session, planning: SlowPlanning, qtbot: QtBot) -> None:
+    tasks = ThreadTasks()
+    generator = Generator(session, tasks)
+    session.document.open(replace(session.project, seed=5))
+    planning.let_through(1)
+    front = session.players[0]
+    qtbot.waitUntil(lambda: generator.live.performance.project is session.project)
+    qtbot.waitUntil(lambda: generator.live.pose(front, 0.0) is not None)
+    generator.close()
+    tasks.cancel_all(2.0)
+    qtbot.waitUntil(lambda: tasks.is_idle)
+    assert not generator.up_to_date
