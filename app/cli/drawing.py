@@ -14,15 +14,24 @@ from typing import TYPE_CHECKING, Final
 
 from app.encoding import shown
 from app.errors import FileError, StopRequested, UsageError
+from app.project.cameras import CameraBookmark, View
 from app.project.parameters import select_players
 
 if TYPE_CHECKING:
-    from app.editor.viewport_state import View
     from app.project.model import Project
 
 
 _OF_PLAYERS: Final = ("hands", "mouth")
 """Views that need an instrument."""
+
+
+def kept_camera(project: Project, name: str) -> CameraBookmark:
+    """The bookmark of a name, ignoring case. Raises UsageError (``camera.unknown``)."""
+    found = next((camera for camera in project.cameras if camera.name.casefold() == name.casefold()), None)
+    if found is None:
+        known = ", ".join(camera.name for camera in project.cameras) or "-"
+        raise UsageError("camera.unknown", name=name, known=known)
+    return found
 
 
 def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:

@@ -8,8 +8,8 @@ from typing import Final
 
 from app.cli.options import picture_size, seconds
 from app.messages import LANGUAGES
+from app.project.cameras import VIEWS
 
-VIEWS: Final = ("ensemble", "front", "side", "top", "hands", "mouth", "feet")
 THEMES: Final = ("dark", "light")
 LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
 

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from app.cli.bars import add_bar_options, requested_span
 from app.cli.display import virtual, why_no_display
-from app.cli.drawing import nearest, parsed_view, require_writable, stoppable
-from app.cli.edit import MOST_PX, THEMES, VIEWS
+from app.cli.drawing import kept_camera, nearest, parsed_view, require_writable, stoppable
+from app.cli.edit import MOST_PX, THEMES
 from app.cli.options import (
     add_players_option,
     add_source_options,
@@ -29,10 +29,10 @@ from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
 from app.errors import AppError, Cancelled, FileError, Message, StopRequested, UsageError
 from app.messages import LANGUAGES, error_text, filled, text
+from app.project.cameras import VIEWS, CameraBookmark, View
 from app.project.frame_rate import USUAL_FILM_RATE, exact_number, frame_rate_text
 
 if TYPE_CHECKING:
-    from app.editor.viewport_state import View
     from app.export.pictures import PictureWriter
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
@@ -62,9 +62,9 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         "--to", type=Path, metavar="OUT", help="a film (OUT.mp4), or else a folder for a PNG file of every frame"
     )
     place.add_argument("--sheet", type=Path, metavar="OUT.png", help="a contact sheet: the frames side by side")
-    command.add_argument(
-        "--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)"
-    )
+    seen = command.add_mutually_exclusive_group()
+    seen.add_argument("--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)")
+    seen.add_argument("--camera", metavar="NAME", help="a camera that was saved with the project in the editor")
     add_players_option(
         command,
         "the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
@@ -125,7 +125,7 @@ class _Film:
     arguments: argparse.Namespace
     kind: Kind
     performance: Performance
-    view: View
+    view: View | CameraBookmark
     player_ids: tuple[str, ...]
     span: FrameSpan
     size: tuple[int, int]
@@ -158,11 +158,12 @@ def film(arguments: argparse.Namespace) -> int:
     clean_up()
     project = open_project(arguments, if_empty="picture.no_players")
     view, player_ids = parsed_view(arguments, project)
+    seen = view if arguments.camera is None else kept_camera(project, arguments.camera)
     performance = Performance(project)
     span = requested_span(performance, arguments, _rate(arguments, project, kind))
     size = arguments.size or (SHEET_PX if kind == "sheet" else FILM_PX)
     columns = _columns_of_sheet(arguments, span)
-    requested = _Film(arguments, kind, performance, view, player_ids, span, size, columns)
+    requested = _Film(arguments, kind, performance, seen, player_ids, span, size, columns)
     _check_target(requested)
     reason = why_no_display(what="'suisou film'", instead=virtual("film"))
     if reason is not None:

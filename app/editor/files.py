@@ -62,6 +62,8 @@ class Files(QObject):
         Another file, saved, or no longer saved.
     opened()
         A project is open that was not, or none is any more.
+    left()
+        The open piece is about to be another, or was just saved: what was seen of it should be remembered.
     found(Recoverable)
         There is unsaved work on the file that was just opened.
     missing(Path)
@@ -79,6 +81,7 @@ class Files(QObject):
 
     changed = Signal()
     opened = Signal()
+    left = Signal()
     found = Signal(object)
     missing = Signal(object)
     elsewhere = Signal(object)
@@ -329,6 +332,7 @@ class Files(QObject):
     def _become(
         self, project: Project, path: Path | None, base: str = "", recovered: Recoverable | None = None
     ) -> None:
+        self.left.emit()
         self.path, self._base = path, base
         self._recovered = (recovered.token,) if recovered is not None and recovered.token else ()
         self.is_open = True
@@ -374,6 +378,7 @@ class Files(QObject):
 
     def end(self) -> None:
         """The editor ends: nothing is left to recover."""
+        self.left.emit()
         self._timer.stop()
         if self.autosave is not None:
             self.autosave.closed()
@@ -428,6 +433,7 @@ class Files(QObject):
             self._begin_autosave()
             if not self.session.document.is_saved:
                 self._note_unsaved()
+            self.left.emit()
             self.changed.emit()
             if then is not None:
                 then()

@@ -6,8 +6,10 @@ from typing import Final
 
 from app.editor.selection import Selection
 from app.editor.session import Session, Severity
-from app.editor.viewport_state import View
+from app.plan.event_id import EventId
+from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS
 from app.plan.model import Problem
+from app.project.cameras import View
 from app.score.model import Note
 
 _VIEWS: Final[dict[str, View]] = {
@@ -27,12 +29,30 @@ _VIEWS: Final[dict[str, View]] = {
 }
 """Views by the id of a message, or by its first part."""
 _OTHER_VIEW: Final[View] = "front"
+_EVENT_VIEWS: Final[dict[str, View]] = {
+    "cue": "front",
+    "embouchure": "mouth",
+    "expression": "mouth",
+    "fingering": "hands",
+    "pose": "front",
+}
+"""Views by the kind of an event that is neither a breath nor a gesture."""
 
 
 def view_of(problem: Problem) -> View:
     """The view that shows what a problem is about."""
     message_id = problem.message.id
     return _VIEWS.get(message_id) or _VIEWS.get(message_id.split(".")[0], _OTHER_VIEW)
+
+
+def view_of_event(event_id: str) -> View | None:
+    """The view that shows an event of a plan; None: nothing of it is seen."""
+    kind = EventId.parse(event_id).kind
+    if kind in BREATH_KINDS:
+        return "mouth" if BREATH_KINDS[kind].draws_air else _OTHER_VIEW
+    if kind in GESTURE_KINDS:
+        return "feet" if GESTURE_KINDS[kind].part == "feet" else _OTHER_VIEW
+    return _EVENT_VIEWS.get(kind)
 
 
 def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None:

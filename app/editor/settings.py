@@ -21,12 +21,15 @@ from app.editor.session import Session
 from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, within
 from app.editor.stored_settings import BytesSetting, FilePathSetting, Setting, StoredSettings
 from app.editor.video_state import DEFAULT_OPACITY, Placement
+from app.editor.viewport_state import Follows
 from app.formats.keys import KeyChoice
 from app.messages import LANGUAGES
 from app.stream.sender import LEAST_PORT, MOST_PORT
 
 MOST_RECENT: Final = 12
 """Recent files kept."""
+MOST_VIEWS: Final = 60_000
+"""Characters of all views of pieces that are remembered."""
 _Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 
 
@@ -97,6 +100,11 @@ class Settings(StoredSettings):
     follows_selection = Setting("viewport/follows_selection", True, held=within("viewport", "follows_selection"))
     """The playhead goes to the note that is selected."""
 
+    camera_follows = Setting[Follows](
+        "viewport/camera_follows", "close_ups", Follows, held=within("viewport", "camera_follows")
+    )
+    """Views from which the camera goes to what is selected or corrected."""
+
     video_placement = Setting[Placement]("video/placement", "beside", Placement, held=within("video", "placement"))
     video_opacity = Setting(
         "video/opacity",
@@ -139,6 +147,8 @@ class Settings(StoredSettings):
     """Keys of the last export."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])
 
+    _pieces = Setting("pieces", dict[str, str](), dict[str, str])
+    """Views of pieces by their files, as text; the one left last stands last."""
     _shortcuts = Setting("shortcuts", dict[str, str](), dict[str, str])
     _midi_devices = Setting("midi_devices", dict[str, dict[str, str]](), dict[str, dict[str, str]])
 
@@ -187,6 +197,19 @@ class Settings(StoredSettings):
     def forget_workspace(self, workspace_id: str) -> None:
         """A workspace is as at first."""
         self._workspaces = {id: state for id, state in self._workspaces.items() if id != workspace_id}
+
+    def piece_view(self, path: str) -> str:
+        """The view of a piece that is opened again, by its file; empty: none is known."""
+        return self._pieces.get(encoding.stored(path), "")
+
+    def set_piece_view(self, path: str, view: str) -> None:
+        """Remember the view of a piece, and forget those that were not opened for long."""
+        path = encoding.stored(path)
+        pieces = {other: text for other, text in self._pieces.items() if other != path} | {path: view}
+        sizes = [len(f"{other}{text}") for other, text in pieces.items()]
+        while sum(sizes) > MOST_VIEWS and len(sizes) > 1:
+            del sizes[0], pieces[next(iter(pieces))]
+        self._pieces = pieces
 
     @property
     def recent(self) -> tuple[str, ...]:

@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Literal, Protocol, get_args
 
 from PySide6.QtCore import Signal
 
 from app.editor.state import State
+from app.project.cameras import CameraBookmark, View
 
-View = Literal["ensemble", "front", "side", "top", "hands", "mouth", "feet"]
-VIEWS: tuple[View, ...] = get_args(View)
+Follows = Literal["never", "close_ups", "always"]
+FOLLOWS: tuple[Follows, ...] = get_args(Follows)
+"""Close-ups: only from one view of a player to another."""
 Shown = Literal["wireframe", "skeleton", "contacts", "names"]
 SHOWN: tuple[Shown, ...] = get_args(Shown)
+
+
+class ViewportCamera(Protocol):
+    """Interface of the viewport's camera, which keeps widgets out of commands: see `ViewportState.camera`."""
+
+    def bookmark(self, name: str) -> CameraBookmark: ...
+    @property
+    def is_moved(self) -> bool: ...
+    def recall(self, bookmark: CameraBookmark) -> None: ...
+    def restore(self, bookmark: CameraBookmark, is_moved: bool) -> None: ...
+    def ask_name(self, bookmark: CameraBookmark) -> None: ...
 
 
 class ViewportState(State):
@@ -21,6 +34,12 @@ class ViewportState(State):
     ----------
     follows_selection : bool
         The playhead goes to the note that is selected.
+    camera : ViewportCamera or None
+        The camera, for commands that mean it; the panel sets it.
+    camera_follows : str
+        When the camera goes to what is selected or corrected: one of `FOLLOWS`.
+    bookmark : str
+        Name of the bookmark of cameras that was kept or recalled last; empty: none.
 
     Signals
     -------
@@ -32,11 +51,14 @@ class ViewportState(State):
         The camera should frame the selected players (True) or the ensemble.
     turned()
         The camera should look from the other side.
+    dollied(float)
+        The camera should come nearer by so many steps of the wheel.
     """
 
     viewed = Signal()
     framed = Signal(bool)
     turned = Signal()
+    dollied = Signal(float)
 
     def __init__(self) -> None:
         super().__init__()
@@ -44,6 +66,9 @@ class ViewportState(State):
         self._shown: frozenset[Shown] = frozenset(("names",))
         self._posing = False
         self.follows_selection = True
+        self.camera: ViewportCamera | None = None
+        self.bookmark = ""
+        self.camera_follows: Follows = "close_ups"
 
     @property
     def view(self) -> View:

@@ -5,6 +5,13 @@ from __future__ import annotations
 from typing import Final
 
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
+    "camera.no_name": ("a camera needs a name", "カメラには名前が必要です"),
+    "camera.name_taken": ("another camera is called {name}", "別のカメラが「{name}」という名前を使用しています"),
+    "camera.unknown": (
+        "there is no camera {name!r} in this piece; known: {known}",
+        "この曲にカメラ {name!r} はありません。あるカメラ: {known}",
+    ),
+    "camera.name": ("{name}", "{name}"),
     "picture.no_gl": (
         ("the players cannot be displayed because OpenGL 2 is not available ({reason}); update the graphics driver"),
         ("OpenGL 2 を使用できないため、奏者を表示できません（{reason}）。グラフィックドライバーを更新してください"),

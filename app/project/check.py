@@ -14,6 +14,7 @@ from itertools import pairwise
 
 from app.errors import UsageError
 from app.project import limits
+from app.project.cameras import camera_faults
 from app.project.check_corrections import project_correction_faults
 from app.project.check_dancers import dancer_faults
 from app.project.check_imported import import_faults
@@ -226,6 +227,7 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
         yield from faults_at_key("audio", audio_faults(project.audio))
     if project.video is not None:
         yield from faults_at_key("video", track_faults(project.video))
+    yield from camera_faults(project.cameras)
     yield from unique("expressions", (expression.name for expression in project.expressions), "name")
     for index, expression in enumerate(project.expressions):
         yield from expression_faults(expression, f"expressions[{index}]")

@@ -29,7 +29,7 @@ from metadata.model import Expression
 _PARTS: Final = "parts"
 _SETTINGS: Final = (
     *("seed", "preroll_beats", "section_intensity", "felt_beat_quarters"),
-    *("conductor", "audio", "video", "read_timing", "imported", "ignored_problems"),
+    *("conductor", "audio", "video", "read_timing", "imported", "ignored_problems", "cameras"),
 )
 """Fields of a project whose values are written as they are."""
 

@@ -15,6 +15,7 @@ from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
 from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
+from app.project.cameras import CameraBookmark
 from app.project.casting import (
     ConductorPlace,
     amplitude,
@@ -134,6 +135,8 @@ class Project:
         By dancer id.
     ignored_problems : mapping of str to tuple of IgnoredProblem
         By player or dancer id: what the user has seen and lets be.
+    cameras : tuple of CameraBookmark
+        The viewport's bookmarks, in the order of their menu.
     """
 
     score: Score
@@ -151,6 +154,7 @@ class Project:
     dancers: tuple[Dancer, ...] = ()
     dance_corrections: Mapping[str, tuple[DanceCorrection, ...]] = field(default_factory=dict)
     ignored_problems: Mapping[str, tuple[IgnoredProblem, ...]] = field(default_factory=dict)
+    cameras: tuple[CameraBookmark, ...] = ()
     section_intensity: float = 1.0
     conductor: ConductorPlace | None = None
     video: VideoTrack | None = None

@@ -13,6 +13,7 @@ import msgspec
 from app.errors import FileError, Message, shortened
 from app.messages import text
 from app.plan.by_hand.corrections import Correction
+from app.project.cameras import CameraBookmark
 from app.project.casting import ConductorPlace
 from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection
@@ -78,6 +79,8 @@ class Content(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
     imported: ImportDecisions | None
     ignored_problems: dict[str, tuple[IgnoredProblem, ...]] = {}
     """By player or dancer; left out where there are none, as in files written before it was there."""
+    cameras: tuple[CameraBookmark, ...] = ()
+    """Left out likewise."""
 
 
 def content_of(project: Project, path: Path) -> Content:
@@ -113,6 +116,7 @@ def content_of(project: Project, path: Path) -> Content:
         read_timing=project.read_timing,
         imported=project.imported,
         ignored_problems={id: items for id, items in project.ignored_problems.items() if items},
+        cameras=project.cameras,
     )
 
 
@@ -169,6 +173,7 @@ def project_of(raw: Raw, folder: Path, file: str) -> Project:
         ),
         dance_corrections=dance_corrections,
         ignored_problems=content.ignored_problems,
+        cameras=content.cameras,
     )
 
 

@@ -39,6 +39,8 @@ class ActionRow(Generic[Subject]):
         Makes it a toggle: whether it is on.
     icon : str
         Name of an icon in ``resources/icons``; empty: none.
+    hides : bool
+        It is in no menu while it makes no sense.
     step : callable, optional
         What it would do now, which its text names; None: nothing.
     """
@@ -54,6 +56,7 @@ class ActionRow(Generic[Subject]):
     checked: Callable[[Subject], bool] | None = None
     icon: str = ""
     step: Callable[[Subject], Message | None] | None = None
+    hides: bool = False
 
     @property
     def text(self) -> str:

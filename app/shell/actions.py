@@ -89,7 +89,10 @@ class RowAction(QAction):
             return
         if row.enabled is not None and row.enabled not in answers:
             answers[row.enabled] = row.enabled(about)
-        self.setEnabled(row.enabled is None or answers[row.enabled])
+        makes_sense = row.enabled is None or answers[row.enabled]
+        self.setEnabled(makes_sense)
+        if row.hides:
+            self.setVisible(makes_sense)
         if row.checked is not None:
             self.setChecked(row.checked(about))
         if row.step is not None:

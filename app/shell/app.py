@@ -28,11 +28,11 @@ from app.editor.sound import EditorSound
 from app.editor.streamer import Streamer
 from app.editor.tasks import Tasks, ThreadTasks
 from app.editor.video import ReferenceVideo
-from app.editor.viewport_state import VIEWS
 from app.errors import AppError, FileError, Message
 from app.formats.atomic import atomic_write
 from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
+from app.project.cameras import VIEWS
 from app.project.edit.piece import new_piece
 from app.project.presence import Presence, recovery_folder
 from app.rig.characters.character_library import begin_characters
@@ -43,8 +43,10 @@ from app.shell.editor import Editor
 from app.shell.garbage import Garbage
 from app.shell.keyboard_buttons import KeyboardButtons
 from app.shell.language import Language
+from app.shell.piece_views import PieceViews
 from app.shell.questions import DialogQuestions
 from app.shell.rows import rows
+from app.shell.selection_camera import SelectionCamera
 from app.shell.theme import apply_theme, unstyled
 from app.shell.window import Window
 from instrument_maps.library import begin
@@ -152,6 +154,8 @@ class Program(QObject):
         table = ActionTable(self.session, settings, rows())
         with unstyled(application):
             self.window = Window(self.session, files, settings, asked, table, self.generator)
+        SelectionCamera(self.session)
+        PieceViews(self.session, files, settings, self.window.timeline, self.window.workspaces)
         self.editor = Editor(
             self.session, settings, language, asked, files, sound, self.recorder, streamer, video, table, self.window
         )

@@ -8,6 +8,7 @@ from app.features import extended
 from app.shell.action import ActionRow
 from app.shell.commands import (
     application,
+    cameras,
     characters,
     edit,
     events,
@@ -59,7 +60,7 @@ def rows() -> tuple[ActionRow[Any], ...]:
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
     own: tuple[ActionRow[Any], ...] = (
         *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *marks.ACTIONS, *fingerings.ACTIONS),
-        *(*events.ACTIONS, *edit.FELT_BEATS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
+        *(*events.ACTIONS, *edit.FELT_BEATS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS, *cameras.ACTIONS),
         *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
         *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
     )

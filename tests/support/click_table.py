@@ -101,6 +101,13 @@ viewport_view_*, viewport.ensemble, viewport.front, viewport.side, viewport.top,
 viewport.mouth, viewport.feet ? view
 viewport.other_side = turned
 viewport.follow_selection ? playhead
+viewport.dolly_* = dollied
+viewport.camera_follows_* ? camera_follows
+cameras.keep = project + notice
+cameras.update ? project + notice
+cameras.rename ? typing
+cameras.remove ? project
+cameras.recall_* ? view + players selection
 viewport_pose, viewport.pose = posing
 viewport_frame, viewport.frame, viewport.frame_all = framed
 viewport.names, viewport.skeleton, viewport.contacts, viewport.wireframe, viewport_show > * = shown

@@ -80,11 +80,12 @@ class Watcher:
         stage = child(program.window, StageView)
         both = child(program.window, QToolButton, "expression_both")
         self._stage, self._both = stage, both
-        self._told = dict.fromkeys(("copied", "framed", "notice", "sought", "turned", "viewed"), 0)
+        self._told = dict.fromkeys(("copied", "dollied", "framed", "notice", "sought", "turned", "viewed"), 0)
         for name, signal in (
             ("framed", session.viewport.framed),
             ("viewed", session.viewport.viewed),
             ("turned", session.viewport.turned),
+            ("dollied", session.viewport.dollied),
             ("notice", session.noticed),
             ("copied", QApplication.clipboard().dataChanged),
             ("sought", session.playhead_changed),
@@ -135,10 +136,12 @@ class Watcher:
             "streaming": session.streaming.on,
             "video": (video.placement, video.opacity),
             "view": (session.viewport.view, self._told["viewed"]),
+            "camera_follows": session.viewport.camera_follows,
             "shown": tuple(session.viewport.shows(what) for what in ("wireframe", "skeleton", "contacts", "names")),
             "posing": session.viewport.posing,
             "framed": self._told["framed"],
             "turned": self._told["turned"],
+            "dollied": self._told["dollied"],
             "notice": self._told["notice"],
             "dialog": _dialogs(),
             "popup": _popup(),

@@ -16,11 +16,11 @@ from PySide6.QtWidgets import QWidget
 
 from app.arrays import SingleArray
 from app.editor.session import Session
-from app.editor.viewport_state import VIEWS, View
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from app.export.video import SOUND_RATE_HZ, video_into
 from app.performance.span import FrameSpan, cut_span, whole_span
+from app.project.cameras import VIEWS, CameraBookmark, View
 from app.project.frame_rate import USUAL_FILM_RATE, USUAL_RATES, frame_rate_text
 from widgets.common.controls import Button, Check, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
@@ -32,8 +32,9 @@ from widgets.dialogs.working import WorkingDialog, stopping
 Pictures = npt.NDArray[np.uint8]
 Draw = Callable[[float], Pictures]
 """Time in seconds to a picture (H, W, 3 or 4)."""
-Film = Callable[[int, int, tuple[float, float], View | None, bool], Draw]
-"""Width, height, span in seconds, view (None: as the viewport shows it now) to what draws the pictures in order."""
+Film = Callable[[int, int, tuple[float, float], View | CameraBookmark | None, bool], Draw]
+"""Width, height, span in seconds, view (None: as the viewport shows it now) or bookmark to what draws the pictures in
+order."""
 Sound = Callable[[float, float, int], SingleArray]
 """Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
 
@@ -85,6 +86,8 @@ class PlayblastDialog(WorkingDialog):
         views = {str(view): f"playblast_dialog.{view}" for view in VIEWS}
         views = {"": "playblast_dialog.as_viewport_shows_it", **views}
         self._view = self.texted(named(ComboBox(), "playblast_view"), options=views)
+        for camera in session.project.cameras:
+            self._view.addItem(camera.name, camera)
         self._with_sound = named(Check("playblast_dialog.include_audio"), "playblast_sound")
         self._with_sound.setChecked(True)
         self._with_marks = named(Check("playblast_dialog.include_marks"), "playblast_marks")

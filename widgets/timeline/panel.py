@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Annotated, NamedTuple, TypeAlias
+
+import msgspec
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QScrollBar, QToolButton, QWidget
@@ -21,6 +24,7 @@ from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
+from widgets.timeline.model.roll.shown_notes import kept_pitches
 from widgets.timeline.roll.piano_roll import ZOOM_A_KEY, PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
@@ -39,6 +43,18 @@ PAGE_TO = 0.06
 SCROLL_A_S = 1000
 """Steps of the scroll bar in a second."""
 SELECTION_AIR = 0.08
+
+
+_Bounded: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
+
+
+class VisibleRange(NamedTuple):
+    """Seconds and pitches that a timeline shows."""
+
+    start_s: _Bounded
+    end_s: _Bounded
+    lowest: _Bounded
+    highest: _Bounded
 
 
 class Playhead(QWidget):
@@ -226,6 +242,17 @@ class TimelinePanel(Retranslated, QWidget):
         """Bring a time into view, and the notes that are selected there."""
         self.axis.reveal(time_s)
         self.roll.bring_notes_into_view(self.session.selection.notes)
+
+    @property
+    def seen(self) -> VisibleRange:
+        """Range of the ruler and the roll."""
+        return VisibleRange(self.axis.start_s, self.axis.end_s, *self.roll.y_range)
+
+    def show_range(self, seen: VisibleRange) -> None:
+        """Show this instead of the beginning of a piece that was opened."""
+        self._fitted = True
+        self.axis.show(seen.start_s, seen.end_s)
+        self.roll.choose_pitches(*kept_pitches(seen.lowest, seen.highest - seen.lowest))
 
     def is_lane_open(self, lane_id: str) -> bool:
         """True if a lane is there, and not folded."""

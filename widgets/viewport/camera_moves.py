@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.arrays import FloatArray
-from app.editor.viewport_state import View
+from app.project.cameras import View
 from widgets.viewport import camera as moves
 from widgets.viewport.camera import Camera
 
@@ -43,6 +43,11 @@ class Eye:
         return self._flight[1] if self._flight is not None else self.camera
 
     @property
+    def shift_m(self) -> FloatArray:
+        """Target of a close-up against what it follows, as the user shifted it (3,)."""
+        return self._shift_m
+
+    @property
     def flying(self) -> bool:
         """True while it is on its way to another place."""
         return self._flight is not None
@@ -51,6 +56,10 @@ class Eye:
         """Look at something else from now on."""
         self.view, self.touched = view, False
         self._shift_m = np.zeros(3)
+
+    def place(self, shift_m: FloatArray) -> None:
+        """Stand as if the user had moved the camera, a close-up with this shift."""
+        self.touched, self._shift_m = True, shift_m
 
     def jump(self, camera: Camera) -> None:
         """Look from there at once."""

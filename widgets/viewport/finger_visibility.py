@@ -1,14 +1,16 @@
-"""From where a player's fingers are seen past the instrument."""
+"""Direction from which a player's moving fingers are seen best: past the instrument and the hands themselves."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 
 from app.arrays import FloatArray
 from app.rig.grip.instrument_proxy import InstrumentNodes, bodies, inside
+from instrument_maps.model import InstrumentMap
 from widgets.viewport.cast import Stage
 
 Direction = tuple[float, float]
@@ -19,13 +21,17 @@ _HEIGHTS_DEG = (14.0, 34.0)
 _EYE_M = 0.7
 """From the middle of the hands to where the eye is taken to be."""
 _SKIN_M, _STEP_M = 0.02, 0.02
-"""A line of sight starts this far from a joint, so that what a finger touches does not hide it; and its steps."""
+"""A line of sight starts this far from a finger, so that what it touches does not hide it; and its steps."""
 _WIRE_M = 0.003
 """Half of the least thickness that still hides."""
-_ENOUGH = 0.6
-"""Least share of the fingers that must be seen from the usual direction to look from there."""
-_UNUSUAL = 0.3
+_UNUSUAL = 0.1
 """Share of the fingers that must be gained for a turn by 90 degrees from the usual direction."""
+
+_HANDS: Final = ("left", "right")
+_FINGERS: Final = ("Index", "Middle", "Ring", "Little")
+_BONES: Final = ("Proximal", "Intermediate", "Distal")
+_TIP_M = 0.022
+"""From a finger's last joint to its tip."""
 
 
 def directions(usual: Direction) -> list[Direction]:
@@ -34,53 +40,91 @@ def directions(usual: Direction) -> list[Direction]:
 
 
 def clearest(gained: FloatArray, usual: Direction) -> Direction:
-    """The direction near the usual one from which most of the fingers are not hidden by the instrument.
+    """The direction from which most is seen, unless one nearer to the usual one shows nearly as much.
 
     Parameters
     ----------
     gained : (D,) float64
-        Which share of the fingers is seen from each of `directions`.
+        What is seen from each of `directions`, 0..1.
     usual : tuple of float
-        Where to look from unless too much is hidden, in degrees.
+        In degrees.
     """
-    if gained[0] >= _ENOUGH:
-        return usual
     found = directions(usual)
     turned = [math.hypot(side - usual[0], height - usual[1]) / 90.0 for side, height in found]
     return found[int(np.argmax(gained - _UNUSUAL * np.array(turned)))]
 
 
-def visible_finger_shares(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
-    """Share (D,) of the player's fingers that is seen from each direction past the instrument; ``turn_rad`` is the
-    direction the player faces, from +Z towards +X."""
-    kit = stage.members[row].assets
-    held = stage.node_matrix(row)
-    places_m = _fingers(stage, row)
-    towards = np.array([_unit(math.radians(side) + turn_rad, math.radians(height)) for side, height in towards_deg])
-    lines = places_m.mean(axis=0) + _EYE_M * towards[:, None] - places_m
-    lengths = np.linalg.norm(lines, axis=2)
-    steps = np.arange(_SKIN_M, _EYE_M, _STEP_M)
-    on_line = places_m[:, None] + lines[:, :, None] / lengths[:, :, None, None] * steps[:, None]
-    local = ((on_line - held[:, 3]) @ held[:, :3]).reshape(-1, 3)
-    names = kit.instrument.node_names
-    nodes = InstrumentNodes(kit.instrument.node_positions_m, np.tile(np.eye(3), (len(names), 1, 1)))
-    depth_m, _ = inside(bodies(kit.map.proxy, names), nodes, local, np.full(len(local), _WIRE_M))
-    hidden = (depth_m.reshape(on_line.shape[:3]) > 0.0).any(axis=2)
-    share: FloatArray = 1.0 - hidden.mean(axis=1)
-    return share
+def fingers_seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
+    """Return how well the moving fingers of a player are seen from each direction.
+
+    A finger is seen best from where its tip points and from over its back, which is the side that it comes to its key
+    from; least from behind the hand. What the instrument hides is not seen.
+
+    Parameters
+    ----------
+    turn_rad : float
+        Direction that the player faces, from +Z towards +X.
+
+    Returns
+    -------
+    (D,) float64
+        0..1.
+    """
+    wrists_m, joints_m = _moving_fingers(stage, row)
+    tips_m = joints_m[:, 2] + _TIP_M * _unit(joints_m[:, 2] - joints_m[:, 1])
+    hinges = np.cross(joints_m[:, 1] - joints_m[:, 0], tips_m - joints_m[:, 1])
+    backs = -_unit(np.cross(hinges, tips_m - joints_m[:, 0]))
+    sides = _unit(backs + _unit(tips_m - wrists_m))
+    towards = _towards(towards_deg, turn_rad)
+    seen = _past_instrument(stage, row, np.concatenate([joints_m[:, 2], tips_m]), towards)
+    worth = 0.5 + 0.5 * (towards @ sides.T)
+    result: FloatArray = (seen.reshape(len(towards), 2, -1).mean(axis=1) * worth).mean(axis=1)
+    return result
 
 
-def _fingers(stage: Stage, row: int) -> FloatArray:
-    names: Sequence[str] = [
-        f"{side}{finger}{joint}"
-        for side in ("left", "right")
-        for finger in ("Index", "Middle", "Ring", "Little")
-        for joint in ("Intermediate", "Distal")
+def _moving(instrument: InstrumentMap) -> list[str]:
+    """Fingers that play, as the names of their joints begin; thumbs, which lie behind, only where nothing else does."""
+    movers = {control.finger for control in instrument.controls if control.role == "pitch"}
+    named = sorted(f"{hand}{finger.capitalize()}" for hand, finger in (mover.split(".") for mover in movers))
+    fingers = [name for name in named if name.endswith(_FINGERS)]
+    # A hand on a slide moves as a whole.
+    fingers += [
+        f"{name.removesuffix('Hand')}{finger}" for name in named if name.endswith("Hand") for finger in _FINGERS
     ]
-    return np.array([stage.joint_m(row, name) for name in names])
+    return fingers or [hand + finger for hand in _HANDS for finger in _FINGERS]
 
 
-def _unit(yaw_rad: float, pitch_rad: float) -> FloatArray:
-    """The direction in which a camera's eye is."""
-    flat = math.cos(pitch_rad)
-    return np.array([flat * math.sin(yaw_rad), math.sin(pitch_rad), flat * math.cos(yaw_rad)])
+def _moving_fingers(stage: Stage, row: int) -> tuple[FloatArray, FloatArray]:
+    """Wrists (F, 3) and joints (F, 3, 3) of the fingers that play."""
+    names = _moving(stage.members[row].assets.map)
+    wrists = [f"{hand}Hand" for name in names for hand in _HANDS if name.startswith(hand)]
+    joints_m = np.array([[stage.joint_m(row, f"{name}{bone}") for bone in _BONES] for name in names])
+    return np.array([stage.joint_m(row, name) for name in wrists]), joints_m
+
+
+def _past_instrument(stage: Stage, row: int, points_m: FloatArray, towards: FloatArray) -> FloatArray:
+    """Return which points (P, 3) are seen past the instrument from each direction: (D, P), 0 or 1."""
+    lines = points_m.mean(axis=0) + _EYE_M * towards[:, None] - points_m
+    steps = np.arange(_SKIN_M, _EYE_M, _STEP_M)
+    on_line = points_m[:, None] + _unit(lines)[:, :, None] * steps[:, None]
+    instrument, held = stage.members[row].assets.instrument, stage.node_matrix(row)
+    names = instrument.node_names
+    nodes = InstrumentNodes(instrument.node_positions_m, np.tile(np.eye(3), (len(names), 1, 1)))
+    local = ((on_line - held[:, 3]) @ held[:, :3]).reshape(-1, 3)
+    proxy = bodies(stage.members[row].assets.map.proxy, names)
+    depth_m, _ = inside(proxy, nodes, local, np.full(len(local), _WIRE_M))
+    hidden = (depth_m.reshape(on_line.shape[:3]) > 0.0).any(axis=2)
+    return np.where(hidden, 0.0, 1.0)
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    lengths: FloatArray = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    unit: FloatArray = vectors / np.maximum(lengths, 1e-9)
+    return unit
+
+
+def _towards(towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
+    """Unit vectors (D, 3) to the eye."""
+    yaw, pitch = np.radians(np.array(towards_deg, np.float64)).T
+    yaw = yaw + turn_rad
+    return np.stack([np.cos(pitch) * np.sin(yaw), np.sin(pitch), np.cos(pitch) * np.cos(yaw)], axis=1)

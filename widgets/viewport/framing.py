@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from app.arrays import FloatArray
-from app.editor.viewport_state import View
+from app.project.cameras import View
 from app.rig.grip.body_size import face_size, hand_size
 from widgets.viewport.camera import Camera, frame
 from widgets.viewport.cast import Stage
-from widgets.viewport.finger_visibility import clearest, directions, visible_finger_shares
+from widgets.viewport.finger_visibility import clearest, directions, fingers_seen
 from widgets.viewport.limbs import model_bounds
 
 # Turn from the player's front towards their left, height of the eye, both in degrees; of the hands: the usual ones.
@@ -22,7 +22,7 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
     "front": (0.0, 4.0),
     "side": (-90.0, 4.0),
     "top": (0.0, 89.9),
-    "hands": (-48.0, 14.0),
+    "hands": (0.0, 20.0),
     "mouth": (-58.0, 4.0),
     "feet": (-28.0, 16.0),
 }
@@ -70,7 +70,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
             continue
         turn = 0.0 if view == "ensemble" else turn_rad(stage, chosen[0])
         if view == "hands":
-            clear.append(visible_finger_shares(stage, chosen[0], directions(usual), turn))
+            clear.append(fingers_seen(stage, chosen[0], directions(usual), turn))
         middle = tracked(view, stage, chosen[0])
         if middle is None:
             boxes.append(_bust(stage, chosen) if view == "front" else bounds(stage, chosen))

@@ -5,19 +5,23 @@ from __future__ import annotations
 from functools import partial
 from typing import Final
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QAction, QActionGroup, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QButtonGroup, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtGui import QAction, QActionGroup, QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QButtonGroup, QLineEdit, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
-from app.editor.viewport_state import SHOWN, VIEWS, Shown, View
+from app.editor.viewport_state import SHOWN, Shown
+from app.errors import Message
+from app.project.cameras import VIEWS, CameraBookmark, View
+from app.project.edit.cameras import rename_camera
 from widgets.common.actions import actions, with_keys
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_row
-from widgets.common.plain import Label
+from widgets.common.menus import add_actions
+from widgets.common.plain import Label, verbatim
 
 _VIEWS: Final[dict[View, tuple[str, str]]] = {
     "ensemble": ("header.ensemble", "header.everyone_from_audience"),
@@ -38,6 +42,7 @@ _SHOWN: Final[dict[Shown, tuple[str, str]]] = {
 """Texts, by their ids, and pictures of what is drawn beside the players."""
 FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
+_OF_CAMERAS: Final = ("cameras.keep", "cameras.update", "cameras.rename", "cameras.remove")
 
 
 class ViewportHeader(Retranslated, QWidget):
@@ -58,6 +63,13 @@ class ViewportHeader(Retranslated, QWidget):
         self._segments = QWidget(self)
         self._folded = self._button("viewport_view", "camera")
         self._add_views()
+        self._cameras = self._button("viewport_cameras", "bookmark")
+        self._cameras.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._camera_menu = named(QMenu(self), "viewport_camera_menu")
+        self._camera_menu.aboutToShow.connect(self._list_cameras)
+        self._cameras.setMenu(self._camera_menu)
+        self._name: QLineEdit | None = None
+        """Field in which a camera's name is typed."""
         self._note_text = ""
         self._note = named(Label(parent=self), "viewport_note")
         self._note.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -75,6 +87,7 @@ class ViewportHeader(Retranslated, QWidget):
         in_row(
             self._segments,
             self._folded,
+            self._cameras,
             (self._note, 1),
             self._pose,
             self._frame,
@@ -123,11 +136,62 @@ class ViewportHeader(Retranslated, QWidget):
     def _explain(self) -> None:
         session = self._session
         self.texted(self._folded, explained="header.view")
+        self.texted(self._cameras, explained=with_keys(session, "cameras.keep", "header.saved_cameras"))
         self.texted(self._show, explained="header.show_beside_players")
         pose_tip = with_keys(session, "viewport.pose", "header.hold_bell_head_elbows_or")
         self.texted(self._pose, text="header.pose", explained=pose_tip)
         self.texted(self._frame, explained=with_keys(session, "viewport.frame", "header.frame_selected_players"))
         self.texted(self._full, explained=with_keys(session, FULL_SCREEN, "header.viewport_alone_on_whole_screen"))
+
+    def _list_cameras(self) -> None:
+        """Fill the menu of the cameras that are kept."""
+        session, menu = self._session, self._camera_menu
+        menu.clear()
+        table = actions(session)
+        for number, camera in enumerate(session.project.cameras, 1):
+            row = table.get(f"cameras.recall_{number}")
+            if row is not None:
+                menu.addAction(row)
+            else:
+                on_click(menu.addAction(verbatim(camera.name)), self._recall, camera)
+        if session.project.cameras:
+            menu.addSeparator()
+        add_actions(menu, session, _OF_CAMERAS)
+
+    def _recall(self, camera: CameraBookmark) -> None:
+        eye = self._session.viewport.camera
+        if eye is not None:
+            eye.recall(camera)
+            self._session.viewport.set(bookmark=camera.name)
+
+    def ask_name(self, camera: CameraBookmark) -> None:
+        """Have another name for a camera typed beside the button of cameras."""
+        self._end_typing()
+        field = self._name = named(QLineEdit(camera.name, self), "camera_name")
+        field.setAccessibleName(self.tr("header.name_of_camera"))
+        field.setGeometry(self._cameras.geometry().right() + 4, 1, 200, self.height() - 2)
+        field.selectAll()
+        field.installEventFilter(self)
+        field.editingFinished.connect(lambda: self._typed(camera.name))
+        field.show()
+        field.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _typed(self, before: str) -> None:
+        """Take the name that was typed."""
+        field = self._name
+        if field is None:
+            return
+        name = field.text()
+        self._end_typing()
+        edit = partial(rename_camera, name=before, new_name=name)
+        if name != before and self._session.attempt(Message("edit.rename_camera"), edit):
+            self._session.viewport.set(bookmark=name)
+
+    def _end_typing(self) -> None:
+        field, self._name = self._name, None
+        if field is not None:
+            field.hide()
+            field.deleteLater()
 
     def set_note(self, text: str) -> None:
         """Say something between the buttons, as far as there is room."""
@@ -173,7 +237,7 @@ class ViewportHeader(Retranslated, QWidget):
 
     def _fold(self) -> None:
         """Seven buttons where they fit, else one with a menu."""
-        others = sum(button.sizeHint().width() + 4 for button in (self._pose, self._frame, self._show, self._full))
+        others = sum(button.sizeHint().width() + 4 for button in self._others)
         fits = self.width() >= self._segments.sizeHint().width() + others + 24
         self._segments.setVisible(fits)
         self._folded.setVisible(not fits)
@@ -183,10 +247,22 @@ class ViewportHeader(Retranslated, QWidget):
         # A few signs of a sentence help no one.
         self._note.setText(text if len(text) > 12 or text == self._note_text else "")
 
+    @property
+    def _others(self) -> tuple[QToolButton, ...]:
+        """Buttons that are always there."""
+        return self._cameras, self._pose, self._frame, self._show, self._full
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Escape leaves a camera's name as it was."""
+        if watched is self._name and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            self._end_typing()
+            return True
+        return super().eventFilter(watched, event)
+
     def minimumSizeHint(self) -> QSize:
         """Narrow enough for the folded header."""
-        others = (self._folded, self._pose, self._frame, self._show, self._full)
-        return QSize(sum(button.sizeHint().width() + 4 for button in others) + 16, super().minimumSizeHint().height())
+        shown = (self._folded, *self._others)
+        return QSize(sum(button.sizeHint().width() + 4 for button in shown) + 16, super().minimumSizeHint().height())
 
     def showEvent(self, event: QShowEvent) -> None:
         """The shell's actions are known by now: their shortcuts are reported, and the screen can be filled."""

@@ -12,13 +12,13 @@ from PySide6.QtWidgets import QApplication
 
 from app.editor.session import Session
 from app.editor.tokens import THEMES, Tokens
-from app.editor.viewport_state import View
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested, raise_if_stopped
 from app.export.pictures import Picture
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose, Posed
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
+from app.project.cameras import CameraBookmark, View
 from app.project.performers import Player
 from widgets.common.font import apply_font
 from widgets.viewport.camera import Camera
@@ -50,7 +50,7 @@ class Offscreen:
         self,
         size: tuple[int, int],
         span_s: tuple[float, float],
-        view: View,
+        view: View | CameraBookmark,
         player_ids: tuple[str, ...],
         cameras: dict[float, Camera] | None = None,
         marked: bool = True,

@@ -16,14 +16,16 @@ from PySide6.QtWidgets import QStackedWidget, QWidget
 from app.arrays import FloatArray
 from app.editor.poses import PoseSource
 from app.editor.session import Session
-from app.editor.viewport_state import SHOWN, VIEWS, View
+from app.editor.viewport_state import SHOWN
 from app.errors import AppError
+from app.project.cameras import VIEWS, CameraBookmark, View
 from app.project.document import Change
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
-from widgets.viewport.camera import Camera, frame, from_other_side
+from widgets.viewport.bookmarks import BookmarkedCamera, shot_of
+from widgets.viewport.camera import Camera, dolly, frame, from_other_side
 from widgets.viewport.camera_moves import Eye
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
@@ -55,6 +57,7 @@ MENU = (
     *("viewport.frame", "viewport.frame_all", ""),
     *(f"viewport.{view}" for view in VIEWS),
     "viewport.other_side",
+    "cameras.keep",
     "",
     *(f"viewport.{what}" for what in SHOWN),
     *("", "viewport.pose", "application.full_screen"),
@@ -85,6 +88,7 @@ class ViewportPanel(Retranslated, QWidget):
         """Camera and shot of a picture that is not the window's, while it is drawn."""
 
         self.header = ViewportHeader(session, self)
+        session.viewport.camera = BookmarkedCamera(session, self._eye, self.scene, self.header, self._go)
         self._stack = QStackedWidget(self)
         self._reason = wrapped(named(Label(parent=self._stack), "viewport_reason"))
         self._reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -132,6 +136,7 @@ class ViewportPanel(Retranslated, QWidget):
         session.viewport.viewed.connect(self._view_asked)
         session.viewport.framed.connect(self._frame_asked)
         session.viewport.turned.connect(self._turn)
+        session.viewport.dollied.connect(self._dolly)
         scene.staged.connect(self._staged)
         scene.shown.connect(self._place_camera)
         if self._pointer is not None:
@@ -215,7 +220,7 @@ class ViewportPanel(Retranslated, QWidget):
         width: int,
         height: int,
         span_s: tuple[float, float],
-        view: View | None = None,
+        view: View | CameraBookmark | None = None,
         marked: bool = False,
         player_ids: tuple[str, ...] | None = None,
         cameras: dict[float, Camera] | None = None,
@@ -228,7 +233,7 @@ class ViewportPanel(Retranslated, QWidget):
             Pixels.
         span_s : (float, float)
             Seconds of the performance in which all pictures lie.
-        view : View, optional
+        view : View or CameraBookmark, optional
             The camera as it stands if absent.
         marked : bool
             Draw the names and marks that the window shows, and the rings of who is selected.
@@ -249,7 +254,9 @@ class ViewportPanel(Retranslated, QWidget):
         """
         self._require_stage()
         chosen = self._session.players if player_ids is None else player_ids
-        if cameras and view is not None:
+        if isinstance(view, CameraBookmark):
+            shot = shot_of(view, chosen, self._session.project, cameras)
+        elif cameras and view is not None:
             shot = Shot(view, self._eye.camera, chosen, cameras=cameras)
         else:
             shot = self._shot(view, width / height, span_s, chosen, cameras)
@@ -532,6 +539,11 @@ class ViewportPanel(Retranslated, QWidget):
         if stage is not None:
             self._eye.touched = True
             self._go(from_other_side(self._eye.destination, turn_rad(stage, rows[0]) if rows else 0.0))
+
+    def _dolly(self, steps: float) -> None:
+        """Come nearer, or go away."""
+        self._eye.touched = True
+        self._go(dolly(self._eye.destination, steps))
 
     def _frame_asked(self, selected: bool) -> None:
         """Frame players as the camera stands."""

@@ -103,12 +103,14 @@ class Pointer(QObject):
             self._tool.drag(self._eye.camera, step.x(), step.y(), self._size()[1], shift, lean)
             self.posed.emit()
             return True
-        if event.buttons() & Qt.MouseButton.MiddleButton or (left and shift):
+        control = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        middle = bool(event.buttons() & Qt.MouseButton.MiddleButton)
+        if event.buttons() & Qt.MouseButton.RightButton or (control and (left or middle)):
+            self._eye.dolly(-step.y() / DOLLY_PX_PER_STEP)
+        elif middle or (left and shift):
             self._eye.pan(step.x(), step.y(), self._size()[1])
         elif left:
             self._eye.orbit(step.x(), step.y())
-        elif event.buttons() & Qt.MouseButton.RightButton:
-            self._eye.dolly(-step.y() / DOLLY_PX_PER_STEP)
         self.moved.emit()
         return True
 

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from app.editor.viewport_state import View
+from app.project.cameras import View
 from widgets.viewport.camera import Camera, followed
 from widgets.viewport.cast import Stage
 from widgets.viewport.framing import tracked

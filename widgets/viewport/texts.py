@@ -24,6 +24,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Pose Tool: drag handles to adjust bell, head, elbows or torso",
         "ポーズツール: ハンドルをドラッグしてベル・頭・ひじ・上体を調整",
     ),
+    "header.name_of_camera": ("Camera name", "カメラの名前"),
+    "header.saved_cameras": ("Saved cameras", "保存したカメラ"),
     "header.mouth": ("Mouth", "口元"),
     "header.mouth_of_player_in_front": (
         "Mouth of the active player, followed by the camera",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from app.cli.bars import add_bar_options, requested_bars
 from app.cli.display import virtual, why_no_display
 from app.cli.drawing import nearest, parsed_view, require_writable, stoppable
-from app.cli.edit import THEMES, VIEWS
+from app.cli.edit import THEMES
 from app.cli.options import (
     add_players_option,
     add_source_options,
@@ -42,6 +42,7 @@ from app.evaluation.request import (
     variants_of,
 )
 from app.messages import error_text, filled, text
+from app.project.cameras import VIEWS
 
 if TYPE_CHECKING:
     from app.evaluation.make import Made

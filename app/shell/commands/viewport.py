@@ -6,9 +6,13 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.editor.session import Session
-from app.editor.viewport_state import Shown, View
+from app.editor.viewport_state import FOLLOWS, Follows, Shown
+from app.project.cameras import View
 from app.shell.action import Action
 from app.shell.commands.command_targets import has_everyone
+
+KEY_STEPS = 2.0
+"""Steps of the wheel that a key stands for."""
 
 
 def _row(
@@ -37,6 +41,17 @@ def _toggle(what: Shown, icon: str, key: str = "") -> Action:
     )
 
 
+def _follow(when: Follows) -> Action:
+    row = _row(
+        f"camera_follows_{when}",
+        lambda session, on: session.viewport.set(camera_follows=when),
+        "",
+        enabled=None,
+        checked=lambda session: session.viewport.camera_follows == when,
+    )
+    return replace(row, menu="view/camera_follows")
+
+
 ACTIONS: tuple[Action, ...] = (
     _view("ensemble", "1"),
     _view("front", "2"),
@@ -46,6 +61,8 @@ ACTIONS: tuple[Action, ...] = (
     _view("mouth", "6"),
     _view("feet", "7"),
     _row("other_side", lambda session: session.viewport.turn(), "9", "", has_everyone),
+    _row("dolly_in", lambda session: session.viewport.dollied.emit(KEY_STEPS), "+;="),
+    _row("dolly_out", lambda session: session.viewport.dollied.emit(-KEY_STEPS), "-"),
     _row("frame", lambda session: session.viewport.frame(True), "F", "frame"),
     _row("frame_all", lambda session: session.viewport.frame(False), "A", "players"),
     _toggle("names", "player"),
@@ -59,6 +76,7 @@ ACTIONS: tuple[Action, ...] = (
         enabled=None,
         checked=lambda session: session.viewport.follows_selection,
     ),
+    *map(_follow, FOLLOWS),
     # From the timeline too: poses are put there in the picture and timed below it.
     replace(
         _row(

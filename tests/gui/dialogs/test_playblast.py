@@ -14,8 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
-from app.editor.viewport_state import View
 from app.errors import AppError
+from app.project.cameras import View
 from tests.gui.conftest import quartet_project
 from tests.support.windows import child, pause
 from widgets.dialogs.playblast import PlayblastDialog

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import traceback
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -211,6 +212,18 @@ def playing(desk: Desk) -> bool:
     was = desk.session.playing
     desk.session.playback.stop()
     return was
+
+
+def camera_kept(desk: Desk, number: int = 1) -> None:
+    """Keep the camera, so many times; the last one is in hand."""
+    for _ in range(number):
+        actions(desk.session)["cameras.keep"].trigger()
+    desk.seen["camera"] = desk.project.cameras[-1]
+
+
+def camera_turned_away(desk: Desk, number: int = 1) -> None:
+    camera_kept(desk, number)
+    actions(desk.session)["viewport.other_side"].trigger()
 
 
 def toggled(action_id: str, state: Callable[[Desk], object]) -> Case:
@@ -652,6 +665,31 @@ CASES: dict[str, Case] = {
     "viewport.other_side": Case(
         lambda d: abs(d.viewport.camera.yaw_rad - d.seen["yaw_rad"]) > 0.1,
         lambda d: d.seen.update(yaw_rad=d.viewport.camera.yaw_rad),
+    ),
+    **{
+        f"viewport.dolly_{name}": Case(
+            lambda d, sign=sign: sign * (d.viewport.camera.distance_m - d.seen["distance_m"]) < 0.0,
+            lambda d: d.seen.update(distance_m=d.viewport.camera.distance_m),
+        )
+        for name, sign in (("in", 1.0), ("out", -1.0))
+    },
+    "cameras.keep": Case(lambda d: len(d.project.cameras) == 1, edits=True),
+    "cameras.update": Case(lambda d: d.project.cameras[0].yaw_rad != d.seen["camera"].yaw_rad, camera_turned_away),
+    "cameras.rename": Case(lambda d: child(d.program.window, QLineEdit, "camera_name").isVisible(), camera_kept),
+    "cameras.remove": Case(lambda d: not d.project.cameras, camera_kept, edits=True),
+    **{
+        f"cameras.recall_{number}": Case(
+            lambda d: d.viewport.camera.yaw_rad == d.seen["camera"].yaw_rad,
+            partial(camera_turned_away, number=number),
+        )
+        for number in range(1, 10)
+    },
+    "viewport.camera_follows_never": becomes(lambda d: d.session.viewport.camera_follows, "never"),
+    "viewport.camera_follows_always": becomes(lambda d: d.session.viewport.camera_follows, "always"),
+    "viewport.camera_follows_close_ups": becomes(
+        lambda d: d.session.viewport.camera_follows,
+        "close_ups",
+        lambda d: d.session.viewport.set(camera_follows="never"),
     ),
     "viewport.follow_selection": toggled("viewport.follow_selection", lambda d: d.session.viewport.follows_selection),
     "viewport.pose": toggled("viewport.pose", lambda d: d.session.viewport.posing),

@@ -21,10 +21,10 @@ from pytestqt.qtbot import QtBot
 from app.choreography.model_file import write_model
 from app.editor.session import Session
 from app.editor.tokens import LIGHT
-from app.editor.viewport_state import VIEWS
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
+from app.project.cameras import VIEWS
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.edit.piece import new_piece
@@ -298,6 +298,15 @@ def test_dragging_orbits_pans_and_the_wheel_dollies(viewport: ViewportPanel) -> 
     )
     QApplication.sendEvent(widget, wheel)
     assert viewport.camera.distance_m < panned.distance_m
+
+
+@pytest.mark.parametrize("button", [Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton])
+def test_control_and_a_drag_dolly(viewport: ViewportPanel, button: Qt.MouseButton) -> None:
+    """For who has no wheel: a pen has one button, a mouse of Blender's and Maya's users the middle one."""
+    before = viewport.camera
+    drag(canvas(viewport), QPointF(20, 60), QPointF(20, 20), button, Qt.KeyboardModifier.ControlModifier)
+    assert viewport.camera == replace(before, distance_m=viewport.camera.distance_m)
+    assert viewport.camera.distance_m < 0.95 * before.distance_m
 
 
 def test_framing_keeps_the_direction_and_brings_the_player_in(viewport: ViewportPanel, session: Session) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from app.editor.viewport_state import VIEWS, View
+from app.project.cameras import VIEWS, View
 from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage

@@ -1,0 +1,116 @@
+"""The camera goes to what is selected or corrected: hands, mouth, feet or the whole body of its player."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtGui import QGuiApplication
+
+from app.editor.problems import view_of_event
+from app.editor.selection import EventKey
+from app.editor.session import Session
+from app.plan.by_hand.corrections import Correction
+from app.project.cameras import View
+from app.project.document import Change
+from app.project.model import Project
+
+_SOON_MS: Final = 40
+"""After a selection or an edit: a press may become a drag, and more may be selected with the same key."""
+_OF_ONE_PLAYER: Final = frozenset[View](("front", "hands", "mouth", "feet"))
+
+
+class SelectionCamera(QObject):
+    """Moves the viewport's camera after the selection and after corrections, as `ViewportState.follows` says.
+
+    It stays while anything is dragged, played or recorded, and where it shows the right thing already: a camera that
+    the user has turned by hand is not turned back.
+    """
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._session = session
+        self._notes, self._events = session.selection.notes, session.selection.events
+        self._goal: tuple[str, View] | None = None
+        self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
+        self._soon.timeout.connect(self._go)
+        session.selection_changed.connect(self._selected)
+        session.changed.connect(self._changed)
+        session.viewport.viewed.connect(self._stay)
+
+    def _stay(self) -> None:
+        """A view was asked for, as by a problem that is gone to."""
+        self._goal = None
+
+    def _selected(self) -> None:
+        selection = self._session.selection
+        notes, events = selection.notes - self._notes, selection.events - self._events
+        self._notes, self._events = selection.notes, selection.events
+        if len(selection.notes) == 1 and notes and not selection.events:
+            player_id = _player_of(self._session, next(iter(notes)))
+            self._show(player_id, "hands")
+        elif len(selection.events) == 1 and events and not selection.notes:
+            self._show_event(next(iter(events)))
+
+    def _changed(self, change: Change) -> None:
+        """Show an edit of corrections of one kind and player; what is dragged was selected before, and undo goes
+        through many."""
+        document = self._session.document
+        if change.opened or document.undone or not document.done or document.done[-1].gesture is not None:
+            return
+        keys = _corrected(change.before, change.after)
+        if len({(key.player_id, view_of_event(key.event_id)) for key in keys}) == 1:
+            self._show_event(keys[0])
+
+    def _show_event(self, key: EventKey) -> None:
+        view = view_of_event(key.event_id)
+        if view is not None:
+            self._show(key.player_id, view)
+
+    def _show(self, player_id: str, view: View) -> None:
+        self._goal = (player_id, view) if player_id else None
+        self._soon.start()
+
+    def _go(self) -> None:
+        session, viewport, goal = self._session, self._session.viewport, self._goal
+        if goal is None or session.playing or session.recording.running or viewport.posing:
+            return
+        if QGuiApplication.mouseButtons() != Qt.MouseButton.NoButton:
+            self._soon.start()
+            return
+        self._goal = None
+        player_id, view = goal
+        follows = viewport.camera_follows
+        if follows == "never" or (follows == "close_ups" and viewport.view not in _OF_ONE_PLAYER):
+            return
+        if all(player_id != player.id for player in session.project.players):
+            return
+        if player_id != session.players[0]:
+            others = tuple(id for id in session.players if id != player_id)
+            session.set_players((player_id, *others) if player_id in session.players else (player_id,))
+        if view != viewport.view:
+            viewport.set_view(view)
+
+
+def _player_of(session: Session, note_id: str) -> str:
+    """The player of a note: one in front, where several share its part."""
+    part_ids = {part.id for part in session.project.score.parts if note_id in part.note_ids}
+    playing = [player.id for player in session.project.players if player.part_id in part_ids]
+    return next((id for id in session.players if id in playing), next(iter(playing), ""))
+
+
+def _corrected(before: Project, after: Project) -> list[EventKey]:
+    """Events that corrections were added to, changed of, or taken away from."""
+    found = list[EventKey]()
+    if before.corrections is after.corrections:
+        return found
+    for player_id in before.corrections.keys() | after.corrections.keys():
+        old, new = before.corrections.get(player_id, ()), after.corrections.get(player_id, ())
+        if old is not new:
+            found += [EventKey(player_id, item.about) for item in _only_in_one(old, new)]
+    return found
+
+
+def _only_in_one(old: tuple[Correction, ...], new: tuple[Correction, ...]) -> list[Correction]:
+    same = set(map(id, old)) & set(map(id, new))
+    return [item for item in (*old, *new) if id(item) not in same]
