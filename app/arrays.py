@@ -1,8 +1,8 @@
-"""The types of arrays, once: what a shape or a unit adds is said where an array is used."""
+"""The types of arrays, once: what a shape or a unit adds is said where an array is used; and neighbours in them."""
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -18,3 +18,15 @@ AnyIntArray: TypeAlias = npt.NDArray[np.integer]
 """Any size."""
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
+
+
+def rows_of(values: npt.NDArray[Any], count: int) -> npt.NDArray[Any]:
+    """(count, N - count + 1): in each column so many neighbouring values; N is at least as many."""
+    return np.array([values[place : len(values) - count + 1 + place] for place in range(count)])
+
+
+def running_medians(values: AnyFloatArray | IntArray, count: int) -> FloatArray:
+    """(N - count + 1,): medians of so many neighbouring values, an odd number; faster than by `numpy.median`."""
+    rows = rows_of(np.asarray(values, np.float64), count)
+    rows.sort(axis=0)
+    return np.asarray(rows[count // 2])

@@ -363,7 +363,7 @@ ENSEMBLE: Final = StepTable(
     rhythms=_rhythms,
     low=reading(lowest, lines="all_times"),
     piece_felt=reading(with_felt_bars, lines="rhythms"),
-    entries=reading(entries, all_times="rhythms", piece="piece_felt", musicians="musicians"),
+    entries=reading(entries, all_times="rhythms", piece="piece_felt", held="fermatas", musicians="musicians"),
     fermatas=reading(fermatas, all_times="rhythms", piece="piece_felt"),
     cues=reading(plan_cues, found="entries", parts="leading", piece="piece_felt", conducted="conducted"),
     cue_events="cues.events",

@@ -12,7 +12,7 @@ import itertools
 
 import numpy as np
 
-from app.arrays import FloatArray, IntArray
+from app.arrays import FloatArray, IntArray, running_medians
 from app.score.metre_map import FeltBeats, MetreMap
 from app.score.tempo import TempoMap
 
@@ -80,5 +80,5 @@ def _steady(bpm: FloatArray, metres: IntArray) -> FloatArray:
     edges = [0, *(np.flatnonzero(np.diff(metres)) + 1).tolist(), len(metres)]
     for start, end in itertools.pairwise(edges):
         padded = np.pad(bpm[start:end], half, mode="edge")
-        result[start:end] = np.median(np.lib.stride_tricks.sliding_window_view(padded, STEADY_BARS), axis=1)
+        result[start:end] = running_medians(padded, STEADY_BARS)
     return result

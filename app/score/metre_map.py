@@ -191,7 +191,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         """Ticks at which the beats of a bar begin, the bar itself first."""
         ticks, _ = self._written(bar, bar + 1)
         start = self.tick_of_bar(bar)
-        return ticks if len(ticks) and ticks[0] == start else np.insert(ticks, 0, start)
+        return ticks if len(ticks) and ticks[0] == start else np.concatenate(([start], ticks))
 
     def label(self, tick: int) -> str:
         """Bar, beat and ticks, ``"12.3.096"``: how a position is written everywhere; the ticks have as many digits as

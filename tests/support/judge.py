@@ -224,7 +224,7 @@ def _cues(
             if rest_s >= 1.5 + 1e-6 and not given and not busy:
                 wrong.append(f"no cue for the entry at {entry_s} after {rest_s} s of rest")
             given = any(abs(end_s - entry_s) < 1e-5 for end_s in common)
-            if rest_s < 1.5 - 1e-6 and (onset - reach < 2 * felt_beat * quarter or rest_s < 0.75) and given:
+            if rest_s < 1.5 - 1e-6 and (onset - reach < 2 * felt_beat * quarter or rest_s < 0.75 - 1e-6) and given:
                 wrong.append(f"a cue at {entry_s} after {rest_s} s of rest")
         reach = max(reach, end)
     return wrong
@@ -427,10 +427,10 @@ def _breaths(
         if rest < 1.0 and detached[index]:
             reach = max(reach, onset + note["duration_tick"])
             continue
-        # Who plays releases a note early, the more where it began early: a fifth of the time to the next is no rest,
-        # nor what the next one is late.
-        step_s = seconds(onset) - seconds(onset_ticks[index - 1])
-        early = seconds(onset) - seconds(reach) <= RELEASED * step_s + 2.0 * OFF_S
+        # Who plays releases a note early, the more where it began early: a fifth of the time to the next is no rest;
+        # nor is what the next one is late, where a breath has no room.
+        step_s, silence_s = seconds(onset) - seconds(onset_ticks[index - 1]), seconds(onset) - seconds(reach)
+        early = silence_s <= RELEASED * step_s + (2.0 if silence_s < CATCH_BREATH_S else 1.0) * OFF_S
         if is_played and breath is None and rest < 1.0 and early:
             reach = max(reach, onset + note["duration_tick"])
             continue

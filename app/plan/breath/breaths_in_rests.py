@@ -79,7 +79,7 @@ def blown_breaths(
     recorded = np.zeros(len(notes), dtype=bool)
     recorded[known] = True
     recorded[0] = False
-    rest_s = np.insert(np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0), 0, 0.0)
+    rest_s = np.concatenate(([0.0], np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)))
     serving = np.flatnonzero(guessed | recorded)
 
     def reason(index: int, rest: float, long: bool, prepared: bool) -> Message:

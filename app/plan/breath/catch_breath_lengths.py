@@ -98,7 +98,7 @@ def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> Floa
     """
     length = np.minimum(_length_s(score, rests, LEAST_SOUNDING_S), _length_s(times, rests, LEAST_PLAYED_S))
     length[0] = 0.0
-    unhurried_s = gaps_s(score) + UNHURRIED_SHARE * np.insert(score.duration_s[:-1], 0, 0.0)
+    unhurried_s = gaps_s(score) + UNHURRIED_SHARE * np.concatenate(([0.0], score.duration_s[:-1]))
     most_s = np.clip(unhurried_s, CATCH_MAX_S, FULL_BREATH_S)
     return np.where(length >= CATCH_MIN_S - EPSILON, np.minimum(length, most_s), 0.0)
 

@@ -86,7 +86,7 @@ def _made(
     onset_s, start_s = times.onset_s[at], times.onset_s[at] - room.lasts_s[at]
     breaths = np.flatnonzero(stock.refill > 0.0)
     place = np.searchsorted(breaths, at)
-    first, last = np.insert(breaths, 0, 0)[place], np.append(breaths, len(notes))[place]
+    first, last = np.concatenate(([0], breaths))[place], np.append(breaths, len(notes))[place]
     rows = zip(
         catches,
         np.where(room.length_s[at] > 0.0, 0, room.dropped[at]).tolist(),

@@ -83,7 +83,7 @@ def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
         full.append(here)
     # Until the next breath it goes down as the air is used.
     last = np.searchsorted(breaths, np.arange(len(refill)), side="right")
-    since = used[np.insert(breaths, 0, 0)[last]]
+    since = used[np.concatenate(([0], breaths))[last]]
     return np.asarray(np.maximum(np.array(full)[last] - (used[: len(refill)] - since) / lung_s, 0.0))
 
 

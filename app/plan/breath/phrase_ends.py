@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IntArray
+from app.arrays import BoolArray, FloatArray, IntArray, rows_of
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, MOST_DROPPED
 from app.plan.music.notation import PLACES, written_onsets
 from app.plan.music.piece import EPSILON, LineTimes, Piece, Seeds, gaps_s, staccato
@@ -294,9 +294,8 @@ def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> BoolArra
     result = np.zeros(count, dtype=bool)
     if count > AGAIN_NOTES:
         moves = np.sign(np.diff(pitch))
-        columns = [steps[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
-        columns += [moves[place : count - AGAIN_NOTES + place] for place in range(AGAIN_NOTES)]
-        rows = np.ascontiguousarray(np.stack(columns, axis=1).astype(np.int64))
+        columns = np.concatenate((rows_of(steps[:-1], AGAIN_NOTES), rows_of(moves, AGAIN_NOTES)))
+        rows = np.ascontiguousarray(columns.T, np.int64)
         # Compared as bytes: most lines have few entries and many different bars.
         kinds = rows.view(np.dtype((np.void, rows.shape[1] * rows.itemsize))).ravel().tolist()
         entries = {kinds[place] for place in np.flatnonzero(rests[: len(kinds)] > 0).tolist()}
@@ -317,8 +316,8 @@ def _lengths_around(duration_s: FloatArray) -> FloatArray:
     count = len(duration_s)
     around = np.empty(count)
     if count > 8:
-        eight = np.sort(np.lib.stride_tricks.sliding_window_view(duration_s[:-1], 8), axis=1)
-        around[8:] = (eight[:, 3] + eight[:, 4]) / 2.0
+        eight = np.sort(rows_of(duration_s[:-1], 8), axis=0)
+        around[8:] = (eight[3] + eight[4]) / 2.0
     for index in range(min(8, count)):
         around[index] = median(duration_s[: max(index, 1)].tolist())
     return around

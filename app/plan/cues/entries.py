@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
-from app.plan.music.fermatas import OTHER_TEMPO, Fermata, fermatas
+from app.plan.music.fermatas import OTHER_TEMPO, Fermata
 from app.plan.music.piece import NoteTimes, Piece
 from app.plan.music.spans import Spans
 
@@ -61,16 +61,22 @@ class Entry(msgspec.Struct, frozen=True):
     players: tuple[tuple[int, int], ...]
 
 
-def entries(all_times: tuple[NoteTimes, ...], piece: Piece, musicians: tuple[str, ...] = ()) -> tuple[Entry, ...]:
+def entries(
+    all_times: tuple[NoteTimes, ...], piece: Piece, held: tuple[Fermata, ...], musicians: tuple[str, ...] = ()
+) -> tuple[Entry, ...]:
     """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
 
-    ``musicians`` gives the musician of each line, where one plays several: changing instruments is no rest.
+    Parameters
+    ----------
+    held : tuple of Fermata
+        As `app.plan.music.fermatas.fermatas` finds them.
+    musicians : tuple of str
+        The musician of each line, where one plays several: changing instruments is no rest.
     """
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
         return ()
     lines = _Spans.of([_stretches(times) for _, times in sounding])
-    held = fermatas(all_times, piece)
     found = {entry.tick: entry for entry in _tempo_entries(sounding, lines, piece, held)}
     found |= {entry.tick: entry for entry in _held_entries(sounding, piece)}
     found |= {entry.tick: entry for entry in _common_entries(sounding, lines, piece)}
@@ -103,7 +109,7 @@ class _Spans(msgspec.Struct, frozen=True):
 def _stretches(times: NoteTimes) -> tuple[IntArray, IntArray]:
     """Return where a line begins to sound and where it stops: a tenth of as many as there are notes."""
     stops = times.onset_tick[1:] > times.played_end_tick[:-1]
-    return times.onset_tick[np.insert(stops, 0, True)], times.played_end_tick[np.append(stops, True)]
+    return times.onset_tick[np.concatenate(([True], stops))], times.played_end_tick[np.append(stops, True)]
 
 
 def beat_ticks(piece: Piece, tick: int) -> int:
@@ -257,8 +263,8 @@ def _joining(
     first = int(lines.starts[0])
     rows: list[tuple[int, float, int, int]] = []
     for line, times in sounding:
-        ends = np.insert(times.played_end_tick[:-1], 0, first)
-        ends_s = np.insert(times.played_end_s[:-1], 0, piece.clock.seconds(float(first)))
+        ends = np.concatenate(([first], times.played_end_tick[:-1]))
+        ends_s = np.concatenate(([piece.clock.seconds(float(first))], times.played_end_s[:-1]))
         begins = np.arange(len(ends)) == 0
         for other, theirs in sounding:
             if other != line and musicians and musicians[other] == musicians[line]:

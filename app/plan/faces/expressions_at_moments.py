@@ -13,6 +13,7 @@ import numpy as np
 
 from app.errors import Message
 from app.plan.by_hand.events import StyleEvent
+from app.plan.event_id import EventId
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, TimeFrame
 from app.plan.music.ending import Ending
 from app.plan.music.piece import LineTimes, Seeds
@@ -108,11 +109,11 @@ def _taken(
 ) -> list[_Found]:
     """In the breaths before notes that follow others, where the player does not give the entry."""
     given_s = {cue.end_s for cue in cues}
-    places = {f"breath:{note.id}": index for index, note in enumerate(notes) if index > 0}
+    index_of = {note.id: index for index, note in enumerate(notes)} if breaths else {}
     found = []
     for breath in breaths:
-        index = places.get(breath.id)
-        if index is None or not breath.draws_air or breath.end_s in given_s:
+        index = index_of.get(EventId.parse(breath.id).of, 0)
+        if index == 0 or breath.is_within or not breath.draws_air or breath.end_s in given_s:
             continue
         rest_s = float(times.onset_s[index] - times.played_end_s[index - 1])
         why = Message("expression.takes_entry", {"rest_s": round(rest_s, 2)})

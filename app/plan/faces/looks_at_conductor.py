@@ -110,7 +110,7 @@ def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float,
 def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> list[tuple[float, float]]:
     """Looks at beginnings of phrases, and now and then before a bar."""
     rests_s = times.onset_s[1:] - times.played_end_s[:-1]
-    starts = np.flatnonzero(np.insert(rests_s >= PHRASE_REST_S, 0, False))
+    starts = np.flatnonzero(np.concatenate(([False], rests_s >= PHRASE_REST_S)))
     starts = starts[seeds.chances_at("up at phrase", times.onset_tick[starts]) < PHRASE_CHANCE * amount]
     spans = [(at_s - PHRASE_S[0], at_s + PHRASE_S[1]) for at_s in times.onset_s[starts].tolist()]
     bars, bars_s = _bars(times, piece)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.arrays import FloatArray, IntArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from instrument_maps.hold import Contact
 from instrument_maps.model import Control, Fingering
 
@@ -95,12 +95,12 @@ class FingerPlaces:
         busy = moved & (whole_a != 0) & (whole_b != 0)
         apart = busy & ((whole_a & whole_b) == 0)
         up, down = (whole_a & ~whole_b) != 0, (whole_b & ~whole_a) != 0
-        moves, jumps = moved.sum(axis=0, dtype=np.float64), apart.sum(axis=0, dtype=np.float64)
+        moves, jumps = _count(moved), _count(apart)
         weighted = (moved * self.weight).sum(axis=0)
         levers = np.zeros_like(moves)
         if self.levers:
             lever = moved & (((a ^ b) & self.levers) != 0)
-            levers = lever.sum(axis=0, dtype=np.float64)
+            levers = _count(lever)
             weighted += (lever * (LEVER_COST - self.weight)).sum(axis=0)
             up, down = up & ~lever, down & ~lever
         turns = np.zeros_like(moves)
@@ -114,11 +114,16 @@ class FingerPlaces:
             weighted=weighted,
             key_to_key=(apart * self.key_to_key).sum(axis=0),
             apart=jumps,
-            rolls=busy.sum(axis=0, dtype=np.float64) - jumps,
+            rolls=_count(busy) - jumps,
             levers=levers,
             turns=turns,
             together=((levers > 0.0) & (moves > levers)).astype(np.float64),
         )
+
+
+def _count(fingers: BoolArray) -> FloatArray:
+    """Sum over the fingers, (F, U, K, K); as small numbers, several times as fast."""
+    return np.asarray(fingers.view(np.int8).sum(axis=0, dtype=np.int8), np.float64)
 
 
 def finger_places(

@@ -194,8 +194,8 @@ def _shortest_steps(problem: FingeringProblem) -> tuple[list[float], list[bool]]
     steps = np.diff(problem.times.onset_s)
     if not len(steps):
         return [0.0], [False]
-    shortest = np.minimum(np.append(steps, np.inf), np.insert(steps, 0, np.inf))
-    in_trill = np.append(problem.in_trill, False) | np.insert(problem.in_trill, 0, False)
+    shortest = np.minimum(np.append(steps, np.inf), np.concatenate(([np.inf], steps)))
+    in_trill = np.append(problem.in_trill, False) | np.concatenate(([False], problem.in_trill))
     return shortest.tolist(), in_trill.tolist()
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.arrays import BoolArray, IntArray
+from app.arrays import BoolArray, IntArray, rows_of
 from app.plan.music.piece import LineTimes
 
 TRILL_S = 0.15
@@ -31,9 +31,9 @@ def _runs(steps: BoolArray, least: int) -> BoolArray:
     result = np.zeros(len(steps), dtype=bool)
     if len(steps) < least:
         return result
-    windows: BoolArray = np.asarray(np.lib.stride_tricks.sliding_window_view(steps, least).all(axis=1))
+    begun: BoolArray = np.logical_and.reduce(rows_of(steps, least))
     for shift in range(least):
-        result[shift : shift + len(windows)] |= windows
+        result[shift : shift + len(begun)] |= begun
     return result
 
 

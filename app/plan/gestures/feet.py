@@ -10,6 +10,7 @@ Messages: ``gesture.step``, ``gesture.tap``, ``gesture.heel``.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from statistics import median
 from typing import Final, Literal
 
 import numpy as np
@@ -153,7 +154,7 @@ def _taps(
         beats_s, beats = pulse.beats_s[first:last], pulse.beat_ticks[first:last]
         if len(beats) < 5:
             continue
-        apart_s = float(np.median(np.diff(beats_s)))
+        apart_s = median(np.diff(beats_s).tolist())
         every = 1 if apart_s >= TAP_APART_S else 2
         # The first ones are listened to.
         beats_s, beats = beats_s[2::every], beats[2::every]

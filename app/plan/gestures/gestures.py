@@ -20,7 +20,6 @@ Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_acce
 from __future__ import annotations
 
 import itertools
-from bisect import bisect_right
 from collections.abc import Sequence
 from functools import lru_cache
 from operator import attrgetter
@@ -57,10 +56,12 @@ def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, .
     """Order gestures of several kinds by start, then by id. Nearly all begin at times of their own, and numbers are
     compared much faster than pairs."""
     events = sorted(itertools.chain(*kinds), key=attrgetter("start_s"))
-    starts_s = [event.start_s for event in events]
-    for first in [place for place, pair in enumerate(itertools.pairwise(starts_s)) if pair[0] == pair[1]]:
-        end = bisect_right(starts_s, starts_s[first])
-        events[first:end] = sorted(events[first:end], key=attrgetter("id"))
+    starts_s = np.array([event.start_s for event in events])
+    for place in (np.flatnonzero(starts_s[1:] == starts_s[:-1]) + 1).tolist():
+        event = events[place]
+        while place and events[place - 1].start_s == event.start_s and events[place - 1].id > event.id:
+            events[place], place = events[place - 1], place - 1
+        events[place] = event
     return tuple(events)
 
 
@@ -124,7 +125,7 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
     bar = np.searchsorted(bars, times.onset_tick, "right") - 1
     beat_ticks = piece.beat_ticks_at(times.onset_tick)
     beat = (times.onset_tick - bars[bar]) // beat_ticks
-    starts = np.flatnonzero(np.insert((np.diff(bar) > 0) | (np.diff(beat) > 0), 0, True))
+    starts = np.flatnonzero(np.concatenate(([True], (np.diff(bar) > 0) | (np.diff(beat) > 0))))
     sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
     heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)
     ends = np.append(starts[1:], len(notes))
@@ -132,7 +133,7 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
     vigour = dynamics.at(times.onset_s[starts])
     accents = np.maximum.reduceat(dynamics.accents, starts)
     loud = np.add.reduceat(times.loudness * weight, starts) / np.add.reduceat(weight, starts)
-    first_of_bar = np.insert(np.diff(bar[starts]) > 0, 0, True)
+    first_of_bar = np.concatenate(([True], np.diff(bar[starts]) > 0))
     arches, turns = _arches(times.onset_s[starts], heights, loud, first_of_bar, apart)
     arches = arches * np.minimum(vigour, 1.5)
     amounts = amount_at_vigour(heights, vigour) + arches + np.minimum(ACCENT_LIFT * accents, MOST_ACCENT_LIFT)

@@ -62,18 +62,18 @@ def in_long_rests(
 ) -> list[GestureEvent]:
     """Gestures while the instrument is lowered (``lowered``) in rests of at least `LONG_REST_S`."""
     events: list[GestureEvent] = []
-    onsets_s = dict(zip((note.id for note in notes), times.onset_s.tolist(), strict=True))
-    ticks = {note.id: note.onset_tick for note in notes}
-    ends_s = {notes[index + 1].id: end_s for index, end_s in enumerate(times.played_end_s[:-1].tolist())}
+    index_of = {note.id: index for index, note in enumerate(notes)} if lowered else {}
     for low in lowered:
         note_id = EventId.parse(low.id).of
-        if note_id not in onsets_s:
+        index = index_of.get(note_id)
+        if index is None:
             continue
-        rest_s = onsets_s[note_id] - ends_s.get(note_id, frame.first_frame_s)
+        silent_s = float(times.played_end_s[index - 1]) if index else frame.first_frame_s
+        rest_s = float(times.onset_s[index]) - silent_s
         if rest_s < LONG_REST_S:
             continue
         first_s = max(low.start_s, frame.first_frame_s - LOWER_S) + LOWER_S
-        events += _rest(note_id, ticks[note_id], (first_s, low.end_s - RAISE_S), rest_s, piece, seeds)
+        events += _rest(note_id, notes[index].onset_tick, (first_s, low.end_s - RAISE_S), rest_s, piece, seeds)
     return events
 
 

@@ -78,6 +78,9 @@ def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, .
     for first, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
         lasts_s = float(times.played_end_s[end - 1] - times.onset_s[first])
         parts = max(1, round(lasts_s / LONGEST_S + 0.3))
+        if parts == 1:
+            found.append(Phrase(first, end))
+            continue
         cuts_s = times.onset_s[first] + lasts_s * np.arange(1, parts) / parts
         cuts = (first + np.searchsorted(times.onset_s[first:end], cuts_s)).tolist()
         bounds = sorted({first, end, *(cut for cut in cuts if first < cut < end)})
@@ -161,30 +164,32 @@ def accents(
     ticks = times.onset_tick[candidates]
     longer = np.minimum(times.duration_s[candidates] / np.maximum(beat_s[candidates], 1e-6), 3.0) / 3.0
     up = np.diff(times.pitch, prepend=times.pitch[:1])[candidates] >= 5
-    chances, sizes = seeds.chances_at("accent", ticks), seeds.chances_at("accent size", ticks)
     downbeat = _nearest(pulse.bar_ticks, ticks) == ticks
     strength = LOUDER * dynamics.accents[candidates] + DOWNBEAT * downbeat + LONG * longer + LEAP * up
     still = swings.still_at(ticks) & ~loud[candidates]
     at_s = times.onset_s[candidates]
-    scores = strength + CHANCE * chances - 10.0 * (still | _nodded(at_s, cues))
+    scores = strength + CHANCE * seeds.chances_at("accent", ticks) - 10.0 * (still | _nodded(at_s, cues))
     chosen = _apart(at_s, scores, loud[candidates], beat_s[candidates])
+    accented, ticks, at_s = candidates[chosen], ticks[chosen], at_s[chosen]
+    sizes = seeds.chances_at("accent size", ticks)
     amounts = amount_at_vigour(
-        np.clip(LEAST_ACCENT + 0.4 * strength + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s)
+        np.clip(LEAST_ACCENT + 0.4 * strength[chosen] + 0.6 * sizes * sizes, 0.0, 1.0), dynamics.at(at_s)
     )
-    inhaled = np.isin(candidates, _after_breaths(times, breaths))
-    amounts = np.where(inhaled, AFTER_BREATH * amounts, amounts)
-    lengths_s = np.clip(ACCENT_BEATS * beat_s[candidates], SHORTEST_ACCENT_S, ACCENT_S)
-    lengths_s = np.where(inhaled, SHORTEST_ACCENT_S, lengths_s)
-    starts_s = (at_s - ACCENT_AT * lengths_s)[chosen]
-    ends_s = starts_s + lengths_s[chosen]
+    inhaled = np.zeros(len(times.onset_s) + 1, dtype=bool)
+    inhaled[_after_breaths(times, breaths)] = True
+    amounts = np.where(inhaled[accented], AFTER_BREATH * amounts, amounts)
+    lengths_s = np.clip(ACCENT_BEATS * beat_s[accented], SHORTEST_ACCENT_S, ACCENT_S)
+    lengths_s = np.where(inhaled[accented], SHORTEST_ACCENT_S, lengths_s)
+    starts_s = at_s - ACCENT_AT * lengths_s
+    ends_s = starts_s + lengths_s
     rows = zip(
-        ticks[chosen].tolist(),
+        ticks.tolist(),
         np.rint(clock.ticks(starts_s)).astype(np.int64).tolist(),
         np.rint(clock.ticks(ends_s)).astype(np.int64).tolist(),
         starts_s.tolist(),
         ends_s.tolist(),
-        amounts[chosen].tolist(),
-        loud[candidates[chosen]].tolist(),
+        amounts.tolist(),
+        loud[accented].tolist(),
         strict=True,
     )
     return [

@@ -6,6 +6,7 @@ Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start),
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 import msgspec
@@ -128,6 +129,7 @@ def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, 
     )
 
 
+@lru_cache(maxsize=256)
 def _acceleration_deg(track: AngleTrack) -> float:
     """Largest acceleration of a track, degrees for a gesture of one second, about: of level moves between its keys."""
     at, deg = np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys])

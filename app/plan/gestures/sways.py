@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
+from functools import cache
 
 import numpy as np
 
@@ -185,8 +186,7 @@ def _shaped(
     form = np.minimum((np.cumsum(often, axis=1) < drawn[:, None]).sum(axis=1), len(FORMS) - 1)
     still = seeds.chances_at("still", at, block, until) < stillness[firsts]
     between = 0.4 + 0.6 * seeds.chances_at("sway between", at, block, until)
-    tables = _turns()
-    share_before, share_after, share_between, parts = (table[form[own], inner] for table in tables)
+    share_before, share_after, share_between, parts = (table[form[own], inner] for table in _turns())
     turned = between * np.where(before >= 0.0, -1.0, 1.0)
     amounts = share_before * before[own] + share_after * after[own] + share_between * turned[own]
     amounts *= LEAST_SIZE + (1.0 - LEAST_SIZE) * seeds.chances_at("sway size", ticks, ends=ends)
@@ -195,6 +195,7 @@ def _shaped(
     return np.asarray(amounts), np.where(held & (inner < BLOCK - 1), 0, parts).astype(np.int64)
 
 
+@cache
 def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
     """For each form and unit: weights of the previous position, the end and the turning point, and the number of
     units."""

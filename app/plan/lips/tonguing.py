@@ -186,16 +186,18 @@ def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray
     between = np.append(np.diff(onset), 1 << 40)
     gates = (end - onset) / np.maximum(between, 1)
     joined = between <= 2 * quarter
-    usual = float(np.median(gates[joined])) if joined.any() else 1.0
     short = staccato(onset, end, quarter)
     # An eighth before an eighth's rest sounds for half of its step, as a staccato quarter does.
-    rests = np.append(rest_ticks(times, piece.beat_ticks_at(onset))[1:] > 0, False)
-    short &= ~(rests & (times.duration_s >= BEFORE_REST_S - EPSILON))
+    doubtful = short & (times.duration_s >= BEFORE_REST_S - EPSILON)
+    if doubtful.any():
+        short &= ~(doubtful & np.append(rest_ticks(times, piece.beat_ticks_at(onset))[1:] > 0, False))
     accented = louder_by(times) >= ACCENT
     follows = np.append(~slurred[1:], False)
     # Held to the next stroke, in a line that detaches its notes.
-    low, high = DETACHED_GATES
-    held = joined & follows & (gates >= TOUCHING_GATE) & (low <= usual <= high)
+    held = joined & follows & (gates >= TOUCHING_GATE)
+    if held.any():
+        low, high = DETACHED_GATES
+        held &= low <= float(np.median(gates[joined])) <= high
     marcato = accented & joined & (gates <= MARCATO_GATE)
     kinds: list[Articulation] = ["tongued"] * len(notes)
     rules: tuple[tuple[Articulation, BoolArray], ...] = (

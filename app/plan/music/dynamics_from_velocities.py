@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 import msgspec
 import numpy as np
 
-from app.arrays import FloatArray, IntArray
+from app.arrays import FloatArray, IntArray, running_medians
 from app.plan.music.ladder_marks import STRESS, STROKES, has_no_marks, is_written, ladder_marks, recognised
 from app.plan.music.staff_levels import StaffLevels, staff_levels
 from app.plan.music.velocity_ladders import DEFAULTS, LEVELS, MEZZOFORTE, MF
@@ -156,7 +156,7 @@ def _smoothed(velocity: IntArray | FloatArray) -> FloatArray:
     """(M,): medians of several notes, or the velocities of a short line."""
     if len(velocity) < 4 * STROKES:
         return velocity.astype(np.float64)
-    return np.median(np.lib.stride_tricks.sliding_window_view(velocity, STROKES), axis=1)
+    return running_medians(velocity, STROKES)
 
 
 def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> tuple[FloatArray, IntArray]:
@@ -219,7 +219,7 @@ def phrase_levels(loudness: FloatArray) -> FloatArray:
     if len(loudness) < 4 * STROKES:
         return loudness
     padded = np.pad(loudness, STROKES // 2, mode="edge")
-    return np.asarray(np.median(np.lib.stride_tricks.sliding_window_view(padded, STROKES), axis=1))
+    return running_medians(padded, STROKES)
 
 
 def nearest_marks(loudness: FloatArray) -> IntArray:

@@ -13,7 +13,7 @@ from typing import Final
 import msgspec
 import numpy as np
 
-from app.arrays import FloatArray, IntArray
+from app.arrays import FloatArray, IntArray, rows_of
 from app.plan.music.piece import NoteTimes, Piece
 
 HELD_TEMPO: Final = 1.5
@@ -153,8 +153,8 @@ def _uneven(slowness: FloatArray) -> list[int]:
     """The gaps after which the tempo is not the same for longer than a row of fermatas lasts."""
     found = np.ones(len(slowness), dtype=bool)
     if len(slowness) > MOST_IN_A_ROW:
-        windows = np.lib.stride_tricks.sliding_window_view(slowness, MOST_IN_A_ROW + 1)
-        found[: len(windows)] = windows.min(axis=1) * HELD_TEMPO <= windows.max(axis=1)
+        rows = rows_of(slowness, MOST_IN_A_ROW + 1)
+        found[: rows.shape[1]] = rows.min(axis=0) * HELD_TEMPO <= rows.max(axis=0)
     return np.flatnonzero(found).tolist()
 
 

@@ -213,7 +213,7 @@ class LadderMarks(NamedTuple):
             unmarked = np.where(known < 0, MF, self.marks[np.maximum(known, 0)])
         marks = np.where(self.marks < 0, unmarked, self.marks)
         # Of several stressed notes the first has an accent.
-        first = self.stressed & ~np.insert(self.stressed[:-1], 0, False)
+        first = self.stressed & ~np.concatenate(([False], self.stressed[:-1]))
         more = np.where(self.stressed, np.where(first, _ACCENT, 0.0), self.accents)
         return np.clip(LEVELS[marks] + more, 0.0, 1.0), marks
 

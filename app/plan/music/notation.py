@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from app.arrays import AnyFloatArray, BoolArray, FloatArray, IntArray
+from app.arrays import AnyFloatArray, BoolArray, FloatArray, IntArray, running_medians
 from app.plan.music.piece import EPSILON, TOUCHING_GATE, LineTimes, Piece, gaps_s
 from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible, are_certain
 
@@ -111,7 +111,7 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
     if ends_are_written and are_written(times.onset_tick, quarter):
         return times
     steps = np.diff(times.onset_tick)
-    shortest = np.minimum(np.append(steps, quarter), np.insert(steps, 0, quarter))
+    shortest = np.minimum(np.append(steps, quarter), np.concatenate(([quarter], steps)))
     near = np.rint(clock.ticks(times.onset_s + EARLY_OR_LATE_S)).astype(np.int64) - times.onset_tick
     bars = piece.bars(int(times.onset_tick[0]), int(end_tick[-1]) + 1)
     onset = written_onsets(times.onset_tick, quarter, bars, np.minimum(near, np.minimum(shortest, quarter) // 3))
@@ -197,7 +197,7 @@ def heard_rests_s(times: LineTimes, release: float) -> FloatArray:
         `early_share` of the line.
     """
     gap_s = gaps_s(times)
-    early_s = release * np.insert(np.diff(times.onset_s), 0, 0.0)
+    early_s = release * np.concatenate(([0.0], np.diff(times.onset_s)))
     return np.where(gap_s >= SILENT_S - EPSILON, gap_s, np.maximum(gap_s - early_s, 0.0))
 
 
@@ -210,7 +210,7 @@ def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:
     if np.ptp(lasts_s) < 1e-6:
         return times
     around = np.pad(lasts_s, STEADY_QUARTERS, mode="reflect" if len(lasts_s) > STEADY_QUARTERS else "edge")
-    steady_s = np.median(np.lib.stride_tricks.sliding_window_view(around, 2 * STEADY_QUARTERS + 1), axis=1)
+    steady_s = running_medians(around, 2 * STEADY_QUARTERS + 1)
     at_s = seconds[0] + np.concatenate(([0.0], np.cumsum(steady_s)))
     return dataclasses.replace(
         times,

@@ -276,7 +276,7 @@ def note_times(
     following = np.append(onset[1:], BEFORE_FIRST_TICK)
     played_end = np.maximum(np.minimum(end, following), onset)
     reach = np.maximum.accumulate(end) if count else end
-    silence = np.maximum(onset - np.insert(reach[:-1], 0, -BEFORE_FIRST_TICK)[:count], 0)
+    silence = np.maximum(onset - np.concatenate(([-BEFORE_FIRST_TICK], reach[:-1]))[:count], 0)
     loud = np.asarray(loudness, np.float64) if loudness else read_dynamics(Velocities(velocity))[0]
     level = np.asarray(levels, np.float64) if levels else np.full(count, -np.inf)
     slurred = slurs_next(onset, end)
@@ -363,9 +363,11 @@ class Seeds(msgspec.Struct, frozen=True):
         """
         drawn = np.asarray(ticks if places is None else places, np.int64)
         shares: FloatArray = np.frombuffer(_digests((*self.names, purpose), drawn.tobytes()), ">u8") / 2.0**64
+        if not self.varied:
+            return shares
         last = ticks + 1 if ends is None else ends
         # From the last span on, so that each place is drawn for once, however many spans it lies in.
-        undecided = np.arange(len(ticks)) if self.varied else np.zeros(0, np.int64)
+        undecided = np.arange(len(ticks))
         for start_tick, end_tick, seed in reversed(self.varied):
             within = (ticks[undecided] >= start_tick) & (last[undecided] <= end_tick)
             for place in undecided[within].tolist():

@@ -8,12 +8,11 @@ step for which most notes of the line do.
 
 from __future__ import annotations
 
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IntArray
+from app.arrays import BoolArray, FloatArray, IntArray, rows_of
 from app.plan.music.piece import EPSILON, LineTimes
 
 AUDIBLE_S = 0.3
@@ -82,7 +81,7 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
 def are_certain(times: LineTimes, beat_ticks: IntArray, released: float = 0.0) -> BoolArray:
     """(N,): whether the silence before each note is a rest by itself, however the line is articulated or released:
     it is audible (see `are_audible`), or lasts a felt beat."""
-    return are_audible(times, released) | np.insert(times.silence_tick[1:] >= beat_ticks[1:], 0, False)
+    return are_audible(times, released) | np.concatenate(([False], times.silence_tick[1:] >= beat_ticks[1:]))
 
 
 def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
@@ -97,7 +96,7 @@ def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
     silence_s = times.onset_s[1:] - times.played_end_s[:-1]
     audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
     audible &= silence_s >= released * np.diff(times.onset_s)
-    return np.insert(audible | (silence_s >= SILENT_S - EPSILON), 0, False)
+    return np.concatenate(([False], audible | (silence_s >= SILENT_S - EPSILON)))
 
 
 def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
@@ -117,17 +116,13 @@ def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
     result = np.zeros(len(steps), dtype=bool)
     count = len(steps) - notes + 1
     if count > 0:
-        (shortest, longest), (low, high) = (_extremes(column, notes) for column in (steps, gates))
+        (shortest, longest), (low, high) = (
+            (rows.min(axis=0), rows.max(axis=0)) for rows in (rows_of(column, notes) for column in (steps, gates))
+        )
         alike = (longest - shortest < SAME_STEP * shortest) & (high - low < SAME_GATE)
         for place in range(notes):
             result[place : place + count] |= alike
     return result
-
-
-def _extremes(values: FloatArray, length: int) -> tuple[FloatArray, FloatArray]:
-    """Least and greatest of every so many values in a row."""
-    rows = [values[place : len(values) - length + 1 + place] for place in range(length)]
-    return reduce(np.minimum, rows), reduce(np.maximum, rows)
 
 
 def _habit(gates: FloatArray, silent: BoolArray) -> float:

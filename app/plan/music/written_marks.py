@@ -181,7 +181,7 @@ def written_marks(
 def _divided(joined: BoolArray, stroke: list[str]) -> tuple[BoolArray, BoolArray]:
     """Return which notes are slurred to the next, and which a stroke under a slur divides from the note before."""
     count = len(stroke)
-    under = joined | np.insert(joined[:-1], 0, False)[:count]
+    under = joined | np.concatenate(([False], joined[:-1]))[:count]
     divided = under & np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
     return joined & ~np.append(divided[1:], False)[:count], divided
 
