@@ -70,6 +70,16 @@ def same_figures(one: CastKey, other: CastKey) -> bool:
     return [row[:8] for row in one] == [row[:8] for row in other]
 
 
+def is_part_of(part: CastKey, whole: CastKey) -> bool:
+    """Return whether all figures of one stage are on another, except for their places."""
+    return {row[:8] for row in part} <= {row[:8] for row in whole}
+
+
+def only(project: Project, player: Player) -> Project:
+    """The project as if a player's musician were alone on the stage."""
+    return replace(project, players=project.played_by(player), dancers=())
+
+
 def load(project: Project, before: Shapes | None, progress: Progress, stop_requested: StopRequested) -> DrawableFigures:
     """Load all performers. A player with something missing is excluded. Raises Cancelled."""
     assets: dict[tuple[str, str], RenderAssets] = {}

@@ -22,7 +22,7 @@ from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Member, Stage
 from widgets.viewport.contacts import touches
-from widgets.viewport.figures import DrawableFigures, cast_key, load, moved, same_figures
+from widgets.viewport.figures import DrawableFigures, cast_key, is_part_of, load, moved, only, same_figures
 from widgets.viewport.handles import TARGETS, Handle, handles
 from widgets.viewport.limbs import LimbCapsules, hit
 from widgets.viewport.look import Color, rgb
@@ -30,6 +30,8 @@ from widgets.viewport.overlay import NameTag, OverlayMarks, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.shapes import Shapes
 
+FEW = 12
+"""Performers whose figures are loaded at once; of more the one in front is first."""
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
 """Height of the podium's name above the conductor's place."""
@@ -96,6 +98,10 @@ class ViewportScene(QObject):
                 self._set(moved(project, before))
             return
         shapes = before.shapes if before is not None else self._shapes
+        front = self._session.player
+        if before is None and front is not None and len(project.seen) > FEW:
+            # The others are loaded while this one moves already.
+            project = only(project, front)
         self._session.tasks.run(
             Message("work.load_figures"),
             lambda progress, stop_requested: load(project, shapes, progress, stop_requested),
@@ -109,9 +115,11 @@ class ViewportScene(QObject):
             self._loaded = replace(self._loaded, crowd=None)
 
     def _arrived(self, loaded: DrawableFigures) -> None:
-        if same_figures(loaded.key, cast_key(self._session.project)):
+        key = cast_key(self._session.project)
+        if is_part_of(loaded.key, key):
             self._set(loaded)
-            self._report_left_out(loaded.left_out)
+            if same_figures(loaded.key, key):
+                self._report_left_out(loaded.left_out)
         # Players or places may have changed meanwhile.
         self.load()
 
