@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 from app.shell.crash_handler import log_path
 from app.version import program_version
 from widgets.common.controls import Button, Retranslated, named, sized, wrapped
+from widgets.common.help import with_help
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
@@ -38,8 +39,10 @@ class AboutDialog(Retranslated, QDialog):
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
         licences = Button("about_dialog.licences", self._show_licences, "about_licences")
-        buttons.addButton(licences, QDialogButtonBox.ButtonRole.HelpRole)
-        in_column(sized(Label("Suisou"), 20.0), self._text, buttons, of=self, margins=(24, 20, 24, 16), spacing=12)
+        buttons.addButton(licences, QDialogButtonBox.ButtonRole.ActionRole)
+        in_column(
+            sized(Label("Suisou"), 20.0), self._text, with_help(buttons), of=self, margins=(24, 20, 24, 16), spacing=12
+        )
         self.texted(self, title="about_dialog.about_suisou")
         self.retranslate()
 

@@ -38,6 +38,7 @@ from app.project.presence import Presence, recovery_folder
 from app.rig.characters.character_library import begin_characters
 from app.shell.actions import ActionTable
 from app.shell.commands import characters, record
+from app.shell.commands.help import help_about
 from app.shell.crash_handler import CrashHandler, log_path
 from app.shell.editor import Editor
 from app.shell.garbage import Garbage
@@ -161,6 +162,7 @@ class Program(QObject):
         )
         table.begin(self.editor)
         self.window.character_dropped.connect(partial(characters.bring, self.editor))
+        self.window.help_requested.connect(partial(help_about, self.editor))
         self.recorder.device_missing.connect(partial(record.devices, self.editor))
         KeyboardButtons(application, self)
 

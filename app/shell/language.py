@@ -10,6 +10,7 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTr
 from app.features import modules
 from app.messages import LANGUAGES, WORDINGS
 from app.shell.commands.texts import TEXTS as COMMANDS
+from app.shell.help.texts import TEXTS as HELP
 from app.shell.texts import TEXTS as SHELL
 from widgets.common.texts import TEXTS as COMMON
 from widgets.dialogs.texts import TEXTS as DIALOGS
@@ -21,7 +22,7 @@ from widgets.transport.texts import TEXTS as TRANSPORT
 from widgets.viewport.texts import TEXTS as VIEWPORT
 
 ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
-    *(WORDINGS, COMMANDS, SHELL, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
+    *(WORDINGS, COMMANDS, SHELL, HELP, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
     *(module.TEXTS for _, module in modules("texts")),
 )
 """All texts: id -> one for each of `LANGUAGES`, in their order."""

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QHeaderView, QTreeWidge
 
 from app.shell.licences import data, installed
 from widgets.common.controls import Retranslated, named, wrapped
+from widgets.common.help import with_help
 from widgets.common.layouts import in_column
 from widgets.common.plain import Label
 
@@ -51,7 +52,7 @@ class LicencesDialog(Retranslated, QDialog):
         header.setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
-        in_column(self._text, (self._list, 1), buttons, of=self)
+        in_column(self._text, (self._list, 1), with_help(buttons), of=self)
         self.resize(*_SIZE)
         self.texted(self, title="licences_dialog.licences")
         self.retranslate()

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Final
 
-from PySide6.QtGui import QKeySequence
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QWidget
 
 from app.editor.translated import tr
 from app.shell.action import without_key
 from app.shell.actions import ActionTable, written
 from widgets.common.controls import Retranslated
+from widgets.common.help import ask_for_help
 
 BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "help")
 """Menus in the order of the bar; their entries stand as in the table."""
@@ -44,6 +46,15 @@ class Menu(Retranslated, QMenu):
     def retranslate(self) -> None:
         """Set its title."""
         self.setTitle(tr(self._text_id))
+
+    # Qt overrides
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Show the guide about the command under the mouse by F1."""
+        if event.key() == Qt.Key.Key_F1:
+            ask_for_help(self)
+        else:
+            super().keyPressEvent(event)
 
 
 class Menus:

@@ -16,6 +16,7 @@ from app.shell.commands import (
     file,
     fingerings,
     generate,
+    help,
     marks,
     notes,
     piece_metadata,
@@ -62,7 +63,7 @@ def rows() -> tuple[ActionRow[Any], ...]:
         *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *marks.ACTIONS, *fingerings.ACTIONS),
         *(*events.ACTIONS, *edit.FELT_BEATS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS, *cameras.ACTIONS),
         *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
-        *(*characters.ACTIONS, *piece_metadata.ACTIONS, *application.ACTIONS),
+        *(*characters.ACTIONS, *piece_metadata.ACTIONS, *help.ACTIONS, *application.ACTIONS),
     )
     found = extended(own, "actions", lambda row: row.id)
     # Those of features stand before the last two, which close.

@@ -74,9 +74,12 @@ class Window(Retranslated, QMainWindow):
     -------
     character_dropped(Path)
         A character's file was dropped here.
+    help_requested(QWidget)
+        The guide's place for this part is requested.
     """
 
     character_dropped = Signal(object)
+    help_requested = Signal(QWidget)
 
     def __init__(
         self,
@@ -276,6 +279,10 @@ class Window(Retranslated, QMainWindow):
     def show_palette(self) -> None:
         """Search everything that can be done."""
         self.palette_popup.open_at(self.mapToGlobal(QPoint(self.width() - 8, self.menuBar().height() + 2)))
+
+    def show_help(self, about: QWidget) -> None:
+        """Show the guide's place for a part of the window or of one of its dialogs."""
+        self.help_requested.emit(about)
 
     def rename_player(self) -> None:
         """Open the field for the name of the player in front."""

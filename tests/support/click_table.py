@@ -38,6 +38,7 @@ file.open_example, file.open_danced_example = project + asked file page players 
 file.reimport, file.rules, file.piece_settings, file.evaluation, file.evaluation_results = dialog
 file.close = file page panels project + asked players selection dancer recording tool view
 export.files, export.playblast = dialog
+help.guides, help.here = dialog
 application.characters, application.instruments, application.preferences, application.shortcuts = dialog
 application.about, record.devices, record.latency, stream.settings, dancers.learn, dancers.choreography = dialog
 application.palette = palette popup

@@ -289,6 +289,7 @@ class Look:
     def dialogs(self) -> None:
         """Every dialog."""
         steps: dict[str, Callable[[], object]] = {
+            "help": lambda: self.do("help.guides"),
             "about": lambda: self.do("application.about"),
             "preferences": lambda: self.do("application.preferences"),
             "shortcuts": lambda: self.do("application.shortcuts"),

@@ -29,6 +29,17 @@ MENTIONED = re.compile("|".join(map(re.escape, INSTEAD)))
 """In what is parsed: most modules are not."""
 ALLOWED = {
     "widgets/common/plain.py": {"QLabel", "QMessageBox", "QComboBox", "setTextFormat"},
+    # The program's own guides, as Markdown without HTML; of files only pictures beside them are read, and of links only
+    # those to guides and, by the browser, to the web are followed.
+    "app/shell/help/guides.py": {"QTextDocument", "setMarkdown"},
+    "app/shell/help/page.py": {
+        "QTextBrowser",
+        "QTextDocument",
+        "QTextEdit",
+        "setMarkdown",
+        "setOpenLinks",
+        "anchorClicked",
+    },
     # Its format is set to plain.
     "widgets/timeline/roll/drawn_notes.py": {"QStaticText", "setTextFormat"},
 }

@@ -97,6 +97,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "fingering_tag.raised": ("raised", "高め"),
     "fingering_tag.rare": ("rare", "まれ"),
     "fingering_tag.trill": ("trill", "トリル"),
+    "help_button.help": ("Help", "ヘルプ"),
+    "help_button.open_guide": ("Open the guide for this dialog (F1)", "このダイアログのガイドを開く (F1)"),
     "morph.brow_down": ("Brow down", "眉を下げる"),
     "morph.cheek_raised": ("Cheek raised", "頬を上げる"),
     "morph.cheeks_puffed": ("Cheeks puffed", "頬をふくらます"),

@@ -19,6 +19,7 @@ from app.errors import AppError, Message, Progress, StopRequested
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, selectable, wrapped
+from widgets.common.help import HelpButton
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
@@ -137,7 +138,7 @@ class CharacterDialog(Retranslated, QDialog):
         side = panel(in_column(title, self._source, shown, (words, 1), margins=(12, 0, 0, 0), spacing=8))
         side.setFixedWidth(PICTURE_PX.width() + 24)
         middle = in_row((self.tabs, 1), side)
-        bottom = in_row(self._undo, self._redo, self._reset, STRETCH, self.give, self._buttons)
+        bottom = in_row(HelpButton(), self._undo, self._redo, self._reset, STRETCH, self.give, self._buttons)
         in_column((middle, 1), bottom, of=self, margins=12)
 
     def _connect(self) -> None:

@@ -14,6 +14,7 @@ from app.rig.characters.character_library import character_library, character_na
 from app.rig.characters.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable
+from widgets.common.help import HelpButton
 from widgets.common.instrument_name import character_name
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.paths import dropped_paths
@@ -59,7 +60,7 @@ class CharactersDialog(Retranslated, QDialog):
         self._wrong.setObjectName("characters_wrong")
         for label in (self._explained, self._wrong):
             label.setWordWrap(True)
-        side = in_column(self._add, self._edit, self._remove, STRETCH, self._close)
+        side = in_column(self._add, self._edit, self._remove, STRETCH, HelpButton(), self._close)
         middle = in_row((self.list, 1), side)
         in_column(self._explained, (middle, 1), self._wrong, of=self, margins=14, spacing=10)
         self.list.itemActivated.connect(lambda item: self.edit_asked.emit(self.chosen))

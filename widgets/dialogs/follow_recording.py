@@ -13,6 +13,7 @@ from app.audio.followed_recording import FollowOptions
 from app.editor.files import AUDIO_SUFFIXES
 from app.editor.session import Session
 from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named, wrapped
+from widgets.common.help import with_help
 from widgets.common.layouts import in_column
 from widgets.common.paths import ask_for_file
 from widgets.common.plain import Label, verbatim
@@ -50,7 +51,13 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._buttons.rejected.connect(self.reject)
         self._dynamics.toggled.connect(self._show)
         in_column(
-            self._explained, self._notes, self._dynamics, self._about_stems, (self._room, 1), self._buttons, of=self
+            self._explained,
+            self._notes,
+            self._dynamics,
+            self._about_stems,
+            (self._room, 1),
+            with_help(self._buttons),
+            of=self,
         )
         self.resize(_SIZE)
         self.texted(self, title="follow_dialog.follow_recording")

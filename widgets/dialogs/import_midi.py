@@ -37,6 +37,7 @@ from app.score.model import UnplayedPart
 from app.score.parts import stream_name
 from instrument_maps.model import InstrumentMap
 from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named
+from widgets.common.help import with_help
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -121,7 +122,9 @@ class ImportDialog(Retranslated, QDialog):
 
         heading = in_row((self._heading, 1), self._encoding_title, self._encodings)
         tools = in_row(self._merge, self._separate, 12, self._dancer, STRETCH, self._summary)
-        in_column(heading, (self._table, 1), tools, self._warning_title, self._warnings, self._buttons, of=self)
+        in_column(
+            heading, (self._table, 1), tools, self._warning_title, self._warnings, with_help(self._buttons), of=self
+        )
         self._table.itemSelectionChanged.connect(self._show_tools)
         # Rows are there once it is known what the file says.
         self._encodings.setEnabled(False)

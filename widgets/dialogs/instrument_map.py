@@ -36,6 +36,7 @@ from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
+from widgets.common.help import HelpButton
 from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
@@ -135,7 +136,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         heading = in_row(self._title, (self._id, 1), spacing=12)
         right = in_column(self._wrong, heading, self._facts, self._file, (work, 1), margins=(8, 0, 0, 0))
         everything = _split(self._list, panel(right), (230, 900), stretches=1)
-        foot = in_row(self._buttons["folder"], STRETCH, self._buttons["save"], self._buttons["close"])
+        foot = in_row(HelpButton(), self._buttons["folder"], STRETCH, self._buttons["save"], self._buttons["close"])
         in_column((everything, 1), foot, of=self)
 
     def _connect(self) -> None:

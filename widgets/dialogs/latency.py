@@ -17,6 +17,7 @@ from app.capture.protocol import Events
 from app.editor.session import Session
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, Retranslated, named
+from widgets.common.help import HelpButton
 from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 
@@ -104,7 +105,7 @@ class LatencyDialog(Retranslated, QDialog):
         self._reported.setMinimumHeight(3 * self._reported.fontMetrics().lineSpacing())
         self._reported.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._start.setDefault(True)
-        bottom = in_row(self._start, STRETCH, self._value_name, self.value, self._take, self._close)
+        bottom = in_row(HelpButton(), self._start, STRETCH, self._value_name, self.value, self._take, self._close)
         in_column(self._explained, (self.chart, 1), self._reported, bottom, of=self)
 
     # Measuring

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QTreeWidgetItem, QWidge
 
 from app.project.piece_metadata import MetadataDifference
 from widgets.common.controls import Button, ColumnList, Retranslated
+from widgets.common.help import with_help
 from widgets.common.layouts import in_column
 
 _NOTHING = "–"
@@ -36,7 +37,7 @@ class MetadataDifferencesDialog(Retranslated, QDialog):
         buttons = QDialogButtonBox()
         close = Button("metadata_differences_dialog.close", self.reject, "differences_close")
         buttons.addButton(close, QDialogButtonBox.ButtonRole.RejectRole)
-        in_column((self._list, 1), buttons, of=self)
+        in_column((self._list, 1), with_help(buttons), of=self)
         self.retranslate()
 
     def retranslate(self) -> None:

@@ -21,6 +21,7 @@ from metadata.model import BiteSource
 from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
+from widgets.common.help import HelpButton
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.plain import Label
@@ -119,7 +120,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         columns = in_row((left, 1), (self._incoming, 1))
         self._device.setMinimumWidth(_SIDE_PX)
         self._incoming.setMinimumWidth(_SIDE_PX)
-        bottom = in_row(self._beep, (self._audio_status, 1), self._close)
+        bottom = in_row(HelpButton(), self._beep, (self._audio_status, 1), self._close)
         in_column((columns, 1), bottom, of=self)
 
     def _connect(self) -> None:

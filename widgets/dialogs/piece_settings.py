@@ -18,6 +18,7 @@ from app.project.edit.generation import vary_everyone
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_seed, usual_settings
 from app.project.frame_rate import USUAL_RATES, frame_rate, frame_rate_text
 from widgets.common.controls import Button, Caption, Check, Retranslated, Wording, named, said, wrapped
+from widgets.common.help import with_help
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import ComboBox, Label
@@ -119,7 +120,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         buttons.addButton(self._ok, QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.addButton(self._cancel, QDialogButtonBox.ButtonRole.RejectRole)
         buttons.addButton(self._reset, QDialogButtonBox.ButtonRole.ResetRole)
-        in_column(form, self._problem, STRETCH, buttons, of=self)
+        in_column(form, self._problem, STRETCH, with_help(buttons), of=self)
 
     # What is chosen
 

@@ -24,6 +24,7 @@ from app.encoding import shown
 from instrument_maps.library import library, own_folder
 from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
+from widgets.common.help import with_help
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
@@ -113,7 +114,7 @@ class PreferencesDialog(Retranslated, QDialog):
         self.texted(self.tabs, tabs=titles)
         self._buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         self._buttons.rejected.connect(self.reject)
-        in_column((self.tabs, 1), self._buttons, of=self, margins=(10, 8, 10, 10))
+        in_column((self.tabs, 1), with_help(self._buttons), of=self, margins=(10, 8, 10, 10))
         session.instruments_changed.connect(self.refresh)
         self.texted(self, title="preferences_dialog.preferences")
         self.texted(self._open, text="preferences_dialog.show_folder")

@@ -19,6 +19,7 @@ from app.project.found_parts import Conflict
 from app.project.performers import Player
 from app.project.reimport import Reimport
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, said, selectable, wrapped
+from widgets.common.help import with_help
 from widgets.common.layouts import begin_with_size, in_column
 from widgets.common.plain import Label
 from widgets.common.text import message_text, note_text
@@ -64,7 +65,7 @@ class ReimportDialog(Retranslated, QDialog):
             *self._new_and_gone(),
             *self._replaced(),
             *self._lost_and_contradicted(),
-            self._buttons,
+            with_help(self._buttons),
             of=self,
         )
         self.texted(self, title="reimport_dialog.re_import_midi")

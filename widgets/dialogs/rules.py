@@ -27,6 +27,7 @@ from metadata.rule_draft import Draft, added, changed, duplicated, listed, remov
 from metadata.rules import Rule, RuleFault, rule_faults
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Check, Retranslated, named, selectable, wrapped
+from widgets.common.help import HelpButton
 from widgets.common.instrument_name import language
 from widgets.common.layouts import begin_with_size, in_column, in_row, panel
 from widgets.common.plain import Label
@@ -117,7 +118,7 @@ class RulesDialog(Retranslated, QDialog):
         buttons = QDialogButtonBox()
         buttons.addButton(self._save, QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.addButton(self._cancel, QDialogButtonBox.ButtonRole.RejectRole)
-        in_column((split, 1), self._problem, self._folder, in_row(self._preview, None, buttons), of=self)
+        in_column((split, 1), self._problem, self._folder, in_row(HelpButton(), self._preview, None, buttons), of=self)
 
     # The list
 

@@ -15,6 +15,7 @@ from app.stream.sender import LEAST_PORT, LOOPBACK, MOST_PORT, TO_MANY, is_loopb
 from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Caption, ColumnList, Retranslated, named, wrapped
+from widgets.common.help import HelpButton
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row
 from widgets.common.plain import Label
 from widgets.common.text import sentence
@@ -94,7 +95,7 @@ class StreamDialog(Retranslated, QDialog):
                 "stream_dialog.frames_per_second": self._rate,
             }
         )
-        bottom = in_row(self._toggle, STRETCH, self._close)
+        bottom = in_row(HelpButton(), self._toggle, STRETCH, self._close)
         reported = in_row((self._reported, 1), self._anyway)
         in_column(
             self._explained, form, self._warning, (self._list, 1), reported, bottom, of=self, margins=14, spacing=10

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QPushButt
 from app.errors import Message, StopRequested
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Retranslated, named
+from widgets.common.help import with_help
 from widgets.common.plain import Label
 from widgets.common.text import message_text
 
@@ -78,7 +79,7 @@ class WorkingDialog(Retranslated, QDialog):
         self._show.hide()
         self.fields += (self._start,)
         box.addButton(self._close, QDialogButtonBox.ButtonRole.RejectRole)
-        return box
+        return with_help(box)
 
     def _set_running(self, running: bool) -> None:
         if running:

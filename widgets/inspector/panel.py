@@ -78,8 +78,9 @@ class InspectorPanel(Retranslated, QWidget):
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         scroll.setWidget(panel(in_column(*sections, STRETCH, margins=0, spacing=0)))
-        for page in (self._problems, self._corrections, self._history):
-            self._tabs.addTab(page, "")
+        pages = {"problems": self._problems, "corrections": self._corrections, "history": self._history}
+        for name, page in pages.items():
+            self._tabs.addTab(named(page, f"{name}_tab"), "")
         self._tabs.setDocumentMode(True)
         self._tabs.setUsesScrollButtons(True)
         self._splitter = QSplitter(Qt.Orientation.Vertical)

@@ -95,6 +95,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.generate.bars_back": ("Restore First Performance", "最初の演奏に戻す"),
     "action.generate.everyone": ("Regenerate All Players", "全奏者を再生成"),
     "action.generate.players": ("Regenerate Selected Players", "選択した奏者を再生成"),
+    "action.help.guides": ("Guides", "ガイド"),
+    "action.help.here": ("Help at Pointer", "ポインター位置のヘルプ"),
     "action.language.en": ("English", "English"),
     "action.language.ja": ("日本語", "日本語"),
     "action.lanes.acting": ("Acting Lane", "演技レーン"),

@@ -54,6 +54,7 @@ def show_choreography(program: Program) -> None:
 
 
 OPENED: dict[str, Open] = {
+    "HelpWindow": command("help.guides"),
     "AboutDialog": command("application.about"),
     "LicencesDialog": lambda program: LicencesDialog(program.window).open(),
     "MetadataDifferencesDialog": lambda program: MetadataDifferencesDialog((), "x", program.window).open(),

@@ -855,6 +855,8 @@ CASES: dict[str, Case] = {
         lambda d: d.session.recording.count_in_bars == 1, lambda d: d.session.recording.set(count_in_bars=0)
     ),
     "record.count_in_2": Case(lambda d: d.session.recording.count_in_bars == 2),
+    "help.guides": Case(lambda d: d.dialog("help")),
+    "help.here": Case(lambda d: d.dialog("help")),
     "application.about": Case(lambda d: d.dialog("about")),
     # Last: it ends the editor.
     "file.quit": Case(lambda d: not d.program.window.isVisible()),

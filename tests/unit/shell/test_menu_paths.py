@@ -55,7 +55,7 @@ def test_a_path_that_is_not_there_is_found() -> None:
 
 @pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.name)
 def test_guides_name_menus_as_they_are(guide: Path) -> None:
-    assert wrong(guide.read_text(encoding="utf-8"), 0) == []
+    assert wrong(guide.read_text(encoding="utf-8"), int(guide.stem.endswith("_ja"))) == []
 
 
 @pytest.mark.parametrize("place", [0, 1], ids=list(LANGUAGES))

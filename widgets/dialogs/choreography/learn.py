@@ -27,6 +27,7 @@ from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from app.score.suffixes import MUSIC
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, named, selectable
+from widgets.common.help import HelpButton
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
@@ -137,7 +138,12 @@ class LearnDialog(WorkingDialog):
         file = in_row((self._file, 1), self._choose)
         form = in_form({"learn_dialog.states": numbers, "learn_dialog.save_to": file})
         bottom = in_row(
-            (in_column(self._under_way, self._progress, spacing=2), 20), STRETCH, self._use, self._learn, self._close
+            HelpButton(),
+            (in_column(self._under_way, self._progress, spacing=2), 20),
+            STRETCH,
+            self._use,
+            self._learn,
+            self._close,
         )
         in_column((self._top, 2), (self.cuts, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
 

@@ -19,6 +19,7 @@ from app.performance.ensemble import Performance
 from app.project.document import Change
 from app.project.performers import Dancer
 from widgets.common.controls import Button, Retranslated, named, wrapped
+from widgets.common.help import HelpButton
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.percussion_names import percussion_names
 from widgets.common.plain import Label, verbatim_title
@@ -128,7 +129,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         self.texted(self._hints["motions"], text="choreography_dialog.most_typical_segment_of_each")
         self.texted(self._hints["transitions"], text="choreography_dialog.what_follows_what_in_percent")
         self.texted(self._hints["graph"], text="choreography_dialog.arrow_for_each_transition_that")
-        bottom = in_row(STRETCH, self._close)
+        bottom = in_row(HelpButton(), STRETCH, self._close)
         in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
     # What is shown

@@ -31,6 +31,7 @@ from app.evaluation.tables import ResultTable, tables
 from app.evaluation.viewer_files import Gathered
 from app.messages import text
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable, wrapped
+from widgets.common.help import with_help
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import ask_for_file, ask_for_files, ask_for_folder, dropped_paths, show_folder
@@ -110,7 +111,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
             margins=0,
         )
         files.setFixedWidth(230)
-        in_column((in_row(files, (self._tabs, 1)), 1), self._state, box, of=self)
+        in_column((in_row(files, (self._tabs, 1)), 1), self._state, with_help(box), of=self)
 
     # What is shown
 

@@ -1,0 +1,54 @@
+"""Requests for help: a dialog's button and F1 in it ask the window that it belongs to for the guide's place."""
+
+from __future__ import annotations
+
+from typing import Protocol, runtime_checkable
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QApplication, QDialogButtonBox, QWidget
+
+from widgets.common.controls import Button
+
+
+@runtime_checkable
+class ShowsHelp(Protocol):
+    """The window that has the guides."""
+
+    def show_help(self, about: QWidget) -> None:
+        """Show the guide's place for a widget."""
+
+
+def ask_for_help(about: QWidget) -> None:
+    """Show the guide's place for a widget, in the window that it belongs to."""
+    owner: QWidget | None = about
+    while owner is not None and not isinstance(owner, ShowsHelp):
+        owner = owner.parentWidget()
+    if owner is None:
+        # A dialog that was opened while the program was in the background has no parent.
+        owner = next((top for top in QApplication.topLevelWidgets() if isinstance(top, ShowsHelp)), None)
+    if isinstance(owner, ShowsHelp):
+        owner.show_help(about)
+
+
+class HelpButton(Button):
+    """Opens the guide about the dialog that it is in; F1 there about the field that has the keyboard."""
+
+    def __init__(self) -> None:
+        super().__init__("help_button.help", self._ask, "help_button", "help_button.open_guide")
+        # What is being filled in keeps the keyboard.
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        QShortcut(QKeySequence(Qt.Key.Key_F1), self, self._ask_about_field)
+
+    def _ask(self) -> None:
+        ask_for_help(self.window())
+
+    def _ask_about_field(self) -> None:
+        field = QApplication.focusWidget()
+        ask_for_help(field if field is not None and field.window() is self.window() else self.window())
+
+
+def with_help(buttons: QDialogButtonBox) -> QDialogButtonBox:
+    """The buttons of a dialog, with the one that opens its guide."""
+    buttons.addButton(HelpButton(), QDialogButtonBox.ButtonRole.HelpRole)
+    return buttons
