@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple, TypeVar
 import msgspec
 
 from app.errors import MapError
+from instrument_maps.model import InstrumentName
 from instrument_maps.name_words import words_of
 
 T = TypeVar("T")
@@ -114,6 +115,8 @@ class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
         The marks that tell the forms of an instrument apart, and the words for each.
     score_order : tuple of str
         The same families, from the top of a score to its foot.
+    family_names : dict of str to InstrumentName
+        Name of each family, by its id.
     ensembles : tuple of Ensemble
         Those that are known by their parts.
     ranges : mapping of str to Compass
@@ -131,6 +134,7 @@ class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
     ensembles: tuple[Ensemble, ...] = ()
     seating: tuple[tuple[str, ...], ...] = ()
     score_order: tuple[str, ...] = ()
+    family_names: dict[str, InstrumentName] = {}
     sizes: dict[str, tuple[str, ...]] = {}
     keys: dict[str, tuple[str, ...]] = {}
     clefs: dict[str, tuple[str, ...]] = {}
@@ -156,6 +160,7 @@ class InstrumentRelations:
 
     def __init__(self, table: VocabularyTable, file: str) -> None:
         self.seating, self.score_order = table.seating, table.score_order
+        self.family_names = table.family_names
         self.ensembles, self.ranges = table.ensembles, table.ranges
         self.instruments = {instrument.id: instrument for instrument in table.instruments}
         self._sounds, self._strokes = table.sounds, table.strokes
@@ -192,10 +197,10 @@ class InstrumentRelations:
         families = {"", *(family for row in self.seating for family in row)}
         if families != {"", *self.score_order}:
             yield "the seating and the score order have different families"
-        for instrument in self.instruments.values():
-            for family in (instrument.family, *instrument.families):
-                if family not in families:
-                    yield f"'{family}' has no place in the seating"
+        named = (family for one in self.instruments.values() for family in (one.family, *one.families))
+        for family in (*self.family_names, *named):
+            if family not in families:
+                yield f"'{family}' has no place in the seating"
 
     def _of_sorts(self) -> Iterator[str]:
         for instrument in self.instruments.values():

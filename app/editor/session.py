@@ -73,8 +73,8 @@ class Session(QObject):
         The value of that name is another one.
     dancer_changed()
         Another dancer is selected, in the same project.
-    folded_changed()
-        Another part of a panel is folded.
+    folded_changed(), groups_players_changed()
+        Another part of a panel is folded; the list of players is in sections, or no longer.
     preview_changed()
         The face that is being made is another.
     noticed(object, object)
@@ -114,6 +114,7 @@ class Session(QObject):
     follow_changed = Signal()
     language_changed = Signal()
     folded_changed = Signal()
+    groups_players_changed = Signal()
     preview_changed = Signal()
     noticed = Signal(object, object)
     revealed = Signal(float)
@@ -353,6 +354,10 @@ class Session(QObject):
     follow = Watched("follow_changed", True)
     """True if the timeline follows the playhead."""
     set_follow = follow.setter
+
+    groups_players = Watched("groups_players_changed", True)
+    """True if the list of players shows them by section, where that is clearer."""
+    set_groups_players = groups_players.setter
 
     preview_morphs = Watched[dict[str, float] | None]("preview_changed", None)
     """Morph weights that the player in front wears instead of the performance's while a face is being made; None: no

@@ -36,6 +36,11 @@ def _fold(session: Session, folded: dict[str, bool]) -> None:
 
 
 FOLDED: Final = SettingBinding(lambda session: dict(session.folded), _fold, lambda session: session.folded_changed)
+GROUPED: Final = SettingBinding(
+    lambda session: session.groups_players,
+    lambda session, grouped: session.set_groups_players(grouped),
+    lambda session: session.groups_players_changed,
+)
 THEME: Final = SettingBinding(
     lambda session: session.tokens.name,
     lambda session, name: session.set_tokens(THEMES[name]),

@@ -18,7 +18,7 @@ import platformdirs
 from app import encoding
 from app.editor.listening import Source
 from app.editor.session import Session
-from app.editor.setting_bindings import FOLDED, THEME, TIME, SettingBinding, within
+from app.editor.setting_bindings import FOLDED, GROUPED, THEME, TIME, SettingBinding, within
 from app.editor.stored_settings import BytesSetting, FilePathSetting, Setting, StoredSettings
 from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.editor.viewport_state import Follows
@@ -85,6 +85,7 @@ class Settings(StoredSettings):
     )
     folded = Setting("interface/folded", dict[str, bool](), dict[str, bool], held=FOLDED)
     """Folded parts of panels, by name."""
+    groups_players = Setting("interface/groups_players", True, held=GROUPED)
 
     volume = Setting("sound/volume", 0.8, _Share, held=within("listening", "volume"))
     """0..1 as the ear judges it."""

@@ -172,6 +172,8 @@ class ActionTable(QObject):
             session.grid_changed,
             session.time_display_changed,
             session.follow_changed,
+            session.folded_changed,
+            session.groups_players_changed,
             session.language_changed,
             session.theme_changed,
             session.pitch_display.changed,

@@ -73,6 +73,9 @@ beat.* ? project
 players.rename, dancers.rename ? typing
 players.next, players.previous, players.select_all ? players + selection
 players.add, players.duplicate, players.remove = project players + selection
+players.select_section ? players + selection
+players.grouped = grouped
+players.fold_sections = folded
 players.arrange, players.reset, players.hear_everyone ? project
 players.* = project
 dancers.add, dancers.duplicate, dancers.remove = project dancer + lanes

@@ -1,9 +1,10 @@
-"""Names of instruments and characters in the user's language."""
+"""Names of instruments, their families and characters in the user's language."""
 
 from __future__ import annotations
 
 from app.editor.translated import tr
 from app.rig.characters.character_library import character_library
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
 
 
@@ -16,6 +17,14 @@ def language() -> str:
 def instrument_name(instrument: InstrumentMap) -> str:
     """The instrument's name."""
     return instrument.name.ja if language() == "ja" else instrument.name.en
+
+
+def family_name(family: str) -> str:
+    """The name of a family of instruments, as of a section of players; empty: of instruments of no known family."""
+    name = vocabulary().family_names.get(family)
+    if name is None:
+        return tr("instrument_family.others")
+    return name.ja if language() == "ja" else name.en
 
 
 def character_name(character_id: str) -> str:

@@ -33,6 +33,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "channel.torso": ("Torso", "上体"),
     "channel.up": ("Up", "上"),
     "character_name.man": ("Man", "男性"),
+    "instrument_family.others": ("Others", "その他"),
     "character_name.woman": ("Woman", "女性"),
     "colour_swatch.automatic": ("Automatic", "自動"),
     "colour_swatch.blue": ("Blue", "青"),

@@ -96,6 +96,13 @@ class OrderedList(QListView):
         rows = range(self._count())
         return next((number for number in rows if y < self._box(number).center().y()), self._count())
 
+    def _edge_px(self, number: int) -> int:
+        """Height of the edge above a row; where the row is hidden or past the last, below the last that is seen."""
+        if number < self._count() and self._box(number).isValid():
+            return self._box(number).top()
+        above = (self._box(row).bottom() for row in range(number - 1, -1, -1) if self._box(row).isValid())
+        return next(above, 0)
+
     def _let_go(self) -> None:
         self._press, self._pressed_number = None, -1
 
@@ -161,12 +168,9 @@ class OrderedList(QListView):
         super().paintEvent(event)
         if self._drop_row is None:
             return
-        last = self._drop_row >= self._count()
-        box = self._box(min(self._drop_row, self._count() - 1))
         painter = QPainter(self.viewport())
         painter.fillRect(
-            QRect(0, (box.bottom() if last else box.top()) - 1, self.viewport().width(), 3),
-            QColor(self._session.tokens.accent),
+            QRect(0, self._edge_px(self._drop_row) - 1, self.viewport().width(), 3), QColor(self._session.tokens.accent)
         )
 
 

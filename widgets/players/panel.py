@@ -16,10 +16,11 @@ from app.features import modules
 from app.project.document import Change
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
+from app.project.player_sections import are_worth_grouping, sections
 from instrument_maps.library import all_maps, library
 from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named, wrapped
-from widgets.common.instrument_name import instrument_name
+from widgets.common.instrument_name import family_name, instrument_name
 from widgets.common.layouts import STRETCH, in_column, in_row, panel
 from widgets.common.menus import offer_actions, passing_menu
 from widgets.common.number_slider import NumberSlider
@@ -35,7 +36,8 @@ from widgets.players.newcomers import (
     reset_players,
 )
 from widgets.players.parameters import ParameterSections
-from widgets.players.player_list import PlayerList, PlayerRow
+from widgets.players.player_list import PlayerList
+from widgets.players.player_rows import PlayerRow, Row, SectionRow
 from widgets.players.preset_section import PresetSection
 from widgets.players.stage_section import StageSection
 
@@ -49,12 +51,18 @@ MENU = (
     "",
     "players.mute",
     "players.solo",
+    "players.mute_section",
+    "players.solo_section",
     "players.posture",
     "players.reset",
     "",
+    "players.select_section",
     "players.select_all",
     "players.randomise",
     "players.arrange",
+    "",
+    "players.grouped",
+    "players.fold_sections",
 )
 """The context menu: actions by id, an empty one is a line."""
 LEAST_LIST_PX = 130
@@ -146,6 +154,8 @@ class PlayersPanel(Retranslated, QWidget):
         session.problems_changed.connect(self._show_list)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._show_list)
+        session.folded_changed.connect(self._show_list)
+        session.groups_players_changed.connect(self._show_list)
         for section in self.sections.values():
             section.sought.connect(partial(self._scroll_to, section))
         self.list.chosen.connect(session.set_players)
@@ -154,7 +164,9 @@ class PlayersPanel(Retranslated, QWidget):
         self.list.mute_clicked.connect(partial(self._toggle, "muted"))
         self.list.arm_clicked.connect(self._arm)
         self.list.solo_clicked.connect(partial(self._toggle, "soloed"))
+        self.list.folded.connect(self._fold)
         self.list.moved.connect(self._move)
+        self.list.ordered.connect(self._order)
         self.list.rows.renamed.connect(self._rename)
         self._parameters.dice_thrown.connect(self._reseed)
         self._spread.changed.connect(self._set_spread)
@@ -241,10 +253,22 @@ class PlayersPanel(Retranslated, QWidget):
         if len(rows) < SEARCHED_FROM:
             self.search.clear()
         self.search.setVisible(len(rows) >= SEARCHED_FROM)
-        self.list.show_rows(tuple(rows))
+        self.list.show_rows(self._by_section(rows))
         self.list.setVisible(bool(rows))
         self._empty.setVisible(not rows)
         self._divide()
+
+    def _by_section(self, rows: list[PlayerRow]) -> list[Row]:
+        """Put players under the headers of their sections, where that is requested and clearer."""
+        session = self._session
+        if not (session.groups_players and are_worth_grouping(session.project)):
+            return list(rows)
+        by_id, result = {row.id: row for row in rows}, list[Row]()
+        for section in sections(session.project):
+            own = tuple(by_id[id] for id in section.player_ids)
+            folded = session.folded.get(section.fold_name, False)
+            result += [SectionRow(section.fold_name, family_name(section.family), own, folded), *own]
+        return result
 
     def _select_found(self) -> None:
         """Select all whom the search shows: a section is muted or soloed by one of them."""
@@ -278,10 +302,16 @@ class PlayersPanel(Retranslated, QWidget):
             Message("edit.rename_player", {"player": before}), lambda project: edit.rename(project, player_id, name)
         )
 
-    def _toggle(self, field: Literal["muted", "soloed"], player_id: str) -> None:
-        """Mute or solo one player, or all the selected where the player is one of them."""
-        chosen = self._session.players if player_id in self._session.players else (player_id,)
-        mark_players(self._session, field, not getattr(self._session.project.player(player_id), field), chosen)
+    def _toggle(self, field: Literal["muted", "soloed"], player_ids: tuple[str, ...]) -> None:
+        """Mute or solo a section; or one player, with all the selected where the player is one of them."""
+        session = self._session
+        chosen = session.players if len(player_ids) == 1 and player_ids[0] in session.players else player_ids
+        on = not all(getattr(session.project.player(player_id), field) for player_id in player_ids)
+        mark_players(session, field, on, chosen)
+
+    def _fold(self, section_names: tuple[str, ...], folded: bool) -> None:
+        for name in section_names:
+            self._session.set_folded(name, folded)
 
     def _arm(self, player_id: str) -> None:
         recording = self._session.recording
@@ -291,6 +321,9 @@ class PlayersPanel(Retranslated, QWidget):
         self._session.attempt(
             Message("edit.move_players"), lambda project: edit.move_players(project, player_ids, before)
         )
+
+    def _order(self, player_ids: tuple[str, ...]) -> None:
+        self._session.attempt(Message("edit.move_players"), lambda project: edit.order_players(project, player_ids))
 
     def _offer_instruments(self) -> None:
         menu = passing_menu(self, "instrument_menu")

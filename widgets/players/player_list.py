@@ -1,295 +1,100 @@
-"""The list of players: a model of the project's, and how a row is drawn and taken hold of."""
+"""The list of players: how rows are selected, folded by section and put in another order."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
-from PySide6.QtCore import (
-    QAbstractListModel,
-    QItemSelection,
-    QItemSelectionModel,
-    QModelIndex,
-    QPoint,
-    QRect,
-    QRectF,
-    QSize,
-    Qt,
-    Signal,
-)
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QMouseEvent, QPainter, QPen
-from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QStyleOptionViewItem, QWidget
+from PySide6.QtCore import QItemSelection, QItemSelectionModel, QPoint, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QAbstractItemView, QWidget
 
 from app.editor.session import Session
-from app.project.performers import Player
-from widgets.common.controls import named
-from widgets.common.icons import icon
-from widgets.players.ordered_list import ID_ROLE, AnyIndex, OrderedList, RowDelegate
+from widgets.players.ordered_list import OrderedList
+from widgets.players.player_delegate import ARROW_PX, PlayerDelegate
+from widgets.players.player_rows import PlayerModel, PlayerRow, Row, SectionRow
 
-ROW_PX = 40
-BUTTON_PX = 26
-_ROW = Qt.ItemDataRole.UserRole
-
-
-@dataclass(frozen=True)
-class PlayerRow:
-    """Contents of a player's row.
-
-    Attributes
-    ----------
-    instrument : str
-        In the language of the editor.
-    problems : int
-        How many the plan has; 0 while there is no plan.
-    leads : bool
-        Whether the player gives the ensemble's entries.
-    unseen : str
-        Why the player cannot be seen or exported; empty: nothing is known against it.
-    """
-
-    player: Player
-    colour: str
-    instrument: str
-    problems: int = 0
-    leads: bool = False
-    unseen: str = ""
-
-
-class PlayerModel(QAbstractListModel):
-    """The players as rows.
-
-    Signals
-    -------
-    renamed(str, str)
-        The user typed another name for the player of this id.
-    """
-
-    renamed = Signal(str, str)
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self._rows: tuple[PlayerRow, ...] = ()
-
-    @property
-    def rows(self) -> tuple[PlayerRow, ...]:
-        """The rows, from the top."""
-        return self._rows
-
-    def show_rows(self, rows: tuple[PlayerRow, ...]) -> None:
-        """Show these."""
-        if [row.player.id for row in rows] != [row.player.id for row in self._rows]:
-            self.beginResetModel()
-            self._rows = rows
-            self.endResetModel()
-            return
-        before, self._rows = self._rows, rows
-        for number, (old, new) in enumerate(zip(before, rows, strict=True)):
-            if old != new:
-                self.dataChanged.emit(self.index(number), self.index(number))
-
-    def number(self, player_id: str) -> int | None:
-        """The row of a player."""
-        return next((number for number, row in enumerate(self._rows) if row.player.id == player_id), None)
-
-    # Qt's own names
-
-    def rowCount(self, parent: AnyIndex = QModelIndex()) -> int:  # noqa: B008
-        return 0 if parent.isValid() else len(self._rows)
-
-    def data(self, index: AnyIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        if not index.isValid():
-            return None
-        row = self._rows[index.row()]
-        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.EditRole):
-            return row.player.name
-        if role == Qt.ItemDataRole.AccessibleDescriptionRole:
-            return row.instrument
-        if role == ID_ROLE:
-            return row.player.id
-        return row if role == _ROW else None
-
-    def setData(self, index: AnyIndex, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
-        if role != Qt.ItemDataRole.EditRole or not isinstance(value, str):
-            return False
-        player = self._rows[index.row()].player
-        if value.strip() and value != player.name:
-            self.renamed.emit(player.id, value)
-        return True
-
-    def flags(self, index: AnyIndex) -> Qt.ItemFlag:
-        return Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEditable
-
-
-class _RowDelegate(RowDelegate):
-    """Draws a row: colour, name, instrument, leader's crown, problems, record arm, mute and solo."""
-
-    def buttons(self, row: QRect) -> tuple[QRect, QRect]:
-        """Places of the buttons mute and solo."""
-        top = row.center().y() - BUTTON_PX // 2 + 1
-        solo = QRect(row.right() - BUTTON_PX - 3, top, BUTTON_PX, BUTTON_PX)
-        return solo.translated(-BUTTON_PX - 2, 0), solo
-
-    def arm_button(self, row: QRect) -> QRect:
-        """Rectangle of the record-arm mark; empty while there is no device to record from."""
-        if not self._session.recording.port:
-            return QRect()
-        return self.buttons(row)[0].translated(-BUTTON_PX - 2, 0)
-
-    # Qt's own names
-
-    def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
-        lines = QFontMetricsF(self._view.font()).height() + QFontMetricsF(self._small_font()).height()
-        return QSize(120, max(ROW_PX, round(lines) + 7))
-
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: AnyIndex) -> None:
-        row: PlayerRow = index.data(_ROW)
-        tokens, box = self._session.tokens, option.rect
-        in_front = self._session.players[:1] == (row.player.id,)
-        painter.save()
-        self.paint_ground(painter, option, row.colour, 0.28 if in_front else 0.14, 5)
-        mute, solo = self.buttons(box)
-        self._paint_button(painter, mute, "M", row.player.muted, tokens.warning)
-        self._paint_button(painter, solo, "S", row.player.soloed, tokens.good)
-        arm = self.arm_button(box)
-        if arm.isValid():
-            self._paint_arm(painter, arm, row.player.id, in_front)
-        left = (arm if arm.isValid() else mute).left()
-        self._paint_texts(painter, box.adjusted(16, 3, -(box.right() - left) - 4, -3), row, in_front)
-        self.paint_frame(painter, box, in_front)
-        painter.restore()
-
-    def _paint_texts(self, painter: QPainter, room: QRect, row: PlayerRow, in_front: bool) -> None:
-        tokens = self._session.tokens
-        font, small = QFont(self._view.font()), self._small_font()
-        font.setBold(in_front)
-        right = self.paint_problems(painter, room, row.problems, small)
-        name_px = right - room.left() - (20 if row.leads else 0)
-        name = QFontMetricsF(font).elidedText(row.player.name, Qt.TextElideMode.ElideRight, name_px)
-        half = room.height() // 2
-        painter.setFont(font)
-        painter.setPen(QColor(tokens.text))
-        upper = QRect(room.left(), room.top(), name_px, half + 1)
-        painter.drawText(upper, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, name)
-        if row.leads:
-            at = room.left() + round(QFontMetricsF(font).horizontalAdvance(name)) + 4
-            icon("crown", tokens, tokens.by_hand).paint(painter, QRect(at, upper.center().y() - 7, 16, 16))
-        painter.setFont(small)
-        # Dim text would be lost upon the selection.
-        dim = tokens.text if in_front else tokens.text_dim
-        painter.setPen(QColor(tokens.warning if row.unseen else dim))
-        lower = QRect(room.left(), room.top() + half, right - room.left(), room.height() - half)
-        text = self.tr("row_delegate.cannot_be_seen") if row.unseen else row.instrument
-        text = QFontMetricsF(small).elidedText(text, Qt.TextElideMode.ElideRight, lower.width())
-        painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
-
-    def _paint_arm(self, painter: QPainter, box: QRect, player_id: str, in_front: bool) -> None:
-        """Full: always recorded; a red ring: recorded while in front; a dim one: not recorded."""
-        tokens, armed = self._session.tokens, self._session.recording.armed
-        is_next = armed == player_id or (not armed and in_front)
-        painter.setPen(QPen(QColor(tokens.error if is_next else tokens.line_strong), 1.5))
-        painter.setBrush(QColor(tokens.error) if armed == player_id else Qt.BrushStyle.NoBrush)
-        painter.drawEllipse(QRectF(box).center(), 5.5, 5.5)
-
-    def _paint_button(self, painter: QPainter, box: QRect, letter: str, on: bool, colour: str) -> None:
-        tokens = self._session.tokens
-        painter.setBrush(QColor(colour) if on else Qt.BrushStyle.NoBrush)
-        painter.setPen(QPen(QColor(colour if on else tokens.line_strong), 1.0))
-        painter.drawRoundedRect(QRectF(box).adjusted(2.5, 2.5, -2.5, -2.5), 3, 3)
-        painter.setFont(self._small_font())
-        painter.setPen(QColor(tokens.sunken if on else tokens.text_dim))
-        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, letter)
-
-    def _small_font(self) -> QFont:
-        font = QFont(self._view.font())
-        font.setPointSizeF(max(font.pointSizeF() - 0.5, 9.0))
-        return font
-
-    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> QWidget:
-        return named(QLineEdit(parent), "player_name")
-
-    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: AnyIndex) -> None:
-        box = option.rect
-        count = 3 if self.arm_button(box).isValid() else 2
-        editor.setGeometry(box.adjusted(13, 3, -count * (BUTTON_PX + 2) - 8, -4))
-
-    def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
-        row: PlayerRow = index.data(_ROW)
-        mute, solo = self.buttons(box)
-        if mute.contains(at):
-            return self.tr("row_delegate.mute_silent_but_still")
-        if solo.contains(at):
-            return self.tr("row_delegate.solo_only_these_sound")
-        if self.arm_button(box).contains(at):
-            armed = self._session.recording.armed == row.player.id
-            return self.tr("row_delegate.is_armed") if armed else self.tr("row_delegate.arm_for_recording")
-        lines = [row.player.name, row.instrument]
-        if row.leads:
-            lines.append(self.tr("row_delegate.gives_entries"))
-        if row.unseen:
-            lines.append(row.unseen)
-        if row.problems:
-            lines.append(self.tr("row_delegate.problems").format(count=row.problems))
-        return "\n".join(lines)
+_FLAGS = QItemSelectionModel.SelectionFlag
+_FOLDING = {Qt.Key.Key_Left: True, Qt.Key.Key_Right: False}
 
 
 class PlayerList(OrderedList):
     """The players: click, Ctrl and Shift select; drag or Alt with the arrows reorders; F2 or a double click renames.
 
+    The header of a section stands for all its players: a click selects them, a drag moves them before another section.
+    Its arrow, a double click, Left and Right fold it; Shift and a click on the arrow fold every section.
+
     Signals
     -------
-    mute_clicked(str), solo_clicked(str), arm_clicked(str)
+    mute_clicked(object), solo_clicked(object)
+        The button of these players (tuple of str): one, or those of a section.
+    arm_clicked(str)
         The button of this player.
     chosen(object)
         The user selected these ids (tuple of str), the first in front.
+    ordered(object)
+        The players of a section (tuple of str) in their new order.
+    folded(object, bool)
+        The user folds these sections (tuple of str, their ids), or unfolds them.
     """
 
-    mute_clicked = Signal(str)
-    solo_clicked = Signal(str)
+    mute_clicked = Signal(object)
+    solo_clicked = Signal(object)
     arm_clicked = Signal(str)
     chosen = Signal(object)
+    ordered = Signal(object)
+    folded = Signal(object, bool)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(session, parent)
         self.rows = PlayerModel(self)
-        self._delegate = _RowDelegate(session, self)
+        self._delegate = PlayerDelegate(session, self)
         self._showing = False
         self._searched = ""
+        self._taken_number = -1
+        """The row that a drag or a key takes along."""
         self.setModel(self.rows)
         self.setItemDelegate(self._delegate)
+        self.setUniformItemSizes(False)
         self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
         self.selectionModel().selectionChanged.connect(self._selected)
         session.recording.changed.connect(self.viewport().update)
 
     def height_of_rows(self) -> int:
         """Height of the list without scrolling, pixels."""
-        return max(self.sizeHintForRow(0), 0) * self.rows.rowCount() + 2 * self.frameWidth()
+        shown = [number for number in range(self.rows.rowCount()) if not self.isRowHidden(number)]
+        return sum(max(self.sizeHintForRow(number), 0) for number in shown) + 2 * self.frameWidth()
 
-    def show_rows(self, rows: tuple[PlayerRow, ...]) -> None:
-        """Show these players, and which of them are selected."""
+    def show_rows(self, rows: Sequence[Row]) -> None:
+        """Show these players and sections, and which of the players are selected."""
+        section = self.rows.section_at(self.currentIndex().row())
         self._showing = True
         self.rows.show_rows(rows)
+        header = None if section is None else self.rows.number(section.id)
+        if header is not None:
+            # The keyboard stays on a header that has moved.
+            self.selectionModel().setCurrentIndex(self.rows.index(header), _FLAGS.NoUpdate)
         self._showing = False
         self._hide_rows()
         self.show_selection()
 
     def search(self, text: str) -> None:
-        """Show only the players whose name or instrument contains a text, in upper or lower case."""
+        """Show only the players whose name or instrument contains a text, in upper or lower case, folded or not."""
         self._searched = text.strip().casefold()
         self._hide_rows()
 
     @property
     def found(self) -> tuple[str, ...]:
         """Ids of the players that the search shows."""
-        return tuple(
-            row.player.id
-            for row in self.rows.rows
-            if self._searched in row.player.name.casefold() or self._searched in row.instrument.casefold()
-        )
+        return tuple(row.id for row in self.rows.players if row.is_found(self._searched))
 
     def _hide_rows(self) -> None:
-        found = set(self.found)
+        found, folded = {*self.found}, False
         for number, row in enumerate(self.rows.rows):
-            self.setRowHidden(number, row.player.id not in found)
+            if isinstance(row, SectionRow):
+                folded = row.folded and not self._searched
+                self.setRowHidden(number, found.isdisjoint(row.player_ids))
+            else:
+                self.setRowHidden(number, folded or row.id not in found)
 
     def show_selection(self) -> None:
         """Show whom the session has selected."""
@@ -300,48 +105,188 @@ class PlayerList(OrderedList):
         for number in requested:
             selection.select(self.rows.index(number), self.rows.index(number))
         model = self.selectionModel()
-        flags = QItemSelectionModel.SelectionFlag
-        if requested and self.currentIndex().row() != requested[0]:
-            model.setCurrentIndex(self.rows.index(requested[0]), flags.NoUpdate)
-        model.select(selection, flags.ClearAndSelect)
+        if requested and self.currentIndex().row() != requested[0] and not self._is_on_header_of_selected():
+            model.setCurrentIndex(self.rows.index(requested[0]), _FLAGS.NoUpdate)
+        model.select(selection, _FLAGS.ClearAndSelect)
         self._showing = False
         self.viewport().update()
+
+    def _is_on_header_of_selected(self) -> bool:
+        """True while the keyboard is on the header of the section whose player is in front."""
+        section = self.rows.section_at(self.currentIndex().row())
+        return section is not None and not {*self._session.players[:1]}.isdisjoint(section.player_ids)
 
     def _selected(self) -> None:
         if self._showing:
             return
         rows = self.rows.rows
-        numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
+        numbers = self._selected_numbers()
         current = self.currentIndex().row()
         if current in numbers:
             numbers.remove(current)
             numbers.insert(0, current)
-        self.chosen.emit(tuple(rows[number].player.id for number in numbers))
+        self.chosen.emit(tuple(rows[number].id for number in numbers))
 
-    def _button_at(self, position: QPoint) -> tuple[Signal | None, str]:
-        index = self.indexAt(position)
-        if not index.isValid():
-            return None, ""
-        mute, solo = self._delegate.buttons(self.visualRect(index))
-        player_id = self.rows.rows[index.row()].player.id
-        if mute.contains(position):
-            return self.mute_clicked, player_id  # type: ignore[return-value]
-        if self._delegate.arm_button(self.visualRect(index)).contains(position):
-            return self.arm_clicked, player_id  # type: ignore[return-value]
-        return (self.solo_clicked, player_id) if solo.contains(position) else (None, "")  # type: ignore[return-value]
+    def _choose_section(self, section: SectionRow, modifiers: Qt.KeyboardModifier) -> None:
+        """Select all of a section; with Ctrl add it or leave it out, with Shift add it."""
+        before, own = self._session.players, section.player_ids
+        others = tuple(id for id in before if id not in own)
+        if modifiers & Qt.KeyboardModifier.ControlModifier and {*own} <= {*before}:
+            self.chosen.emit(others or own)
+        elif modifiers & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier):
+            self.chosen.emit((*before, *(id for id in own if id not in before)))
+        else:
+            self.chosen.emit(own)
+
+    def _fold(self, section: SectionRow, folded: bool, everyone: bool = False) -> None:
+        all_sections = [row for row in self.rows.rows if isinstance(row, SectionRow)]
+        self.folded.emit(tuple(row.id for row in (all_sections if everyone else [section])), folded)
+
+    # Order
+
+    def _carried(self) -> list[int]:
+        """Rows that are moved: those of the section whose header is taken, or the selected ones beside the taken."""
+        header = self.rows.header_of(self._taken_number) if self._taken_number >= 0 else None
+        if header is None:
+            return self._selected_numbers()
+        own = range(header + 1, self._end_of_section(header))
+        return list(own) if self._taken_number == header else [n for n in self._selected_numbers() if n in own]
+
+    def _end_of_section(self, header: int) -> int:
+        count = self.rows.rowCount()
+        return next((number for number in range(header + 1, count) if self.rows.section_at(number)), count)
+
+    def _places(self) -> list[int]:
+        """Rows before which the carried ones may go; a player stays in the section of the instrument."""
+        count = self.rows.rowCount()
+        header = self.rows.header_of(self._taken_number) if self._taken_number >= 0 else None
+        if header is None:
+            return list(range(count + 1))
+        if self._taken_number == header:
+            return [number for number in range(count) if self.rows.section_at(number)] + [count]
+        return list(range(header + 1, self._end_of_section(header) + 1))
+
+    def _move(self, before: int) -> None:
+        rows, taken = self.rows, self._taken_number
+        ids = tuple(rows.rows[number].id for number in self._carried())
+        header = rows.header_of(taken) if taken >= 0 else None
+        if not ids:
+            return
+        if header is None or header == taken:
+            players = [player.id for player in self._session.project.players]
+            section = rows.section_at(before)
+            first = section.player_ids[0] if section else rows.rows[before].id if before < rows.rowCount() else None
+            self.moved.emit(ids, len(players) if first is None else players.index(first))
+        else:
+            own = [row.id for row in rows.rows[header + 1 : self._end_of_section(header)]]
+            place = before - header - 1
+            ahead, behind = ([id for id in some if id not in ids] for some in (own[:place], own[place:]))
+            self.ordered.emit((*ahead, *ids, *behind))
+
+    def _shift(self, step: int) -> None:
+        self._taken_number = self.currentIndex().row()
+        carried, places = self._carried(), self._places()
+        if not carried:
+            return
+        header = self.rows.section_at(self._taken_number) is not None
+        if step < 0:
+            first = self._taken_number if header else carried[0]
+            target = next((place for place in reversed(places) if place < first), None)
+        else:
+            later = [place for place in places if place > carried[-1] + 1]
+            target = later[0] if later else None
+        if target is not None:
+            self._move(target)
+
+    def _drop_row_at(self, y: int) -> int:
+        return min(self._places(), key=lambda place: abs(self._edge_px(place) - y))
 
     # Qt's own names
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        signal, player_id = self._button_at(event.position().toPoint())
-        if signal is not None and event.button() == Qt.MouseButton.LeftButton:
-            self._let_go()
-            signal.emit(player_id)  # type: ignore[attr-defined]
+        position, left = event.position().toPoint(), event.button() == Qt.MouseButton.LeftButton
+        index = self.indexAt(position)
+        self._taken_number = index.row()
+        if not index.isValid():
+            super().mousePressEvent(event)
             return
-        super().mousePressEvent(event)
+        row = self.rows.rows[index.row()]
+        if left and self._press_button(row, position):
+            self._let_go()
+        elif isinstance(row, SectionRow):
+            self._press_header(row, event)
+        else:
+            super().mousePressEvent(event)
+
+    def _press_button(self, row: Row, position: QPoint) -> bool:
+        box = self.visualRect(self.rows.index(self._taken_number))
+        mute, solo = self._delegate.buttons(box)
+        ids = row.player_ids if isinstance(row, SectionRow) else (row.id,)
+        if mute.contains(position):
+            self.mute_clicked.emit(ids)
+        elif solo.contains(position):
+            self.solo_clicked.emit(ids)
+        elif isinstance(row, PlayerRow) and self._delegate.arm_button(box).contains(position):
+            self.arm_clicked.emit(row.id)
+        else:
+            return False
+        return True
+
+    def _press_header(self, section: SectionRow, event: QMouseEvent) -> None:
+        self._let_go()
+        self.selectionModel().setCurrentIndex(self.rows.index(self._taken_number), _FLAGS.NoUpdate)
+        if event.button() == Qt.MouseButton.RightButton:
+            if not {*section.player_ids} <= {*self._session.players}:
+                self.chosen.emit(section.player_ids)
+        elif event.button() == Qt.MouseButton.LeftButton:
+            if event.position().x() < ARROW_PX:
+                everyone = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+                self._fold(section, not section.folded, everyone)
+            else:
+                self._press = event.position().toPoint()
+                self._choose_section(section, event.modifiers())
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        if self._button_at(event.position().toPoint())[0] is not None:
+        position = event.position().toPoint()
+        index = self.indexAt(position)
+        self._taken_number = index.row()
+        if not index.isValid():
+            return
+        row = self.rows.rows[index.row()]
+        on_arrow = isinstance(row, SectionRow) and position.x() < ARROW_PX
+        if on_arrow:
             self.mousePressEvent(event)
-        else:
-            super().mouseDoubleClickEvent(event)
+        elif not self._press_button(row, position):
+            if isinstance(row, SectionRow):
+                self._fold(row, not row.folded)
+            else:
+                super().mouseDoubleClickEvent(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        header = self.rows.header_of(self.currentIndex().row()) if self.currentIndex().isValid() else None
+        plain = event.modifiers() in (Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.KeypadModifier)
+        if header is not None and plain and event.key() in _FOLDING:
+            self._step_sideways(header, _FOLDING[Qt.Key(event.key())])
+            return
+        before = self.currentIndex().row()
+        self._showing = True
+        super().keyPressEvent(event)
+        self._showing = False
+        current = self.currentIndex().row()
+        section = self.rows.section_at(current)
+        if section is not None and current != before:
+            self._choose_section(section, event.modifiers())
+        elif {self.rows.rows[number].id for number in self._selected_numbers()} != {*self._session.players}:
+            self._selected()
+
+    def _step_sideways(self, header: int, left: bool) -> None:
+        """Fold or unfold the section; from a player go to the header, from an unfolded header to its first player."""
+        section, current = self.rows.section_at(header), self.currentIndex().row()
+        assert section is not None
+        if current == header and section.folded is not left:
+            self._fold(section, left)
+        elif current != header and left:
+            self.selectionModel().setCurrentIndex(self.rows.index(header), _FLAGS.NoUpdate)
+            self.chosen.emit(section.player_ids)
+        elif current == header and not left:
+            self.setCurrentIndex(self.rows.index(header + 1))

@@ -110,6 +110,11 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     ),
     "row_delegate.problems": ("Problems: {count}", "問題: {count} 件"),
     "row_delegate.arm_for_recording": ("Arm for recording", "録音待機にする"),
+    "row_delegate.section_players": ("{name}: {count} players", "{name}: {count} 人"),
+    "row_delegate.section_tip": (
+        "Click to select all, drag to reorder; Left and Right fold",
+        "クリックで全員を選択、ドラッグで並べ替え、← → で折りたたみ",
+    ),
     "row_delegate.solo_only_these_sound": ("Solo: only soloed players sound", "ソロ: ソロにした奏者だけが鳴ります"),
     "stage_section.automatic_arc_everyone_in_order": (
         "Arrange in arc: all players in order, open to the audience",

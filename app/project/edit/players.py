@@ -370,6 +370,14 @@ def move_players(project: Project, player_ids: Collection[str], before: int) -> 
     return arrange(result) if on_arc and result is not project else result
 
 
+def order_players(project: Project, player_ids: Sequence[str]) -> Project:
+    """Put players into the places that they have among all, in this order; the arc follows the order."""
+    on_arc, own = _on_arc(project), iter(player_ids)
+    players = (project.player(next(own)) if player.id in player_ids else player for player in project.players)
+    result = _with_players(project, players)
+    return arrange(result) if on_arc and result is not project else result
+
+
 def _with_players(project: Project, players: Iterable[Player]) -> Project:
     new = tuple(players)
     return project if new == project.players else replace(project, players=new)

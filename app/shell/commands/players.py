@@ -10,6 +10,7 @@ from app.errors import Message
 from app.project.edit import players as edit
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.player_sections import are_worth_grouping, in_sections_of, sections
 from app.shell.action import Action
 from app.shell.editor import EditorAction
 from instrument_maps.library import library
@@ -94,6 +95,21 @@ def select_all(session: Session) -> None:
     session.set_players((*session.players[:1], *others))
 
 
+def select_section(session: Session) -> None:
+    """Select everyone of the sections of the selected players; the active player stays active."""
+    others = (id for id in in_sections_of(session.project, session.players) if id not in session.players[:1])
+    session.set_players((*session.players[:1], *others))
+
+
+def _fold_sections(session: Session, folded: bool) -> None:
+    for section in sections(session.project):
+        session.set_folded(section.fold_name, folded)
+
+
+def _are_folded(session: Session) -> bool:
+    return all(session.folded.get(section.fold_name, False) for section in sections(session.project))
+
+
 def _has_players(session: Session) -> bool:
     return bool(session.players)
 
@@ -119,6 +135,26 @@ def _marking(name: str, mark: Literal["muted", "soloed"], key: str) -> Action:
         "players",
         enabled=_has_players,
         checked=lambda session: session.player is not None and getattr(session.player, mark),
+        icon=name,
+    )
+
+
+def _marking_section(name: str, mark: Literal["muted", "soloed"], key: str) -> Action:
+    """A row that marks the sections of the selected players; it is on where all of them are marked."""
+
+    def own(session: Session) -> tuple[str, ...]:
+        return in_sections_of(session.project, session.players)
+
+    return Action(
+        f"players.{name}_section",
+        lambda session, on: newcomers.mark_players(session, mark, on, own(session)),
+        "edit/players",
+        key,
+        "players",
+        enabled=_has_players,
+        checked=lambda session: (
+            _has_players(session) and all(getattr(session.project.player(id), mark) for id in own(session))
+        ),
         icon=name,
     )
 
@@ -161,6 +197,8 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     _marking("mute", "muted", "M"),
     _marking("solo", "soloed", "S"),
+    _marking_section("mute", "muted", "Shift+M"),
+    _marking_section("solo", "soloed", "Shift+S"),
     Action(
         "players.hear_everyone",
         clear_mute_and_solo,
@@ -173,6 +211,21 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     Action("players.posture", toggle_posture, "edit/players", enabled=_may_sit_or_stand, icon="seated"),
     Action("players.randomise", newcomers.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
     Action("players.arrange", arrange, "edit/players", enabled=_has_players, icon="stage"),
+    Action("players.select_section", select_section, "edit/players", "Shift+A", "players", enabled=_has_players),
     Action("players.select_all", select_all, "edit/players", "Ctrl+Shift+A", enabled=_has_several),
     Action("players.reset", newcomers.reset_players, "edit/players", enabled=_has_players, icon="reset"),
+    Action(
+        "players.grouped",
+        lambda session, on: session.set_groups_players(on),
+        "view",
+        enabled=lambda session: are_worth_grouping(session.project),
+        checked=lambda session: session.groups_players,
+    ),
+    Action(
+        "players.fold_sections",
+        _fold_sections,
+        "view",
+        enabled=lambda session: session.groups_players and are_worth_grouping(session.project),
+        checked=_are_folded,
+    ),
 )

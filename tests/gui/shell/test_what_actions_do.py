@@ -587,6 +587,18 @@ CASES: dict[str, Case] = {
     ),
     "players.mute": Case(lambda d: [p.muted for p in d.project.players] == [True, False, False, False], edits=True),
     "players.solo": Case(lambda d: [p.soloed for p in d.project.players] == [True, False, False, False], edits=True),
+    "players.mute_section": Case(
+        lambda d: [p.muted for p in d.project.players] == [True, True, False, False], edits=True
+    ),
+    "players.solo_section": Case(
+        lambda d: [p.soloed for p in d.project.players] == [True, True, False, False], edits=True
+    ),
+    "players.select_section": Case(lambda d: d.session.players == tuple(p.id for p in d.project.players[:2])),
+    "players.grouped": Case(lambda d: not d.session.groups_players, lambda d: twice_the_players(d)),
+    "players.fold_sections": Case(
+        lambda d: d.session.folded == dict.fromkeys(("players_section_trumpets", "players_section_trombones"), True),
+        lambda d: twice_the_players(d),
+    ),
     "players.hear_everyone": Case(
         lambda d: not any(p.muted or p.soloed for p in d.project.players), command("players.mute"), edits=True
     ),
@@ -883,6 +895,12 @@ def unbreathed(desk: Desk) -> str:
     """A note that no breath comes before."""
     breathed = {breath.id.partition(":")[2] for breath in desk.plan.breaths}
     return next(note.id for note in desk.notes()[4:] if note.id not in breathed)
+
+
+def twice_the_players(desk: Desk) -> None:
+    """Enough of them for sections."""
+    for name in ("players.select_all", "players.duplicate"):
+        actions(desk.session)[name].trigger()
 
 
 def place_by_hand(desk: Desk) -> None:

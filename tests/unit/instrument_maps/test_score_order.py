@@ -56,6 +56,7 @@ def test_names_begin_with_a_capital_and_go_on_without() -> None:
 
 def test_every_family_has_its_place_in_both_orders() -> None:
     assert sorted(vocabulary().score_order) == sorted(family for row in vocabulary().seating for family in row)
+    assert sorted(vocabulary().family_names) == sorted(vocabulary().score_order)
     played = (Instrument("a", "wind", ("Blow",)),)
     table = VocabularyTable(instruments=played, seating=(("flutes",),), score_order=("oboes",))
     with pytest.raises(MapError):

@@ -1,0 +1,68 @@
+"""Sections of the players: those whose instruments are of one family."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Final, NamedTuple
+
+from app.identity_cache import IdentityCache
+from app.project.model import Project
+from app.project.performers import Player
+from instrument_maps.instrument_names import vocabulary
+from instrument_maps.library import Library, library
+
+GROUPED_FROM: Final = 6
+"""Players from which on a list shows their sections."""
+
+
+class PlayerSection(NamedTuple):
+    """A section.
+
+    Attributes
+    ----------
+    family : str
+        Family of the vocabulary; empty: instruments of no known family.
+    player_ids : tuple of str
+        In the order of the project.
+    """
+
+    family: str
+    player_ids: tuple[str, ...]
+
+    @property
+    def fold_name(self) -> str:
+        """Name under which an editor remembers that it is folded."""
+        return f"players_section_{self.family or 'others'}"
+
+
+_SECTIONS: IdentityCache[tuple[PlayerSection, ...]] = IdentityCache(4)
+
+
+def sections(project: Project) -> tuple[PlayerSection, ...]:
+    """The sections of a project, in the order of their first players."""
+    return _SECTIONS.step(_sections, project.players, library())
+
+
+def _sections(players: tuple[Player, ...], known: Library) -> tuple[PlayerSection, ...]:
+    found: dict[str, list[str]] = {}
+    for player in players:
+        instrument = known.maps.get(player.instrument_id)
+        family = "" if instrument is None else vocabulary().family(instrument.plays)
+        found.setdefault(family, []).append(player.id)
+    return tuple(PlayerSection(family, tuple(ids)) for family, ids in found.items())
+
+
+def are_worth_grouping(project: Project) -> bool:
+    """Return whether a list of the players is clearer by sections: some of them have several players."""
+    return len(project.players) >= GROUPED_FROM and 1 < len(sections(project)) < len(project.players)
+
+
+def in_sections_of(project: Project, player_ids: Collection[str]) -> tuple[str, ...]:
+    """All players of the sections that these players are of, in the order of the project."""
+    chosen = {
+        id
+        for section in sections(project)
+        if not {*player_ids}.isdisjoint(section.player_ids)
+        for id in section.player_ids
+    }
+    return tuple(player.id for player in project.players if player.id in chosen)
