@@ -20,7 +20,8 @@ BEFORE_LINE: Final = frozenset(
     (
         *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),
         *("marks.double_tongue", "marks.breath", "marks.crescendo", "marks.dynamic_sfz"),
-        *("application.preferences", "application.about", "workspace.reset", "lanes.unfold_all", "cameras.keep"),
+        *("application.preferences", "application.about", "workspace.reset", "lanes.stacked", "lanes.unfold_all"),
+        "cameras.keep",
     )
 )
 """Rows that a line goes before; another line stands wherever the subject of the rows changes."""

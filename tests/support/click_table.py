@@ -140,6 +140,7 @@ timeline.count_*, time_display > * ? time
 timeline.ghosts, timeline.selected, timeline.all, timeline.alone, ghosts_mode > * ? ghosts + lanes
 */fold ? lanes + project
 timeline.marks = lanes
+stacked_* = project
 lanes.*, lanes_menu > *, lane header > * ? lanes
 front_player ? players
 lane breath > * ? project + selection

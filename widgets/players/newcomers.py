@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import dancers, players
@@ -88,13 +86,6 @@ def remove_players(session: Session) -> None:
     """Send the selected players away."""
     chosen = session.players
     session.attempt(_counted("edit.remove_players", chosen), lambda project: players.remove_players(project, chosen))
-
-
-def mark_players(session: Session, field: Literal["muted", "soloed"], on: bool, chosen: tuple[str, ...]) -> None:
-    """Mute or solo players, or end it."""
-    ids = {"muted": ("edit.unmute", "edit.mute"), "soloed": ("edit.unsolo", "edit.solo")}
-    name = _counted(ids[field][on], chosen)
-    session.attempt(name, lambda project: players.change(project, chosen, **{field: on}))
 
 
 def randomise_players(session: Session) -> None:

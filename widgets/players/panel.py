@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, Literal
+from typing import Any
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QSplitter, QWidget
 
+from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.errors import Message
 from app.features import modules
@@ -30,7 +31,6 @@ from widgets.common.text import sentence
 from widgets.players.newcomers import (
     add_player,
     duplicate_players,
-    mark_players,
     randomise_players,
     remove_players,
     reset_players,
@@ -302,7 +302,7 @@ class PlayersPanel(Retranslated, QWidget):
             Message("edit.rename_player", {"player": before}), lambda project: edit.rename(project, player_id, name)
         )
 
-    def _toggle(self, field: Literal["muted", "soloed"], player_ids: tuple[str, ...]) -> None:
+    def _toggle(self, field: PlayerMark, player_ids: tuple[str, ...]) -> None:
         """Mute or solo a section; or one player, with all the selected where the player is one of them."""
         session = self._session
         chosen = session.players if len(player_ids) == 1 and player_ids[0] in session.players else player_ids

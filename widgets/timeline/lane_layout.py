@@ -13,10 +13,11 @@ from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.project.document import Change
 from widgets.common.clicks import on_click
-from widgets.common.menus import passing_menu
+from widgets.common.menus import add_actions, passing_menu
 from widgets.timeline.lane import Lane
 from widgets.timeline.roll.piano_roll import PianoRoll
 from widgets.timeline.stack import LaneStack
+from widgets.timeline.stacked_players import STACKED_IDS, StackedPlayers
 
 
 class LaneState(msgspec.Struct, frozen=True, kw_only=True):
@@ -35,6 +36,8 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
         How the players behind the one in front are seen.
     marks : bool
         Whether slurs, articulations and dynamics are seen.
+    stacked : bool
+        Whether lanes of several selected players stand one under another.
     """
 
     order: tuple[str, ...] = ()
@@ -44,6 +47,7 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
     heights: dict[str, int] = {}
     ghosts: Ghosts = Ghosts.GHOSTS
     marks: bool = True
+    stacked: bool = False
 
 
 class LaneLayout(QObject):
@@ -55,6 +59,7 @@ class LaneLayout(QObject):
         Every lane by id, in the order of a new window.
     stack : LaneStack
     roll : PianoRoll
+    players : StackedPlayers
     parent : QWidget
 
     Signals
@@ -65,9 +70,16 @@ class LaneLayout(QObject):
 
     changed = Signal()
 
-    def __init__(self, lanes: Mapping[str, Lane], stack: LaneStack, roll: PianoRoll, parent: QWidget) -> None:
+    def __init__(
+        self,
+        lanes: Mapping[str, Lane],
+        stack: LaneStack,
+        roll: PianoRoll,
+        players: StackedPlayers,
+        parent: QWidget,
+    ) -> None:
         super().__init__(parent)
-        self._lanes, self._stack, self._roll = lanes, stack, roll
+        self._lanes, self._stack, self._roll, self._players = lanes, stack, roll, players
         self._hidden: set[str] = set()
         self._shown: set[str] = set()
         self._parent = parent
@@ -77,8 +89,10 @@ class LaneLayout(QObject):
         for lane in lanes.values():
             lane.set_folded(lane.folded_at_first)
             lane.fold_changed.connect(self.changed)
+            lane.fold_changed.connect(self._show_kinds)
         roll.session.changed.connect(self._project_changed)
         stack.changed.connect(self.changed)
+        players.changed.connect(self.show_lanes)
         self.show_lanes()
 
     # State
@@ -95,6 +109,7 @@ class LaneLayout(QObject):
             heights=self._stack.heights_px,
             ghosts=self._roll.ghosts_mode,
             marks=self._roll.marks.marks.shown,
+            stacked=self._players.requested,
         )
 
     def set_state(self, state: LaneState) -> None:
@@ -112,7 +127,9 @@ class LaneLayout(QObject):
 
     def is_shown(self, lane_id: str) -> bool:
         """True if a lane is there, folded or not."""
-        return not self._lanes[lane_id].isHidden()
+        lane = self._lanes[lane_id]
+        idle = lane.hides_empty and lane.is_empty and lane_id not in self._shown
+        return lane_id not in self._hidden and not idle
 
     def is_open(self, lane_id: str) -> bool:
         """True if a lane is there, and not folded."""
@@ -158,9 +175,20 @@ class LaneLayout(QObject):
 
     def show_lanes(self) -> None:
         """Show the lanes that are not hidden and, where an empty one hides, have something in them."""
+        stacked = STACKED_IDS if self._players.active else ()
         for id, lane in self._lanes.items():
-            idle = lane.hides_empty and lane.is_empty and id not in self._shown
-            lane.setVisible(id not in self._hidden and not idle)
+            lane.setVisible(self.is_shown(id) and id not in stacked)
+        self._show_kinds()
+
+    def _show_kinds(self) -> None:
+        """Show the lanes that are open of several players."""
+        self._players.show_kinds([id for id in STACKED_IDS if self.is_open(id)])
+
+    def set_stacked(self, stacked: bool) -> None:
+        """Stack the lanes of selected players, or show those of the player in front."""
+        if stacked != self._players.requested:
+            self._players.request(stacked)
+            self.changed.emit()
 
     # Menus
 
@@ -171,6 +199,8 @@ class LaneLayout(QObject):
             action.setCheckable(True)
             action.setChecked(self.is_shown(lane.id))
             action.toggled.connect(lambda shown, id=lane.id: self.show_lane(id, shown))
+        self.menu.addSeparator()
+        add_actions(self.menu, self._roll.session, ("lanes.stacked",))
         self.menu.addSeparator()
         on_click(self.menu.addAction(self.tr("timeline_panel.unfold_all")), lambda: self.fold_all(False))
         on_click(self.menu.addAction(self.tr("timeline_panel.fold_all")), lambda: self.fold_all(True))

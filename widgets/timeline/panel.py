@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple, TypeAlias
 import msgspec
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QScrollBar, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QScrollBar, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
@@ -30,6 +30,7 @@ from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
+from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
 from widgets.timeline.tool_bar import ToolBar
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
@@ -107,13 +108,14 @@ class TimelinePanel(Retranslated, QWidget):
         self.tool_bar = ToolBar(session, self.roll, self)
         self.flags = Flags(session, self.axis, self)
         self.ruler = Ruler(session, self.axis, self)
-        self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self)
+        self.players = StackedPlayers(session, self.axis)
+        self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self.players, self)
         for lane in self.lanes.values():
             lane.sought.connect(self.sought)
             lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             lane.header.customContextMenuRequested.connect(self._header_menu)
         self.playhead = Playhead(session, self)
-        self.lane_layout = LaneLayout(self.lanes, self.stack, self.roll, self)
+        self.lane_layout = LaneLayout(self.lanes, self.stack, self.roll, self.players, self)
         self.lane_layout.changed.connect(self.arranged)
 
         in_column(
@@ -129,6 +131,10 @@ class TimelinePanel(Retranslated, QWidget):
         # The playback is notified there: a playhead that is set is sought.
         self.sought.connect(session.set_playhead)
         self.setFocusProxy(self.roll.plot)
+        self.players.made.connect(self._stack_made)
+        self.players.changed.connect(self._give_focus)
+        self.players.changed.connect(lambda: self.tool_bar.ghosts_button.setEnabled(not self.stacking))
+        session.players_changed.connect(self._show_front)
         self.axis.changed.connect(self._axis_changed)
         session.changed.connect(self._session_changed)
         session.performance_changed.connect(self._set_limits)
@@ -165,13 +171,25 @@ class TimelinePanel(Retranslated, QWidget):
     # What commands ask for
 
     @property
+    def rolls(self) -> tuple[PianoRoll, ...]:
+        """The rolls that are shown: of the player in front, or of several."""
+        return tuple(place.roll for place in self.players.shown) if self.players.active else (self.roll,)
+
+    @property
+    def front_roll(self) -> PianoRoll:
+        """The roll of the player in front that is shown."""
+        front = self.players.front
+        return self.roll if front is None else front.roll
+
+    @property
     def tool(self) -> Tool:
         """Tool of the left button on notes."""
         return self.roll.tool
 
     def set_tool(self, tool: Tool) -> None:
         """Let the left button do this."""
-        self.roll.set_tool(tool)
+        for roll in {self.roll, *self.rolls}:
+            roll.set_tool(tool)
         self.tool_bar.show_state()
 
     @property
@@ -192,7 +210,8 @@ class TimelinePanel(Retranslated, QWidget):
 
     def show_marks(self, shown: bool) -> None:
         """Show or hide slurs, articulations and dynamics."""
-        self.roll.marks.set_shown(shown)
+        for roll in {self.roll, *self.rolls}:
+            roll.marks.set_shown(shown)
         self.dynamics.set_shown(shown)
         self.lane_layout.show_lanes()
         self.arranged.emit()
@@ -207,16 +226,21 @@ class TimelinePanel(Retranslated, QWidget):
 
     def zoom_in_pitch(self) -> None:
         """Make the notes taller."""
-        self.roll.zoom_pitch(ZOOM_A_KEY)
+        self._zoom_pitch(ZOOM_A_KEY)
 
     def zoom_out_pitch(self) -> None:
         """Make the notes lower, so that more pitches are in sight."""
-        self.roll.zoom_pitch(1 / ZOOM_A_KEY)
+        self._zoom_pitch(1 / ZOOM_A_KEY)
+
+    def _zoom_pitch(self, factor: float) -> None:
+        for roll in self.rolls:
+            roll.zoom_pitch(factor)
 
     def fit(self) -> None:
-        """Show the whole piece, and the pitches of the player in front."""
+        """Show the whole piece, and the pitches of the players shown."""
         self.axis.fit()
-        self.roll.fit_pitch()
+        for roll in self.rolls:
+            roll.fit_pitch()
 
     def zoom_to_selection(self) -> None:
         """Show what is selected."""
@@ -227,7 +251,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     def ask_quantise(self) -> None:
         """Open the quantise popover over the roll."""
-        self.quantise.open_over(self.roll)
+        self.quantise.open_over(self.front_roll)
 
     def ask_take_name(self) -> None:
         """Type the selected take's name where it stands."""
@@ -241,7 +265,8 @@ class TimelinePanel(Retranslated, QWidget):
     def reveal(self, time_s: float) -> None:
         """Bring a time into view, and the notes that are selected there."""
         self.axis.reveal(time_s)
-        self.roll.bring_notes_into_view(self.session.selection.notes)
+        for roll in self.rolls:
+            roll.bring_notes_into_view(self.session.selection.notes)
 
     @property
     def seen(self) -> VisibleRange:
@@ -264,15 +289,16 @@ class TimelinePanel(Retranslated, QWidget):
 
     def offer_fingerings(self, player_id: str, note_id: str, why: Message) -> None:
         """Show the fingerings of a note beside it, and why another one is none."""
-        lane, plan = self.lanes[FingeringLane.id], self.session.plans.get(player_id)
+        lane = self.players.lane_in_front(FingeringLane.id) or self.lanes[FingeringLane.id]
+        plan, roll = self.session.plans.get(player_id), self.front_roll
         events = () if plan is None else plan.fingerings
         event = next((event for event in events if event.note_id == note_id), None)
-        note = self.roll.model.note(note_id)
+        note = roll.model.note(note_id)
         if event is None or not isinstance(lane, FingeringLane):
             return
         x = min(max(self.axis.x_px(event.start_s), 0.0), self.axis.width_px - 60.0)
-        y = self.roll.y_px(note.pitch + 1) if note is not None else 0.0
-        place = self.roll.plot.mapTo(self.window(), QPoint(round(x), round(min(max(y, 0.0), self.roll.plot.height()))))
+        y = roll.y_px(note.pitch + 1) if note is not None else 0.0
+        place = roll.plot.mapTo(self.window(), QPoint(round(x), round(min(max(y, 0.0), roll.plot.height()))))
         lane.alternates.show_for(player_id, event, place, sentence(why, self.session, player_id))
 
     def fold_lanes(self, folded: bool) -> None:
@@ -290,6 +316,46 @@ class TimelinePanel(Retranslated, QWidget):
             self.lane_layout.set_state(saved)
             self.set_ghosts(saved.ghosts)
             self.show_marks(saved.marks)
+            self.set_stacked(saved.stacked)
+
+    @property
+    def stacked(self) -> bool:
+        """True if the lanes of several selected players stand one under another."""
+        return self.players.requested
+
+    @property
+    def stacking(self) -> bool:
+        """True while the lanes of several players are shown."""
+        return self.players.active
+
+    def set_stacked(self, stacked: bool) -> None:
+        """Stack the lanes of selected players, or show those of the player in front."""
+        self.lane_layout.set_stacked(stacked)
+
+    def _stack_made(self, place: PlayerLanes) -> None:
+        """Connect lanes of a player that were not there before."""
+        for lane in place.lanes.values():
+            lane.sought.connect(self.sought)
+        place.roll.set_tool(self.tool)
+        place.roll.marks.set_shown(self.marks_shown)
+        place.roll.reported.connect(self.tool_bar.report)
+
+    def _show_front(self) -> None:
+        """Bring the notes of the player in front into view, unless the mouse is at work in a lane of the player."""
+        self._give_focus()
+        held = QApplication.mouseButtons() != Qt.MouseButton.NoButton and self.stack.underMouse()
+        if self.players.active and not held:
+            self.stack.bring_into_view(self.roll)
+
+    def _give_focus(self) -> None:
+        """The keys that come to the timeline are for the notes of the player in front."""
+        before, now = self.focusProxy(), self.front_roll.plot
+        if before is None or before is now:
+            return
+        had_focus = before.hasFocus()
+        self.setFocusProxy(now)
+        if had_focus and not before.isVisible():
+            now.setFocus()
 
     def _header_menu(self, place: QPoint) -> None:
         header = self.sender()
@@ -342,13 +408,17 @@ class TimelinePanel(Retranslated, QWidget):
 
     def _playhead_moved(self, playhead_s: float) -> None:
         axis, session = self.axis, self.session
-        if session.playing and session.follow and not any(lane.dragging for lane in self.lanes.values()):
+        if session.playing and session.follow and not self._is_dragged():
             share = (playhead_s - axis.start_s) / axis.span_s
             if not 0 <= share <= PAGE_AT:
                 start_s = playhead_s - PAGE_TO * axis.span_s
                 axis.show(start_s, start_s + axis.span_s)
-                self.roll.follow()
+                for roll in self.rolls:
+                    roll.follow()
         self._place_playhead()
+
+    def _is_dragged(self) -> bool:
+        return self.players.dragging or any(lane.dragging for lane in self.lanes.values())
 
     def _place_playhead(self) -> None:
         x = self.axis.x_px(self.session.playhead_s)
@@ -371,7 +441,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
-        self.axis.set_width(self.roll.plot.width())
+        self.axis.set_width(self.front_roll.plot.width())
         if not self._fitted:
             # Only now is it known how wide everything is.
             self._fitted = True

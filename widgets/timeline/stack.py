@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QFrame, QScrollArea, QWidget
 
@@ -13,6 +13,7 @@ from app.editor.tokens import SPLITTER_PX
 from widgets.common.icons import draw_grip
 from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.timeline.lane import FOLDED_PX, Lane
+from widgets.timeline.stacked_players import StackedPlayers
 
 LINE_PX = 1
 """Below a lane that has only one height."""
@@ -75,6 +76,8 @@ class LaneStack(QScrollArea):
     lanes : sequence of Lane
     elastic : Lane
         One of them.
+    players : StackedPlayers
+        Lanes of several players, below the place of the elastic lane; what is left over is theirs while they are shown.
 
     Signals
     -------
@@ -84,14 +87,21 @@ class LaneStack(QScrollArea):
 
     changed = Signal()
 
-    def __init__(self, session: Session, lanes: Sequence[Lane], elastic: Lane, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        lanes: Sequence[Lane],
+        elastic: Lane,
+        players: StackedPlayers,
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
         self.setObjectName("lanes")
         self.session = session
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self._elastic = elastic
+        self._elastic, self._players = elastic, players
         self._order = list(lanes)
         self._set_px: dict[str, int] = {}
         self._column = in_column(STRETCH, margins=0, spacing=0)
@@ -102,7 +112,9 @@ class LaneStack(QScrollArea):
             lane.height_asked.connect(self._arrange_if_idle)
             lane.resized_by_hand.connect(self._resize_by_hand)
             lane.unfolded_by_hand.connect(self._bring_sender_into_view)
-        self.setWidget(panel(self._column))
+        players.changed.connect(self._arrange_if_idle)
+        self._contents = panel(self._column)
+        self.setWidget(self._contents)
         self._fill()
 
     @property
@@ -156,6 +168,8 @@ class LaneStack(QScrollArea):
             handle.show_use(self._resizes(lane))
             handle.setVisible(lane in shown)
         lines_px = sum(self._handles[lane.id].height() for lane in shown)
+        if self._players.active:
+            lines_px += self._players.needed_px
         free = [lane for lane in shown if not lane.folded and lane.id not in self._set_px]
         heights = {lane.id: FOLDED_PX if lane.folded else self._set_px.get(lane.id, 0) for lane in shown}
         heights |= {lane.id: self._needed_px(lane) for lane in free}
@@ -166,14 +180,16 @@ class LaneStack(QScrollArea):
         for lane in free:
             heights[lane.id] += int(share * wishes[lane.id])
         left_over = self.viewport().height() - sum(heights.values()) - lines_px
-        if left_over > 0 and self._elastic in free:
+        if self._players.active:
+            self._players.set_room(self._players.needed_px + max(left_over, 0))
+        elif left_over > 0 and self._elastic in free:
             heights[self._elastic.id] += left_over
         for lane in shown:
             lane.setFixedHeight(heights[lane.id])
 
     def _arrange_if_idle(self) -> None:
         """Nothing moves under a mouse that drags."""
-        if not any(lane.dragging for lane in self._order):
+        if not self._players.dragging and not any(lane.dragging for lane in self._order):
             self.arrange()
 
     def _needed_px(self, lane: Lane) -> int:
@@ -189,7 +205,12 @@ class LaneStack(QScrollArea):
         self.arrange()
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         bar = self.verticalScrollBar()
-        top, bottom = lane.y(), lane.y() + lane.height()
+        # The place of a hidden one is taken by the lanes of several players: that of the one in front.
+        shown = self._players.lane_in_front(lane.id) if lane.isHidden() else lane
+        if shown is None:
+            return
+        top = shown.mapTo(self._contents, QPoint(0, 0)).y()
+        bottom = top + shown.height()
         bar.setValue(min(max(bar.value(), bottom - self.viewport().height()), top))
 
     def _bring_sender_into_view(self) -> None:
@@ -210,6 +231,7 @@ class LaneStack(QScrollArea):
         for index, lane in enumerate(self._order):
             self._column.insertWidget(2 * index, lane)
             self._column.insertWidget(2 * index + 1, self._handles[lane.id])
+        self._column.insertWidget(2 * self._order.index(self._elastic) + 2, self._players)
         self.arrange()
 
     # Qt overrides

@@ -210,6 +210,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "timeline_panel.hide": ("Hide", "非表示"),
     "timeline_panel.lanes": ("Lanes", "レーン"),
     "timeline_panel.move_down": ("Move Down", "下へ移動"),
+    "timeline_panel.mute": ("Mute this player", "この奏者をミュート"),
+    "timeline_panel.solo": ("Solo this player", "この奏者をソロ"),
     "timeline_panel.move_up": ("Move Up", "上へ移動"),
     "timeline_panel.show_whole_piece_double_click": (
         "Zoom to whole piece (double-click the ruler)",

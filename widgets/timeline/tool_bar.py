@@ -83,7 +83,7 @@ class ToolBar(Retranslated, QWidget):
         self.readout = named(Label(parent=self), "readout")
         self.readout.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         row.addWidget(self.readout)
-        roll.reported.connect(self._report)
+        roll.reported.connect(self.report)
         session.selection_changed.connect(self._count)
         session.changed.connect(self._session_changed)
         session.players_changed.connect(self._fill_players)
@@ -110,7 +110,7 @@ class ToolBar(Retranslated, QWidget):
         self.ghosts_button.setText(self._modes[mode].text())
         self.ghosts_button.setIcon(icon(GHOST_ICONS[mode], self._session.tokens))
 
-    def _report(self, text: str) -> None:
+    def report(self, text: str) -> None:
         """Show what is under the mouse; nothing: how much is selected."""
         if text:
             self.readout.setText(text)
@@ -122,7 +122,9 @@ class ToolBar(Retranslated, QWidget):
         self.readout.setText(self.tr("tool_bar.selected_notes").format(count=count) if count else "")
 
     def _choose_tool(self, button: QToolButton) -> None:
-        self._roll.set_tool(next(tool for tool, each in self.tools.items() if each is button))
+        view = self._session.timeline_view
+        if view is not None:
+            view.set_tool(next(tool for tool, each in self.tools.items() if each is button))
 
     def _choose_ghosts(self, mode: Ghosts) -> None:
         self._roll.set_ghosts(mode)
@@ -131,7 +133,9 @@ class ToolBar(Retranslated, QWidget):
     def _choose_player(self, index: int) -> None:
         self._session.set_players((self.player_box.itemData(index),))
         # The arrows are for notes again.
-        self._roll.plot.setFocus()
+        timeline = self.parentWidget()
+        if timeline is not None:
+            timeline.setFocus()
 
     def _session_changed(self, change: Change) -> None:
         if change.opened or change.before.players is not change.after.players:

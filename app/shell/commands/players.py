@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Literal
 
+from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import players as edit
@@ -126,10 +126,10 @@ def _has_several(session: Session) -> bool:
     return len(session.project.players) > 1
 
 
-def _marking(name: str, mark: Literal["muted", "soloed"], key: str) -> Action:
+def _marking(name: str, mark: PlayerMark, key: str) -> Action:
     return Action(
         f"players.{name}",
-        lambda session, on: newcomers.mark_players(session, mark, on, session.players),
+        lambda session, on: mark_players(session, mark, on, session.players),
         "edit/players",
         key,
         "players",
@@ -139,7 +139,7 @@ def _marking(name: str, mark: Literal["muted", "soloed"], key: str) -> Action:
     )
 
 
-def _marking_section(name: str, mark: Literal["muted", "soloed"], key: str) -> Action:
+def _marking_section(name: str, mark: PlayerMark, key: str) -> Action:
     """A row that marks the sections of the selected players; it is on where all of them are marked."""
 
     def own(session: Session) -> tuple[str, ...]:
@@ -147,7 +147,7 @@ def _marking_section(name: str, mark: Literal["muted", "soloed"], key: str) -> A
 
     return Action(
         f"players.{name}_section",
-        lambda session, on: newcomers.mark_players(session, mark, on, own(session)),
+        lambda session, on: mark_players(session, mark, on, own(session)),
         "edit/players",
         key,
         "players",

@@ -110,6 +110,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.lanes.problems": ("Problems Lane", "問題レーン"),
     "action.lanes.roll": ("Notes Lane", "音符レーン"),
     "action.lanes.takes": ("Takes Lane", "テイクレーン"),
+    "action.lanes.stacked": ("Stack Lanes of Selected Players", "選択した奏者のレーンを並べる"),
     "action.lanes.unfold_all": ("Expand All Lanes", "すべてのレーンを展開"),
     "action.notes.copy": ("Copy", "コピー"),
     "action.notes.cut": ("Cut", "切り取り"),

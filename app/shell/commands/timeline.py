@@ -28,8 +28,12 @@ def _shown(ghosts: Ghosts, icon: str) -> Action:
     def checked(session: Session) -> bool:
         return session.timeline_view is not None and session.timeline_view.ghosts is ghosts
 
+    def enabled(session: Session) -> bool:
+        # Each of several stacked rolls shows one player alone.
+        return session.timeline_view is not None and not session.timeline_view.stacking
+
     run = on_timeline(lambda view: view.set_ghosts(ghosts))
-    return Action(f"timeline.{ghosts.value}", run, "view/notes", checked=checked, icon=icon)
+    return Action(f"timeline.{ghosts.value}", run, "view/notes", enabled=enabled, checked=checked, icon=icon)
 
 
 def _show_marks(session: Session, shown: bool) -> None:
@@ -64,6 +68,15 @@ def _lane(id: str) -> Action:
 
     keys = f"Ctrl+Alt+{(NUMBERED.index(id) + 1) % 10}" if id in NUMBERED else ""
     return Action(f"lanes.{id}", run, "view/lanes", keys, enabled=_has_view, checked=checked)
+
+
+def _stack(session: Session, stacked: bool) -> None:
+    if session.timeline_view is not None:
+        session.timeline_view.set_stacked(stacked)
+
+
+def _is_stacked(session: Session) -> bool:
+    return session.timeline_view is not None and session.timeline_view.stacked
 
 
 def _fold(name: str, folded: bool) -> Action:
@@ -101,6 +114,15 @@ ACTIONS: tuple[Action, ...] = (
     _counted("seconds"),
     _counted("frames"),
     *map(_lane, LANES),
+    Action(
+        "lanes.stacked",
+        _stack,
+        "view/lanes",
+        "Ctrl+Alt+S",
+        enabled=lambda session: _has_view(session) and (len(session.players) > 1 or _is_stacked(session)),
+        checked=_is_stacked,
+        icon="players",
+    ),
     _fold("unfold_all", False),
     _fold("fold_all", True),
 )

@@ -596,7 +596,7 @@ CASES: dict[str, Case] = {
     "players.select_section": Case(lambda d: d.session.players == tuple(p.id for p in d.project.players[:2])),
     "players.grouped": Case(lambda d: not d.session.groups_players, lambda d: twice_the_players(d)),
     "players.fold_sections": Case(
-        lambda d: d.session.folded == dict.fromkeys(("players_section_trumpets", "players_section_trombones"), True),
+        lambda d: all(d.session.folded.get(f"players_section_{name}") for name in ("trumpets", "trombones")),
         lambda d: twice_the_players(d),
     ),
     "players.hear_everyone": Case(
@@ -820,6 +820,7 @@ CASES: dict[str, Case] = {
         f"lanes.{name}": toggled(f"lanes.{name}", lambda d, name=name: d.program.window.timeline.is_lane_open(name))
         for name in LANES
     },
+    "lanes.stacked": Case(lambda d: d.program.window.timeline.players.active, command("players.select_all")),
     "lanes.fold_all": becomes(lambda d: any(map(d.program.window.timeline.is_lane_open, LANES)), False),
     "lanes.unfold_all": becomes(
         lambda d: any(lane.folded for lane in d.program.window.timeline.lanes.values() if not lane.isHidden()),
@@ -898,7 +899,8 @@ def unbreathed(desk: Desk) -> str:
 
 
 def twice_the_players(desk: Desk) -> None:
-    """Enough of them for sections."""
+    """Enough of them for sections, which are shown."""
+    desk.session.set_groups_players(True)
     for name in ("players.select_all", "players.duplicate"):
         actions(desk.session)[name].trigger()
 

@@ -1,0 +1,18 @@
+"""Mute and solo of players, for every list and lane that has their buttons."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from app.editor.session import Session
+from app.errors import Message
+from app.project.edit import players
+
+PlayerMark: TypeAlias = Literal["muted", "soloed"]
+
+
+def mark_players(session: Session, field: PlayerMark, on: bool, chosen: tuple[str, ...]) -> None:
+    """Mute or solo players, or end it."""
+    ids = {"muted": ("edit.unmute", "edit.mute"), "soloed": ("edit.unsolo", "edit.solo")}
+    name = Message(ids[field][on], {"count": len(chosen)})
+    session.attempt(name, lambda project: players.change(project, chosen, **{field: on}))

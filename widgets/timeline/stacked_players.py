@@ -1,0 +1,311 @@
+"""Lanes of several players one under another: of each chosen player the open lanes, under the player's name."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Final
+
+from PySide6.QtCore import QEvent, QObject, QRect, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QMouseEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QToolButton, QWidget
+
+from app.editor.player_marks import PlayerMark, mark_players
+from app.editor.session import Session
+from app.editor.timeline_view import Ghosts
+from app.project.document import Change
+from instrument_maps.library import all_maps
+from widgets.common.clicks import on_switch
+from widgets.common.controls import Retranslated, named
+from widgets.common.instrument_name import instrument_name
+from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.timeline.lane import FOLDED_PX, Lane
+from widgets.timeline.lanes.breath import BreathLane
+from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
+from widgets.timeline.player_session import PlayerSession
+from widgets.timeline.roll.piano_roll import PianoRoll
+from widgets.timeline.zoom_and_scroll import TimeAxis
+
+KINDS: Final[tuple[type[Lane], ...]] = (PianoRoll, FingeringLane, BreathLane)
+"""Lanes that are stacked; the others are of the player in front."""
+STACKED_IDS: Final = tuple(kind.id for kind in KINDS)
+MOST_STACKED: Final = 8
+"""Players whose lanes are shown at once."""
+CAPTION_PX: Final = 26
+HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 96, FingeringLane.id: 48, BreathLane.id: 34}
+"""Heights by the lane's id, while the user set no other."""
+MOST_ROLL_PX: Final = 260
+"""Rolls grow to this height where there is room."""
+MOST_PX: Final = 600
+
+
+class PlayerCaption(Retranslated, QWidget):
+    """The line above a player's lanes: colour, name, instrument, mute and solo; a click puts the player in front."""
+
+    def __init__(self, session: PlayerSession, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("stacked_player")
+        self.setFixedHeight(CAPTION_PX)
+        self._session, self._shared = session, session.of_lanes
+        self._buttons: dict[PlayerMark, QToolButton] = {
+            "muted": self._button("muted", "M", "timeline_panel.mute"),
+            "soloed": self._button("soloed", "S", "timeline_panel.solo"),
+        }
+        in_row(STRETCH, *self._buttons.values(), of=self, margins=(0, 1, 8, 1), spacing=2)
+        self._shared.theme_changed.connect(self._colour_buttons)
+        self._colour_buttons()
+
+    def _button(self, mark: PlayerMark, letter: str, tip_id: str) -> QToolButton:
+        button = named(QToolButton(self), f"stacked_{mark}")
+        button.setText(letter)
+        button.setCheckable(True)
+        button.setFixedSize(CAPTION_PX - 2, CAPTION_PX - 2)
+        button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        on_switch(button, lambda on: mark_players(self._shared, mark, on, (self._session.player_id,)))
+        return self.texted(button, tip=tip_id, name=tip_id)
+
+    def _colour_buttons(self) -> None:
+        tokens = self._shared.tokens
+        colours: dict[PlayerMark, str] = {"muted": tokens.warning, "soloed": tokens.good}
+        for mark, colour in colours.items():
+            style = f"QToolButton:checked {{ background: {colour}; border-color: {colour}; color: {tokens.sunken}; }}"
+            self._buttons[mark].setStyleSheet(style)
+
+    def show_player(self) -> None:
+        """Show the player's marks, name and colour."""
+        player = self._session.player
+        for mark, button in self._buttons.items():
+            button.setChecked(player is not None and getattr(player, mark))
+        self.setAccessibleName(player.name if player is not None else "")
+        self.update()
+
+    # Qt overrides
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._session.bring_forward()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        player, tokens, painter = self._session.player, self._shared.tokens, QPainter(self)
+        painter.fillRect(self.rect(), QColor(tokens.raised))
+        if player is None:
+            return
+        if self._session.is_in_front:
+            fill = QColor(tokens.accent)
+            fill.setAlphaF(0.28)
+            painter.fillRect(self.rect(), fill)
+        painter.fillRect(QRect(0, 0, 5, self.height()), QColor(self._shared.colour(player)))
+        painter.setPen(QColor(tokens.line))
+        painter.drawLine(self.rect().topLeft(), self.rect().topRight())
+        font = QFont(self.font())
+        font.setBold(True)
+        painter.setFont(font)
+        painter.setPen(QColor(tokens.text))
+        room = self.rect().adjusted(14, 0, -2 * CAPTION_PX - 14, 0)
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter, player.name)
+        instrument = all_maps().get(player.instrument_id)
+        room.setLeft(room.left() + round(QFontMetricsF(font).horizontalAdvance(player.name)) + 12)
+        painter.setFont(self.font())
+        painter.setPen(QColor(tokens.text_dim))
+        name = player.instrument_id if instrument is None else instrument_name(instrument)
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter, name)
+
+
+class PlayerLanes(QObject):
+    """Caption and lanes of one place in the stack; the player there changes, the lanes are kept."""
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.session = PlayerSession(session)
+        self.caption = PlayerCaption(self.session, parent)
+        self.lanes: dict[str, Lane] = {}
+        for kind in KINDS:
+            lane = self.lanes[kind.id] = kind(self.session.of_lanes, axis, parent)
+            lane.setObjectName(f"stacked_{kind.id}")
+            lane.plot.installEventFilter(self)
+            lane.ask_height(HEIGHTS_PX[kind.id], HEIGHTS_PX[kind.id] // 2)
+        self.roll.set_ghosts(Ghosts.ALONE)
+
+    @property
+    def roll(self) -> PianoRoll:
+        """The player's notes."""
+        roll = self.lanes[PianoRoll.id]
+        assert isinstance(roll, PianoRoll)
+        return roll
+
+    # Qt overrides
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        # Commands and menus are about the player in front: the lane's, before it answers.
+        if event.type() in (QEvent.Type.MouseButtonPress, QEvent.Type.FocusIn, QEvent.Type.ShortcutOverride):
+            self.session.bring_forward()
+        return super().eventFilter(watched, event)
+
+
+class StackedPlayers(QWidget):
+    """The stack: of the selected players, in their order, as soon as there are several.
+
+    Selecting one of them only puts that one in front; selecting one player who is not among them ends the stack until
+    several are selected.
+
+    Signals
+    -------
+    changed()
+        Others are shown, or their lanes have other heights.
+    made(object)
+        A `PlayerLanes` was made.
+    """
+
+    changed = Signal()
+    made = Signal(object)
+
+    def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("stacked_players")
+        self._session, self._axis = session, axis
+        self._requested = False
+        self._ids: tuple[str, ...] = ()
+        self._chosen: frozenset[str] = frozenset()
+        self._open: tuple[str, ...] = STACKED_IDS
+        self._heights = dict(HEIGHTS_PX)
+        self._places: list[PlayerLanes] = []
+        self._column = in_column(STRETCH, of=self, margins=0, spacing=0)
+        self.hide()
+        session.players_changed.connect(self._choose)
+        session.changed.connect(self._session_changed)
+        session.theme_changed.connect(self._show_captions)
+
+    @property
+    def requested(self) -> bool:
+        """True if the lanes of several selected players are to be stacked."""
+        return self._requested
+
+    def request(self, stacked: bool) -> None:
+        """Stack the lanes of selected players, or show those of the player in front."""
+        if stacked != self._requested:
+            self._requested = stacked
+            self._chosen = frozenset()
+            self._choose()
+
+    @property
+    def active(self) -> bool:
+        """True while lanes are stacked."""
+        return len(self._ids) > 1
+
+    @property
+    def shown(self) -> tuple[PlayerLanes, ...]:
+        """The players' lanes, from the top."""
+        return tuple(self._places[: len(self._ids)])
+
+    @property
+    def front(self) -> PlayerLanes | None:
+        """The lanes of the player in front, if they are stacked."""
+        return next((one for one in self.shown if one.session.is_in_front), None)
+
+    def lane_in_front(self, lane_id: str) -> Lane | None:
+        """The lane of a kind of the player in front, if it is stacked."""
+        return None if self.front is None or lane_id not in self._open else self.front.lanes[lane_id]
+
+    @property
+    def dragging(self) -> bool:
+        """True while a lane is dragged in."""
+        return any(lane.dragging for one in self.shown for lane in one.lanes.values())
+
+    def show_kinds(self, lane_ids: Collection[str]) -> None:
+        """Show these lanes of every player."""
+        kinds = tuple(id for id in STACKED_IDS if id in lane_ids)
+        if kinds != self._open:
+            self._open = kinds
+            self._show()
+
+    # Who is shown
+
+    def _session_changed(self, change: Change) -> None:
+        if change.opened:
+            # Players of another piece may have the same ids.
+            self._ids, self._chosen = (), frozenset()
+            self._show()
+        self._choose()
+
+    def _choose(self) -> None:
+        before, self._ids = self._ids, self._next_ids() if self._requested else ()
+        if self._ids != before:
+            self._show()
+        else:
+            self._show_captions()
+
+    def _next_ids(self) -> tuple[str, ...]:
+        project, chosen = self._session.project, self._session.players
+        known = tuple(player.id for player in project.players)
+        kept = tuple(id for id in known if id in self._ids)
+        if len(chosen) > 1:
+            if self._chosen == {*chosen} and chosen[0] in kept:
+                return kept
+            self._chosen = frozenset(chosen)
+            ids = [id for id in known if id in self._chosen]
+            # The player in front is always among them.
+            first = [id for id in ids if id != chosen[0]][: MOST_STACKED - 1]
+            return tuple(id for id in ids if id == chosen[0] or id in first)
+        self._chosen = frozenset()
+        return kept if len(kept) > 1 and chosen and chosen[0] in kept else ()
+
+    def _show(self) -> None:
+        while len(self._places) < len(self._ids):
+            self._add_place()
+        for number, place in enumerate(self._places):
+            id = self._ids[number] if number < len(self._ids) else ""
+            place.session.show(id)
+            place.caption.setVisible(bool(id))
+            for lane_id, lane in place.lanes.items():
+                lane.setVisible(bool(id) and lane_id in self._open)
+        self._show_captions()
+        self.setVisible(self.active)
+        self.changed.emit()
+
+    def _add_place(self) -> None:
+        place = PlayerLanes(self._session, self._axis, self)
+        at = (1 + len(KINDS)) * len(self._places)
+        self._column.insertWidget(at, place.caption)
+        for offset, lane in enumerate(place.lanes.values()):
+            self._column.insertWidget(at + 1 + offset, lane)
+            lane.fold_changed.connect(self.changed)
+            lane.resized_by_hand.connect(self._resize)
+        self._places.append(place)
+        self.made.emit(place)
+
+    def _show_captions(self) -> None:
+        for place in self.shown:
+            place.caption.show_player()
+
+    # Heights
+
+    def _resize(self, by_px: int) -> None:
+        lane = self.sender()
+        if isinstance(lane, Lane):
+            least = HEIGHTS_PX[lane.id] // 2
+            self._heights[lane.id] = min(max(self._heights[lane.id] + by_px, least), MOST_PX)
+            self.changed.emit()
+
+    @property
+    def needed_px(self) -> int:
+        """Height with all rolls as low as they may be."""
+        return sum(self._lane_px(lane) for lane in self._lanes_in_sight()) + CAPTION_PX * len(self._ids)
+
+    def _lanes_in_sight(self) -> list[Lane]:
+        return [lane for one in self.shown for id, lane in one.lanes.items() if id in self._open]
+
+    def _lane_px(self, lane: Lane) -> int:
+        return FOLDED_PX if lane.folded else self._heights[lane.id]
+
+    def set_room(self, room_px: int) -> None:
+        """Take at least `needed_px`; rolls share what there is more."""
+        lanes = self._lanes_in_sight()
+        rolls = [lane for lane in lanes if isinstance(lane, PianoRoll) and not lane.folded]
+        more = max(room_px - self.needed_px, 0) // max(len(rolls), 1)
+        total = CAPTION_PX * len(self._ids)
+        for lane in lanes:
+            height = self._lane_px(lane)
+            if lane in rolls:
+                height = min(height + more, max(MOST_ROLL_PX, height))
+            lane.setFixedHeight(height)
+            total += height
+        self.setFixedHeight(total)
