@@ -27,8 +27,8 @@ def key_name(instrument: InstrumentMap, control: str, language: str) -> str:
     return next(signs, "") or control.replace("_", " ")
 
 
-def pressed_in_words(instrument: InstrumentMap, values: Mapping[str, float], language: str) -> str:
-    """Name all that is closed or pressed, in the order of the chart: ``"thumb hole + L1·2 + E♭ key"``, ``"open"``.
+def pressed_names(instrument: InstrumentMap, values: Mapping[str, float], language: str) -> list[str]:
+    """Name all that is closed or pressed, in the order of the chart: ``["thumb hole", "L1·2"]``, ``["open"]``.
 
     Parameters
     ----------
@@ -47,13 +47,14 @@ def pressed_in_words(instrument: InstrumentMap, values: Mapping[str, float], lan
             own = key_name(instrument, name, language)
             is_half = name in half and value < 1.0
             names.append(text(Message("fingering_words.half", {"key": own}), language) if is_half else own)
-    return _AND.join(_joined(names)) or text(Message("fingering_words.open"), language)
+    return _joined(names) or [text(Message("fingering_words.open"), language)]
 
 
 def fingering_words(instrument: InstrumentMap, label: str, language: str) -> str:
-    """A label of keys and holes in words; one of valves or a slide, and one that the map does not know, as it is."""
+    """A label of keys and holes in words, ``"thumb hole + L1·2 + E♭ key"``; one of valves or a slide, and one that the
+    map does not know, as it is."""
     values = controls_of(label, instrument.controls) if says_words(instrument.controls) else None
-    return label if values is None else pressed_in_words(instrument, values, language)
+    return label if values is None else _AND.join(pressed_names(instrument, values, language))
 
 
 def in_words(message: Message, instrument: InstrumentMap | None, language: str) -> Message:

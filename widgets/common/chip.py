@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeySequence, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
@@ -14,29 +14,12 @@ _GAP_PX = 6.0
 
 
 class Chip(QAbstractButton):
-    """A rounded button with a text and a smaller note; checked it is filled, made by hand it is marked.
+    """A rounded button with a text and a smaller note; checked it is filled, made by hand it is marked."""
 
-    Parameters
-    ----------
-    by_hand : bool
-        It is the user's choice.
-    outlined : bool
-        It is what the generator chose.
-    """
-
-    def __init__(
-        self,
-        session: Session,
-        text: str,
-        note: str = "",
-        *,
-        by_hand: bool = False,
-        outlined: bool = False,
-        parent: QWidget | None = None,
-    ) -> None:
+    def __init__(self, session: Session, text: str, note: str = "", parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._note, self._by_hand, self._outlined = note, by_hand, outlined
+        self._note, self._by_hand, self._outlined = note, False, False
         self.setText(text)
         # It is drawn as it is written: an `&` names no key.
         self.setShortcut(QKeySequence())
@@ -81,18 +64,25 @@ class Chip(QAbstractButton):
         font.setPointSizeF(max(font.pointSizeF() - 1.0, 9.0))
         return font
 
+    def face_px(self) -> QSizeF:
+        """The size of what is drawn before the note: the text."""
+        metrics = QFontMetricsF(self.font())
+        return QSizeF(metrics.horizontalAdvance(self.text()), metrics.height())
+
+    def draw_face(self, painter: QPainter, box: QRectF, colour: QColor) -> None:
+        """Draw the text into a box as large as `face_px`."""
+        painter.drawText(box.adjusted(-1, -2, 1, 2), Qt.AlignmentFlag.AlignCenter, self.text())
+
     # Qt's own names
 
     def sizeHint(self) -> QSize:
-        width = QFontMetricsF(self.font()).horizontalAdvance(self.text()) + 2 * _PAD_PX
+        face = self.face_px()
+        width = face.width() + 2 * _PAD_PX
         if self._note:
             width += QFontMetricsF(self._note_font()).horizontalAdvance(self._note) + _GAP_PX
         if self._by_hand:
             width += 6
-        return QSize(
-            max(round(width) + 1, LEAST_TARGET_PX + 4),
-            max(LEAST_TARGET_PX + 1, round(QFontMetricsF(self.font()).height()) + 8),
-        )
+        return QSize(max(round(width) + 1, LEAST_TARGET_PX + 4), max(LEAST_TARGET_PX + 1, round(face.height()) + 8))
 
     def paintEvent(self, event: QPaintEvent) -> None:
         tokens, painter = self._session.tokens, QPainter(self)
@@ -114,12 +104,11 @@ class Chip(QAbstractButton):
             painter.setBrush(QColor(tokens.accent_text if checked else tokens.by_hand))
             painter.drawRect(QRectF(inner.left() - 3, box.center().y() - 3, 6, 6))
             inner.setLeft(inner.left() + 6)
-        painter.setPen(QColor(tokens.accent_text if checked else tokens.text))
-        align = Qt.AlignmentFlag.AlignVCenter
-        if not self._note:
-            painter.drawText(inner, align | Qt.AlignmentFlag.AlignHCenter, self.text())
-            return
-        painter.drawText(inner, align | Qt.AlignmentFlag.AlignLeft, self.text())
-        painter.setFont(self._note_font())
-        painter.setPen(QColor(tokens.accent_text if checked else tokens.text_dim))
-        painter.drawText(inner, align | Qt.AlignmentFlag.AlignRight, self._note)
+        colour, face = QColor(tokens.accent_text if checked else tokens.text), self.face_px()
+        left = inner.left() if self._note else inner.center().x() - face.width() / 2
+        painter.setPen(colour)
+        self.draw_face(painter, QRectF(QPointF(left, inner.center().y() - face.height() / 2), face), colour)
+        if self._note:
+            painter.setFont(self._note_font())
+            painter.setPen(QColor(tokens.accent_text if checked else tokens.text_dim))
+            painter.drawText(inner, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, self._note)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QMarginsF, QPointF, QRectF, QSize, QSizeF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -15,7 +15,6 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
-    QResizeEvent,
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
@@ -23,13 +22,21 @@ from app.editor.session import Session
 from app.editor.tokens import Tokens
 from app.editor.translated import tr
 from instrument_maps.fingering_label import says_words
+from instrument_maps.fingering_words import key_name, pressed_names
+from instrument_maps.key_chart import key_chart
 from instrument_maps.model import Control, InstrumentMap
-from widgets.common.key_chart import Chart, chart
+from widgets.common.fingering_picture import ChartColours, ChartPlace, chart_sides, chart_size, draw_chart
+from widgets.common.instrument_name import language
 
 DOWN = 0.5
 """A key further than this counts as down."""
 TOP_PX = 30.0
 COLUMN_PX = 50.0
+HOLE_PX = 21.0
+"""From one hole of a chart to the next."""
+MARGIN_PX = 8.0
+NAMES_GAP_PX = 8.0
+"""Between a chart and the names beside it."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +88,7 @@ def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]
 
 class FingeringDiagram(QWidget):
     """Valves as tops that are filled when down, levers beside them, a slide as a rail with its positions and a hand,
-    each with the finger that works it; keys and holes of a woodwind as a chart with a row for each hand.
+    each with the finger that works it; keys and holes of a woodwind as a chart, with the names of what is pressed.
 
     Signals
     -------
@@ -98,7 +105,6 @@ class FingeringDiagram(QWidget):
         self._values: dict[str, float] = {}
         self._slots: dict[str, tuple[Slot, ...]] = {}
         self._editable = False
-        self._chart: Chart | None = None
         self.setMouseTracking(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         session.theme_changed.connect(self.update)
@@ -121,7 +127,6 @@ class FingeringDiagram(QWidget):
                 for control in instrument.controls
                 if control.kind == "slide" and control.role == "pitch"
             }
-            self._chart = None
             self.updateGeometry()
         self._values = {control.name: controls.get(control.name, control.rest_value) for control in instrument.controls}
         self.setAccessibleDescription(self.spoken())
@@ -131,6 +136,8 @@ class FingeringDiagram(QWidget):
         """The fingering in words."""
         if self._instrument is None:
             return ""
+        if self._is_chart:
+            return ", ".join(self.names)
         return ", ".join(
             f"{control.label or control.name} {finger_text(control.finger)}"
             for control in self._keys()
@@ -153,6 +160,10 @@ class FingeringDiagram(QWidget):
 
     # Drawing
 
+    def _tip(self, control: Control) -> str:
+        assert self._instrument is not None
+        return f"{key_name(self._instrument, control.name, language())}\n{finger_text(control.finger)}"
+
     def _line_px(self) -> float:
         return QFontMetricsF(self._small()).height()
 
@@ -166,12 +177,25 @@ class FingeringDiagram(QWidget):
         """True if it is drawn as a chart of keys and holes."""
         return self._instrument is not None and says_words(self._instrument.controls)
 
-    def chart(self) -> Chart:
-        """The places of keys and holes, laid out once per width."""
+    @property
+    def names(self) -> list[str]:
+        """The names of what is pressed, as they stand beside a chart."""
         assert self._instrument is not None
-        if self._chart is None:
-            self._chart = chart(self._instrument, self.width(), QFontMetricsF(self._small()).horizontalAdvance)
-        return self._chart
+        return pressed_names(self._instrument, self._values, language())
+
+    @property
+    def chart_place(self) -> ChartPlace:
+        """The chart's place in the picture."""
+        assert self._instrument is not None
+        chart = key_chart(self._instrument)
+        hole_px = HOLE_PX * min((self.width() - 2 * MARGIN_PX) / self._chart_px().width(), 1.0)
+        left, _ = chart_sides(chart, ChartPlace(0.0, 0.0, hole_px))
+        return ChartPlace(MARGIN_PX + left, MARGIN_PX - chart.top * hole_px, hole_px)
+
+    def _chart_px(self) -> QSizeF:
+        """The size of the chart where there is room for it."""
+        assert self._instrument is not None
+        return chart_size(key_chart(self._instrument), HOLE_PX)
 
     def _key_row_px(self) -> float:
         return TOP_PX + self._line_px() + 8.0
@@ -205,39 +229,30 @@ class FingeringDiagram(QWidget):
         )
 
     def _paint_chart(self, painter: QPainter, tokens: Tokens) -> None:
-        drawn = self.chart()
+        assert self._instrument is not None
         painter.setFont(self._small())
-        metrics = QFontMetricsF(self._small())
-        for hand, top, tall in drawn.rows:
-            painter.setPen(QColor(tokens.text_dim))
-            painter.drawText(QRectF(6.0, top, 16.0, tall), Qt.AlignmentFlag.AlignCenter, hand_text(hand))
-        for cell in drawn.cells:
-            value = self._values[cell.control.name]
-            down, half = value > 0.0, cell.control.half_value is not None and 0.0 < value < 1.0
-            painter.setPen(QPen(QColor(tokens.accent if down else tokens.line_strong), 1.5))
-            painter.setBrush(QColor(tokens.accent if down and not half else tokens.surface))
-            radius = cell.box.height() / 2.0 if cell.home else 4.0
-            painter.drawRoundedRect(cell.box, radius, radius)
-            if half:
-                # The half of a hole that the finger leaves open is the upper one.
-                painter.setBrush(QColor(tokens.accent))
-                painter.drawChord(cell.box, 180 * 16, 180 * 16)
-            painter.setPen(
-                QColor(tokens.accent_text if down and not half else tokens.text if down else tokens.text_dim)
-            )
-            text = metrics.elidedText(cell.control.label, Qt.TextElideMode.ElideRight, cell.box.width() - 2.0)
-            painter.drawText(cell.box, Qt.AlignmentFlag.AlignCenter, text)
+        colours = ChartColours(
+            *map(QColor, (tokens.accent, tokens.line_strong, tokens.surface, tokens.accent_text, tokens.text_dim))
+        )
+        draw_chart(painter, key_chart(self._instrument), self._values, self.chart_place, colours)
+        left = round(self._chart_px().width() + 2 * MARGIN_PX + NAMES_GAP_PX)
+        box = QRectF(left, MARGIN_PX, self.width() - left - MARGIN_PX, self.height() - 2 * MARGIN_PX)
+        painter.setPen(QColor(tokens.text))
+        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap
+        painter.drawText(box, flags, "\n".join(self.names))
 
     def _keys_px(self) -> float:
         if self._is_chart:
-            return self.chart().height - 6.0
+            return self._chart_px().height() + 2 * MARGIN_PX - 6.0
         return self._key_row_px() if self._keys() else 0.0
 
     def _control_at(self, x: float, y: float) -> Control | None:
         if self._instrument is None:
             return None
         if self._is_chart:
-            return self.chart().at(x, y)
+            drawn, grown = self.chart_place, QMarginsF(2.0, 2.0, 2.0, 2.0)
+            charted = key_chart(self._instrument).keys
+            return next((key.control for key in charted if drawn.box(key).marginsAdded(grown).contains(x, y)), None)
         keys = self._keys()
         column_px = min(COLUMN_PX * 1.3, (self.width() - 12.0) / max(len(keys), 1))
         place = int((x - (self.width() - column_px * len(keys)) / 2.0) // column_px)
@@ -307,10 +322,6 @@ class FingeringDiagram(QWidget):
 
     # Qt's own names
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._chart = None
-        super().resizeEvent(event)
-
     def mousePressEvent(self, event: QMouseEvent) -> None:
         at = event.position()
         control = self._control_at(at.x(), at.y())
@@ -322,7 +333,7 @@ class FingeringDiagram(QWidget):
     def event(self, event: QEvent) -> bool:
         if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
             control = self._control_at(event.pos().x(), event.pos().y())
-            text = "" if control is None else f"{control.label or control.name}\n{finger_text(control.finger)}"
+            text = "" if control is None else self._tip(control)
             QToolTip.showText(event.globalPos(), text, self)
             return True
         return super().event(event)

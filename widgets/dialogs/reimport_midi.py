@@ -44,7 +44,7 @@ class ReimportDialog(Retranslated, QDialog):
         session: Session,
         outcome: Reimport,
         file: str,
-        title: Callable[[Correction], str],
+        title: Callable[[Correction, str], str],
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -131,8 +131,7 @@ class ReimportDialog(Retranslated, QDialog):
             partial(_conflict, session, names[one.part_id], one, players.get(one.part_id)) for one in outcome.conflicts
         ]
         orphans = [
-            partial(_orphan, outcome.project.player(one.player_id).name, one.correction, title)
-            for one in outcome.orphans
+            partial(_orphan, outcome.project.player(one.player_id), one.correction, title) for one in outcome.orphans
         ]
         lost = Caption("reimport_dialog.these_corrections_have_lost_their")
         count = self.texted(Label(), text=changed)
@@ -188,5 +187,5 @@ def _conflict(session: Session, name: str, conflict: Conflict, player: Player | 
     return f"{name}: {here} → {there}"
 
 
-def _orphan(player: str, correction: Correction, title: Callable[[Correction], str]) -> str:
-    return f"{player}: {title(correction)}"
+def _orphan(player: Player, correction: Correction, title: Callable[[Correction, str], str]) -> str:
+    return f"{player.name}: {title(correction, player.instrument_id)}"

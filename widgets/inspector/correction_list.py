@@ -134,7 +134,7 @@ class CorrectionList(Retranslated, QWidget):
 
     def _line(self, place: CorrectionRow, several: bool) -> ListRow:
         score, player = self._session.project.score, self._session.project.player(place.player_id)
-        title = correction_title(place.correction)
+        title = correction_title(place.correction, player.instrument_id)
         if several:
             title = f"{player.name}: {title}"
         if place.orphan:
@@ -172,7 +172,11 @@ class CorrectionList(Retranslated, QWidget):
     def _change(self, place: CorrectionRow) -> str:
         """Describe the current event and the generated one."""
         score = self._session.project.score
-        now, before = (event_text(score, event, place.correction) for event in (place.event, place.generated))
+        instrument_id, events = (
+            self._session.project.player(place.player_id).instrument_id,
+            (place.event, place.generated),
+        )
+        now, before = (event_text(score, event, instrument_id, place.correction) for event in events)
         if place.generated is None:
             return self.tr("correction_list.added_by_hand" if now else "correction_list.added_by_hand_2").format(
                 yours=now

@@ -243,8 +243,9 @@ class EventSection(Retranslated, QWidget):
             return
         waits = self._plan is not None and self._generated.plan(self._plan.player_id) is None
         score = self._session.project.score
-        before = None if waits else "" if made is None else event_text(score, made)
-        self._by_hand.show_values(before, event_text(score, first))
+        # Fingerings are shown with their notes.
+        before = None if waits else "" if made is None else event_text(score, made, "")
+        self._by_hand.show_values(before, event_text(score, first, ""))
 
     def _generated_event(self, event: Placed) -> Placed | None:
         """The generated event in an event's place."""

@@ -15,15 +15,17 @@ from app.project.edit import events as edit_events
 from app.project.edit import notes as edit_notes
 from app.project.model import Project
 from app.project.performers import Player
+from instrument_maps.fingering_label import says_words
+from instrument_maps.fingering_words import fingering_words
 from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
-from widgets.common.chip import Chip
 from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
+from widgets.common.fingering_chip import FingeringChip
 from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import words_of_tags
-from widgets.common.fingering_text import short_label
 from widgets.common.flow import FlowLayout
+from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, panel
 from widgets.common.number_slider import NumberSlider
 from widgets.common.pitch import pitch_from, pitch_text
@@ -75,8 +77,8 @@ class NoteSection(Retranslated, QWidget):
             named(FingeringDiagram(session), "fingering_diagram"), name="note_section.fingering_diagram"
         )
         self._chips = FlowLayout()
-        self._chip_labels: tuple[tuple[str, str], ...] = ()
-        self._chip_of: dict[str, Chip] = {}
+        self._chips_shown: tuple[object, ...] = ()
+        self._chip_of: dict[str, FingeringChip] = {}
         self._fingering_title, self._lips_title = Caption("note_section.fingering"), Caption("note_section.embouchure")
         self._why, self._problems = Label(), Label()
         self._fingering_by_hand = named(ByHandLine(session), "fingering_by_hand")
@@ -186,7 +188,8 @@ class NoteSection(Retranslated, QWidget):
             return
         made = fingering_of(bare, shown.note.id) if bare is not None else None
         same_pitch = len({note.pitch for note in shown.notes}) == 1
-        self._make_chips(instrument.offered_for(shown.note.pitch, event.label) if same_pitch else (), event, made)
+        offered = instrument.offered_for(shown.note.pitch, event.label) if same_pitch else ()
+        self._make_chips(instrument, offered, event, made)
         self._chips_box.setVisible(same_pitch)
         self._diagram.show_fingering(instrument, event.controls)
         pinned = self._pin_label(shown)
@@ -205,29 +208,36 @@ class NoteSection(Retranslated, QWidget):
             self._fingering_by_hand.hide()
 
     def _make_chips(
-        self, fingerings: tuple[Fingering, ...], event: FingeringEvent, made: FingeringEvent | None
+        self,
+        instrument: InstrumentMap,
+        fingerings: tuple[Fingering, ...],
+        event: FingeringEvent,
+        made: FingeringEvent | None,
     ) -> None:
-        labels = tuple((fingering.label, _cents_text(fingering.cents)) for fingering in fingerings)
-        if labels != self._chip_labels:
+        shown = (instrument.id, *((fingering.label, fingering.cents) for fingering in fingerings))
+        if shown != self._chips_shown:
             # The same chips stay, so that the keyboard stays where it is.
-            self._chip_labels = labels
+            self._chips_shown = shown
             self._chips.clear()
-            self._chip_of = {label: Chip(self._session, short_label(label), cents) for label, cents in labels}
+            self._chip_of = {
+                one.label: FingeringChip(self._session, instrument, one, _cents_text(one.cents)) for one in fingerings
+            }
             for label, chip in self._chip_of.items():
-                chip.setObjectName(f"chip_{label}")
                 on_click(chip, self._pin, label)
                 self._chips.addWidget(chip)
         for fingering in fingerings:
             chosen = fingering.label == event.label
             chip = self._chip_of[fingering.label]
+            words = fingering_words(instrument, fingering.label, language())
+            chip.show_text(words, _cents_text(fingering.cents))
             chip.show_state(
                 chosen, chosen and event.corrected, outlined=made is not None and fingering.label == made.label
             )
-            chip.setToolTip(self._chip_tip(fingering, made))
+            chip.setToolTip(self._chip_tip(instrument, fingering, made))
 
-    def _chip_tip(self, fingering: Fingering, made: FingeringEvent | None) -> str:
+    def _chip_tip(self, instrument: InstrumentMap, fingering: Fingering, made: FingeringEvent | None) -> str:
         lines = [
-            *([fingering.label] if " " in fingering.label else []),
+            *([fingering_words(instrument, fingering.label, language())] if says_words(instrument.controls) else []),
             self.tr("note_section.first_choice")
             if fingering.rank == 1
             else self.tr("note_section.choice_no").format(rank=fingering.rank),
@@ -393,8 +403,8 @@ def _lips_of(plan: PlayerPlan | None, note_id: str) -> EmbouchureEvent | None:
 
 
 def _spaced(label: str, instrument: InstrumentMap) -> str:
-    """``"13"`` as ``"1·3"`` where it names valves one by one."""
-    if " " in label:
-        return short_label(label)
+    """``"13"`` as ``"1·3"`` where it names valves one by one; keys and holes in words."""
     signs = {control.label for control in instrument.controls if control.label}
-    return "·".join(label) if len(label) > 1 and all(sign in signs for sign in label) else label
+    if not says_words(instrument.controls) and len(label) > 1 and all(sign in signs for sign in label):
+        return "·".join(label)
+    return fingering_words(instrument, label, language())

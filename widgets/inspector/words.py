@@ -14,8 +14,11 @@ from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import AMOUNTS, Placed
 from app.score.marks import Mark
 from app.score.model import Part, Score
+from instrument_maps.fingering_words import fingering_words
+from instrument_maps.library import all_maps
 from widgets.common.channel_names import channel_name
 from widgets.common.event_names import expression_name, kind_name, mark_name, pose_name, style_name
+from widgets.common.instrument_name import language
 
 
 def amount_field(event: Placed) -> str | None:
@@ -35,13 +38,19 @@ def event_title(event: Event) -> str:
     return kind_name(EventId.parse(event.id).kind)
 
 
-def event_text(score: Score, event: Event | None, correction: Correction | None = None) -> str:
+def fingering_text(label: str, instrument_id: str) -> str:
+    """A fingering in words; as it is where the instrument is not installed."""
+    instrument = all_maps().get(instrument_id)
+    return label if instrument is None else fingering_words(instrument, label, language())
+
+
+def event_text(score: Score, event: Event | None, instrument_id: str, correction: Correction | None = None) -> str:
     """Place and amount of an event, ``"12.3–12.4, 0.80"``; for an embouchure, what a correction sets."""
     match event:
         case None:
             return ""
         case Fingered():
-            return event.label
+            return fingering_text(event.label, instrument_id)
         case EmbouchureEvent():
             if correction is None:
                 return " ".join(f"{value:.2f}" for value in (event.tension, event.effort, event.air))
@@ -77,7 +86,6 @@ _NAMES: Final[Mapping[str, Callable[[str], str]]] = {
     "style": style_name,
     "channel": channel_name,
     "mark": mark_name,
-    "fingering": str,
 }
 _TITLES: Final = {
     "pin_fingering": "inspector.fingering",
@@ -97,10 +105,10 @@ def mark_text(score: Score, part: Part, mark: Mark) -> str:
     return " ".join(filter(None, (mark.text, until)))
 
 
-def correction_title(item: Correction) -> str:
-    """Title of a correction made by hand."""
+def correction_title(item: Correction, instrument_id: str) -> str:
+    """Title of a correction made by hand for a player of an instrument."""
     kind, name = item.named
-    shown = _NAMES[kind](name)
+    shown = fingering_text(name, instrument_id) if kind == "fingering" else _NAMES[kind](name)
     if item.title:
         return f"{item.title} ({shown})"
     return tr(_TITLES[item.tag]).format(name=shown) if item.tag in _TITLES else shown

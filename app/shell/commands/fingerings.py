@@ -14,7 +14,9 @@ from app.project.performers import Player
 from app.score.model import Note
 from app.shell.action import Action
 from app.shell.commands.command_targets import has_notes, has_player, notes_by_player
+from instrument_maps.fingering_words import fingering_words
 from instrument_maps.model import Fingering
+from widgets.common.instrument_name import language
 
 TYPED_TOGETHER_S = 2.0
 """Signs typed within this time are one fingering: 1 and 3 are 13."""
@@ -87,7 +89,9 @@ def _offer(session: Session, notes: Mapping[Player, Sequence[Note]], text: str, 
     """Offer the fingerings of the first note beside it, and say that this is none; in the status line too, if it cannot
     become one."""
     player, found = next(iter(notes.items()))
-    known = dict.fromkeys(fingering.label for fingering in choices(session, player, found[0]))
+    offered = choices(session, player, found[0])
+    instrument = session.performance.instrument(player) if offered else None
+    known = dict.fromkeys(fingering_words(instrument, one.label, language()) for one in offered) if instrument else {}
     place: dict[str, Argument] = {"label": text, "note": found[0].id}
     if is_refused:
         session.notice(Message("edit.no_such_fingering", {**place, "known": ", ".join(known)}), Severity.WARNING)

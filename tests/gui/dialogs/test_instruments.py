@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QRectF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QLineEdit, QListWidget, QPushButton, QTableWidget
 from pytestqt.qtbot import QtBot
@@ -16,6 +17,7 @@ from shiboken6 import isValid
 import instrument_maps.library as library
 from app.editor.library_watch import watch_instruments
 from app.editor.session import Session
+from instrument_maps.key_chart import key_chart
 from instrument_maps.load import bundled_maps
 from tests.gui.conftest import delete_now
 from tests.support.pipe import add
@@ -168,14 +170,19 @@ def test_alternates_come_and_go_and_every_step_is_undone(page: Page) -> None:
     assert page.labels(HIGH) == before
 
 
+def key_boxes(page: Page) -> dict[str, QRectF]:
+    """The boxes of the drawn keys by their signs in labels."""
+    place, draft = page.diagram.chart_place, page.dialog.draft
+    return {key.control.label: place.box(key) for key in key_chart(draft.instrument).keys}
+
+
 def test_keys_are_clicked_in_the_drawing_half_holes_too(page: Page) -> None:
     page.dialog.choose("pipe")
     page.choose(72)
     start = page.labels(72)[0].split()
 
     def click(label: str) -> None:
-        cell = next(cell for cell in page.diagram.chart().cells if cell.control.label == label)
-        at = cell.box.center().toPoint()
+        at = key_boxes(page)[label].center().toPoint()
         QTest.mouseClick(page.diagram, Qt.MouseButton.LeftButton, pos=QPoint(at.x(), at.y()))
 
     click("G")
@@ -191,17 +198,18 @@ def test_keys_are_clicked_in_the_drawing_half_holes_too(page: Page) -> None:
 
 def test_the_chart_has_the_left_hand_above_the_right_and_nothing_under_another(page: Page) -> None:
     page.dialog.choose("pipe")
-    boxes = {cell.control.label: cell.box for cell in page.diagram.chart().cells}
+    boxes = key_boxes(page)
     assert set(boxes) == {"L1", "L2", "L3", "R1", "R2", "R3", "E", "F", "G", "C", "D", "T", "Reg"}
-    assert boxes["L1"].left() < boxes["L2"].left() < boxes["L3"].left() < boxes["C"].left()
+    column = [boxes[label] for label in ("L1", "L2", "L3", "R1", "R2", "R3")]
+    assert all(above.bottom() < below.top() for above, below in pairwise(column))
+    assert len({box.center().x() for box in column}) == 1
     assert boxes["T"].right() < boxes["L1"].left()
-    assert boxes["L1"].bottom() < boxes["R1"].top()
-    assert abs(boxes["L2"].center().x() - boxes["R2"].center().x()) < 1
+    assert boxes["C"].left() > boxes["L1"].right()
     reported = list(boxes.values())
     assert not any(one.intersects(other) for place, one in enumerate(reported) for other in reported[:place])
     for width in (120, 200, 700):
         page.diagram.resize(width, page.diagram.height())
-        assert all(cell.box.left() >= 0 and cell.box.right() <= width for cell in page.diagram.chart().cells)
+        assert all(box.left() >= 0 and box.right() <= width for box in key_boxes(page).values())
 
 
 def test_closing_asks_for_what_is_not_saved(page: Page, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,9 @@ from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPen, QPolygo
 
 from app.arrays import AnyIntArray, FloatArray, IntArray
 from app.plan.model import FingeringEvent, PlayerPlan
-from widgets.common.fingering_text import short_label
+from instrument_maps.fingering_label import says_words
+from instrument_maps.key_chart import key_chart
+from instrument_maps.library import all_maps
 from widgets.common.pitch import BLACK
 from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
 from widgets.timeline.model.roll.shown_notes import RollModel
@@ -249,6 +251,8 @@ class Labels(LaneItem[RollView]):
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 10.0)
         self._texts: dict[str, tuple[QStaticText, float]] = {}
+        self._signs: dict[str, str] = {}
+        """Fingerings as they are written on notes, by label."""
         self._plan: PlayerPlan | None = None
         self._table: NoteTable | None = None
         self._fingered: IntArray = np.empty(0, np.int64)
@@ -266,6 +270,7 @@ class Labels(LaneItem[RollView]):
         if table is self._table and plan is self._plan:
             return
         if plan is not self._plan:
+            self._signs = {}
             self._events = plan.fingerings if plan is not None else ()
             self._note_ids = [event.note_id for event in self._events]
         self._table, self._plan = table, plan
@@ -329,7 +334,7 @@ class Labels(LaneItem[RollView]):
         for place, event, x, y, free in zip(
             rows.tolist(), events, left.tolist(), top.tolist(), room.tolist(), strict=True
         ):
-            text, text_px = self._text(short_label(event.label))
+            text, text_px = self._text(self._in_signs(event))
             if event.corrected:
                 self._mark(painter, x, y, row_px)
             if text_px + LABEL_GAP_PX > free:
@@ -346,6 +351,17 @@ class Labels(LaneItem[RollView]):
     def _mark(self, painter: QPainter, x: float, y: float, row_px: float) -> None:
         """The solid mark of what the user decided: a bar at the note's beginning."""
         painter.fillRect(QRectF(x, y - 1.0, 3.0, row_px + 1.0), QColor(self.lane.session.tokens.by_hand))
+
+    def _in_signs(self, event: FingeringEvent) -> str:
+        """A fingering in a line: keys and holes as signs of their chart, valves and places of a slide as written."""
+        if event.label not in self._signs:
+            session = self.lane.session
+            instrument = all_maps().get(session.player.instrument_id) if session.player is not None else None
+            charted = instrument is not None and says_words(instrument.controls)
+            self._signs[event.label] = (
+                key_chart(instrument).in_signs(event.controls) if instrument and charted else event.label
+            )
+        return self._signs[event.label]
 
     def _text(self, label: str) -> tuple[QStaticText, float]:
         known = self._texts.get(label)

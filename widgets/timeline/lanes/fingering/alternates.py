@@ -11,12 +11,14 @@ from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings
-from instrument_maps.model import Fingering
-from widgets.common.chip import Chip
+from instrument_maps.fingering_words import fingering_words
+from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
+from widgets.common.fingering_chip import FingeringChip
 from widgets.common.fingering_tags import words_of_tags
 from widgets.common.icons import icon
+from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, in_row
 from widgets.common.plain import Label, verbatim
 from widgets.timeline.lane import Lane
@@ -42,10 +44,12 @@ class Alternates(QFrame):
     def choices(self, player_id: str, event: FingeringEvent) -> tuple[Fingering, ...]:
         """Every fingering of a note's pitch in the instrument's map, first choice first."""
         project = self._session.project
-        player = project.player(player_id)
-        note = next((note for note in project.part(player).notes if note.id == event.note_id), None)
-        instrument = self._session.performance.instrument(player)
-        return () if note is None else instrument.offered_for(note.pitch, event.label)
+        notes = project.part(project.player(player_id)).notes
+        note = next((note for note in notes if note.id == event.note_id), None)
+        return () if note is None else self._instrument(player_id).offered_for(note.pitch, event.label)
+
+    def _instrument(self, player_id: str) -> InstrumentMap:
+        return self._session.performance.instrument(self._session.project.player(player_id))
 
     def note_text(self, fingering: Fingering) -> str:
         """Notes beside a fingering's label: how far out of tune it is, and reasons to take it."""
@@ -66,21 +70,13 @@ class Alternates(QFrame):
                 widget.deleteLater()
         self.event_shown, self.player_id = event, player_id
         pinned = self.is_pinned(player_id, event)
+        instrument = self._instrument(player_id)
         for fingering in self.choices(player_id, event):
-            now = fingering.label == event.label
-            chip = named(
-                Chip(
-                    self._session,
-                    fingering.label,
-                    self.note_text(fingering),
-                    by_hand=now and pinned,
-                    outlined=now and not pinned,
-                    parent=self,
-                ),
-                f"chip_{fingering.label}",
-            )
-            chip.setChecked(now)
-            chip.setToolTip(self.tr("alternates.choice").format(rank=fingering.rank))
+            now, note = fingering.label == event.label, self.note_text(fingering)
+            chip = FingeringChip(self._session, instrument, fingering, note, self)
+            chip.show_state(now, by_hand=now and pinned, outlined=now and not pinned)
+            choice = self.tr("alternates.choice").format(rank=fingering.rank)
+            chip.setToolTip(f"{chip.text()}\n{choice}")
             on_click(chip, self.choose, fingering.label)
             self._row.addWidget(chip)
         if pinned:
@@ -109,7 +105,7 @@ class Alternates(QFrame):
 
     def take_focus(self) -> None:
         """Let the keyboard choose: Tab goes from chip to chip, Space takes one."""
-        chips = self.findChildren(Chip)
+        chips = self.findChildren(FingeringChip)
         chosen = next((chip for chip in chips if chip.isChecked() and chip.isVisible()), None)
         if chosen is not None:
             chosen.setFocus(Qt.FocusReason.TabFocusReason)
@@ -143,9 +139,10 @@ class Alternates(QFrame):
 
     def fill_menu(self, menu: QMenu, player_id: str, event: FingeringEvent) -> None:
         """The same choices as entries of a menu."""
+        instrument = self._instrument(player_id)
         for fingering in self.choices(player_id, event):
-            note = self.note_text(fingering)
-            entry = menu.addAction(verbatim(f"{fingering.label}   {note}" if note else fingering.label))
+            note, words = self.note_text(fingering), fingering_words(instrument, fingering.label, language())
+            entry = menu.addAction(verbatim(f"{words}   {note}" if note else words))
             entry.setCheckable(True)
             entry.setChecked(fingering.label == event.label)
             on_click(entry, self._choose_from_menu, player_id, event, fingering.label)

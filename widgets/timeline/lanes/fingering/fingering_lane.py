@@ -16,12 +16,14 @@ from app.errors import AppError, Message
 from app.plan.model import FingeringEvent, MuteEvent, PlayerPlan
 from app.project.document import Change
 from app.project.performers import Player
+from instrument_maps.fingering_label import says_words
 from instrument_maps.model import Control, InstrumentMap
-from widgets.common.fingering_text import short_label
 from widgets.common.menus import add_actions
 from widgets.common.text import message_text
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
+from widgets.timeline.lanes.fingering import charts
 from widgets.timeline.lanes.fingering.alternates import Alternates
+from widgets.timeline.lanes.fingering.charts import FingeringCharts, ShownFingerings
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.row_names import RowNames
 from widgets.timeline.model.geometry import TimeSpans
@@ -93,6 +95,13 @@ class _Bars(LaneItem["FingeringLane"]):
         selected = lane.session.selection.notes
         chosen = np.array([data.events[index].note_id in selected for index in shown.tolist()], bool)
         self._paint_selection(painter, left[chosen], width[chosen])
+        if lane.charts is not None:
+            events = [data.events[index] for index in shown.tolist()]
+            column = [row for row, _ in lane.column_rows]
+            seen = ShownFingerings(events, left, width, chosen)
+            lane.charts.paint(painter, exposed, seen, data.pressed[column][:, shown], colour)
+            self._paint_mutes(painter, exposed)
+            return
         for row, values in enumerate(data.pressed):
             top, height = lane.bar_box(row)
             painter.setPen(QPen(shade(tokens.line_strong, 110), 1.0))
@@ -110,7 +119,7 @@ class _Bars(LaneItem["FingeringLane"]):
     def _paint_mutes(self, painter: QPainter, exposed: QRectF) -> None:
         """A line above the labels of every muted passage, dashed with a mute and whole where the hand stops it."""
         lane, tokens = self.lane, self.lane.session.tokens
-        y = lane.plot_rect.height() - LABEL_PX - 2.0
+        y = lane.plot_rect.height() - (LABEL_PX if lane.charts is None else 0.0) - 2.0
         for mute in lane.mutes:
             left, right = (float(x) for x in lane.axis.x_px(np.array([mute.start_s, mute.end_s])))
             if right >= exposed.left() and left <= exposed.right():
@@ -173,7 +182,7 @@ class _Bars(LaneItem["FingeringLane"]):
             painter.setPen(strong if is_chosen or event.corrected or event.rank > 1 else text)
             inset = 8.0 if event.corrected else 2.0
             box = QRectF(x + inset, top, max(wide - inset, 15.0), LABEL_PX)
-            label = short_label(event.label)
+            label = event.label
             if wide >= metrics.horizontalAdvance(label) + inset:
                 draw_text(painter, box, label)
 
@@ -189,6 +198,8 @@ class FingeringLane(Lane):
         super().__init__(session, axis, parent)
         self.data: Fingerings | None = None
         self.places: tuple[tuple[float, str], ...] = ()
+        self.charts: FingeringCharts | None = None
+        self._charted: InstrumentMap | None = None
         self._pressable: tuple[Control, ...] = ()
         self._slides: tuple[Control, ...] = ()
         self._plan: PlayerPlan | None = None
@@ -215,6 +226,7 @@ class FingeringLane(Lane):
             return
         self._plan, self.data, self.places = plan, None, ()
         instrument = self._instrument(player) if player is not None else None
+        self._show_charts(instrument)
         if instrument is not None and plan is not None:
             pitched = [control for control in instrument.controls if control.role == "pitch"]
             self._pressable = tuple(control for control in pitched if control.kind != "slide")
@@ -227,6 +239,33 @@ class FingeringLane(Lane):
             self._names.update()
         self.update_items()
 
+    def retranslate(self) -> None:
+        self._hovered = None
+        self.plot.setToolTip("")
+        self.update_items()
+
+    def _show_charts(self, instrument: InstrumentMap | None) -> None:
+        """Draw charts where the instrument has keys or holes; they need a taller lane."""
+        charted = instrument is not None and says_words(instrument.controls)
+        if instrument is not self._charted:
+            self._charted = instrument
+            self.charts = FingeringCharts(self, instrument) if instrument is not None and charted else None
+        if charted:
+            self.ask_height(charts.PREFERRED_PX, charts.LEAST_PX)
+        else:
+            self.ask_height(type(self).preferred_height_px, type(self).least_height_px)
+
+    @property
+    def needed_height_px(self) -> int:
+        return self.least_height_px if self.charts is None else charts.USUAL_PX
+
+    @property
+    def column_rows(self) -> list[tuple[int, Control]]:
+        """Rows of the holes of the chart's column among what can be pressed."""
+        rows = {control.name: row for row, control in enumerate(self._pressable)}
+        column = () if self.charts is None else self.charts.chart.column
+        return [(rows[key.control.name], key.control) for key in column]
+
     def _instrument(self, player: Player) -> InstrumentMap | None:
         """The player's instrument; None if it is not installed."""
         try:
@@ -238,6 +277,8 @@ class FingeringLane(Lane):
         """Signs of the controls and places of the slide, and where they stand."""
         if self.data is None:
             return []
+        if self.charts is not None:
+            return self.charts.rows()
         names = []
         for row, control in enumerate(self._pressable):
             top, height = self.bar_box(row)
@@ -377,7 +418,7 @@ class FingeringLane(Lane):
 
     def _tip(self, event: FingeringEvent) -> str:
         """Describe the fingering under the mouse and the tongue's stroke, each with its reason."""
-        lines = [event.label, message_text(event.reason, self.session)]
+        lines = [message_text(event.reason, self.session)]
         strokes = () if self._plan is None else self._plan.tongues
         stroke = next((one for one in strokes if one.note_id == event.note_id), None)
         if stroke is not None:

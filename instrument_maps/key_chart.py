@@ -1,0 +1,157 @@
+"""Places of holes and keys in a drawn fingering: a column for the fingers' own places, the left hand above the right,
+the other keys beside it, as in a method book. A map says them; what it does not say follows from the fingers.
+
+Lengths are in holes: the distance from one hole of the column to the next is 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final
+
+from app.identity_cache import IdentityCache
+from instrument_maps.model import Control, InstrumentMap
+
+HOLE: Final = 0.9
+"""Diameter of a hole."""
+PAD: Final = (0.94, 0.56)
+"""Width and height of a key."""
+COLUMN: Final = 0.6
+"""Furthest that a hole of the column is from its middle."""
+_BESIDE: Final = 1.15
+_LINE: Final = ("index", "middle", "ring")
+_DOWN: Final = {"thumb": 0.6, "middle": 1.0, "ring": 2.0, "little": 2.65}
+_TOPS: Final = {"left": 0.0, "right": 3.4}
+_OPEN, _HALF, _CLOSED = "○", "◐", "●"
+
+
+@dataclass(frozen=True)
+class ChartedKey:
+    """A hole or key in its place.
+
+    Attributes
+    ----------
+    x, y : float
+        Its middle, to the right and down.
+    """
+
+    control: Control
+    x: float
+    y: float
+    is_round: bool
+    sign: str
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height."""
+        return (HOLE, HOLE) if self.is_round else PAD
+
+    def overlaps(self, other: ChartedKey) -> bool:
+        """Return whether a part of it lies under another."""
+        (wide, tall), (other_wide, other_tall) = self.size, other.size
+        apart = abs(self.x - other.x) * 2.0, abs(self.y - other.y) * 2.0
+        return apart[0] < wide + other_wide and apart[1] < tall + other_tall
+
+    @property
+    def in_column(self) -> bool:
+        """True if it is a hole of the column."""
+        return self.is_round and abs(self.x) < COLUMN
+
+    @property
+    def is_always_shown(self) -> bool:
+        """True if it is drawn open as well, where other keys are drawn only if they are pressed: the column and the
+        hole of a thumb."""
+        return self.in_column or (self.is_round and self.control.finger.endswith(".thumb"))
+
+
+@dataclass(frozen=True)
+class KeyChart:
+    """The holes and keys of an instrument in the order in which a fingering is said."""
+
+    keys: tuple[ChartedKey, ...]
+
+    @cached_property
+    def column(self) -> tuple[ChartedKey, ...]:
+        """The holes of the column from the top."""
+        return tuple(sorted((key for key in self.keys if key.in_column), key=lambda key: key.y))
+
+    @cached_property
+    def top(self) -> float:
+        """Height of what is highest, 0 or less."""
+        return min((key.y - key.size[1] / 2.0 for key in self.keys), default=0.0)
+
+    @cached_property
+    def bottom(self) -> float:
+        """Height of what is lowest."""
+        return max((key.y + key.size[1] / 2.0 for key in self.keys), default=1.0)
+
+    @cached_property
+    def between_hands(self) -> float | None:
+        """Height of the line between the hands; None where one hand has no hole of the column."""
+        left = [key.y for key in self.column if key.control.finger.startswith("left.")]
+        right = [key.y for key in self.column if key.control.finger.startswith("right.")]
+        return (max(left) + min(right)) / 2.0 if left and right else None
+
+    def in_signs(self, values: Mapping[str, float]) -> str:
+        """A fingering as a line of signs: ``"●●● ●○○ E♭"``, the keys beside the column by their own signs."""
+        hands = ("".join(_hole(key, values) for key in self.column if key.control.finger.startswith(hand))
+                 for hand in _TOPS)  # fmt: skip
+        others = [key for key in self.keys if not key.in_column and values.get(key.control.name, 0.0) > 0.0]
+        return " ".join(filter(None, (*hands, *(key.sign for key in others))))
+
+
+def is_half(control: Control, value: float) -> bool:
+    """Return whether a hole is half closed."""
+    return control.half_value is not None and 0.0 < value < 1.0
+
+
+def key_chart(instrument: InstrumentMap) -> KeyChart:
+    """The chart of an instrument with keys or holes."""
+    return _charts.step(_chart, instrument)
+
+
+_charts: IdentityCache[KeyChart] = IdentityCache(16)
+
+
+def _hole(key: ChartedKey, values: Mapping[str, float]) -> str:
+    value = values.get(key.control.name, 0.0)
+    return _HALF if is_half(key.control, value) else _CLOSED if value > 0.0 else _OPEN
+
+
+def _chart(instrument: InstrumentMap) -> KeyChart:
+    said = {row.name: row for row in instrument.chart}
+    pitch = {one.name: one for one in instrument.controls if one.role == "pitch" and one.kind != "slide"}
+    names = tuple(dict.fromkeys((*(name for name in said if name in pitch), *pitch)))
+    homes = _homes(instrument)
+    placed: dict[str, ChartedKey] = {}
+    # What the map says stands there, and so do the fingers' own places; the others find room beside them.
+    for name in sorted(names, key=lambda name: (name not in said or said[name].at is None, name not in homes)):
+        control, row = pitch[name], said.get(name)
+        sign = (row.sign if row is not None else "") or control.label
+        if row is not None and row.at is not None:
+            placed[name] = ChartedKey(control, *row.at, row.round, sign)
+        else:
+            key = ChartedKey(control, *_usual_place(control, name in homes), name in homes, sign)
+            while any(key.overlaps(other) for other in placed.values()):
+                key = replace(key, x=key.x + (-1.0 if key.x < 0.0 else 1.0))
+            placed[name] = key
+    return KeyChart(tuple(placed[name] for name in names))
+
+
+def _homes(instrument: InstrumentMap) -> frozenset[str]:
+    """The controls at which the fingers of the line are at home: the first that a contact of theirs works."""
+    found: dict[str, str] = {}
+    fingers = {control.name: control.finger for control in instrument.controls}
+    for contact in instrument.contacts:
+        if contact.control is not None:
+            found.setdefault(fingers.get(contact.control, ""), contact.control)
+    return frozenset(name for finger, name in found.items() if finger.partition(".")[2] in _LINE)
+
+
+def _usual_place(control: Control, home: bool) -> tuple[float, float]:
+    """In the column where a finger is at home, else beside it: thumbs at the left."""
+    hand, _, finger = control.finger.partition(".")
+    side = 0.0 if home else -_BESIDE if finger == "thumb" else _BESIDE
+    return side, _TOPS.get(hand, 0.0) + _DOWN.get(finger, 0.0)

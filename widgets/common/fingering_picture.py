@@ -1,0 +1,133 @@
+"""Draws holes and keys as a method book's chart does: the one picture of a fingering, large and small."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
+from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
+
+from instrument_maps.key_chart import COLUMN, HOLE, PAD, ChartedKey, KeyChart, is_half
+
+TICK_PX = 3.0
+"""Width of a key where there is no room for more."""
+LEAST_SIGN_PX = 9.0
+"""Keys less tall have no sign."""
+
+
+@dataclass(frozen=True)
+class ChartPlace:
+    """A chart's place in a picture.
+
+    Attributes
+    ----------
+    middle_px, top_px : float
+        The column's middle, and the height of a key at 0.
+    hole_px : float
+        From one hole to the next.
+    squeeze : float
+        Width of what is beside the column, as a share of its height's scale; 0: ticks.
+    """
+
+    middle_px: float
+    top_px: float
+    hole_px: float
+    squeeze: float = 1.0
+
+    def box(self, key: ChartedKey) -> QRectF:
+        """The box of a key, pixels."""
+        y = self.top_px + key.y * self.hole_px
+        size = HOLE * self.hole_px
+        if abs(key.x) < COLUMN:
+            return QRectF(self.middle_px + key.x * self.hole_px - size / 2.0, y - size / 2.0, size, size)
+        beside, side = size / 2.0, 1.0 if key.x > 0.0 else -1.0
+        wide, tall = max(PAD[0] * self.hole_px * self.squeeze, TICK_PX), PAD[1] * self.hole_px
+        if self.squeeze == 1.0:
+            middle = self.middle_px + key.x * self.hole_px
+        else:
+            number = max(round(abs(key.x) - 1.0), 0)
+            middle = self.middle_px + side * (beside + 1.5 + wide / 2.0 + number * (wide + 1.0))
+        if key.is_round:
+            wide = tall = size if self.squeeze == 1.0 else min(max(wide, TICK_PX), size)
+        return QRectF(middle - wide / 2.0, y - tall / 2.0, wide, tall)
+
+
+@dataclass(frozen=True)
+class ChartColours:
+    """Colours of what is closed, of the outlines and the ground of what is not, and of signs on both."""
+
+    closed: QColor
+    line: QColor
+    ground: QColor
+    on_closed: QColor
+    on_ground: QColor
+
+
+def chart_size(chart: KeyChart, hole_px: float) -> QSizeF:
+    """The size of a whole chart, unsqueezed."""
+    left, right = chart_sides(chart, ChartPlace(0.0, 0.0, hole_px))
+    return QSizeF(left + right, (chart.bottom - chart.top) * hole_px)
+
+
+def chart_sides(chart: KeyChart, place: ChartPlace, values: Mapping[str, float] | None = None) -> tuple[float, float]:
+    """Lengths to the left and right of the column's middle; with ``values`` of what is drawn where only pressed keys
+    are."""
+    boxes = [place.box(key) for key in chart.keys if values is None or _is_drawn(key, values)]
+    return (
+        max((place.middle_px - box.left() for box in boxes), default=0.0),
+        max((box.right() - place.middle_px for box in boxes), default=0.0),
+    )
+
+
+def draw_chart(
+    painter: QPainter,
+    chart: KeyChart,
+    values: Mapping[str, float],
+    place: ChartPlace,
+    colours: ChartColours,
+    *,
+    whole: bool = True,
+) -> None:
+    """Draw a fingering.
+
+    Parameters
+    ----------
+    values : mapping
+        0 to 1 by name of control; one that is not named is open.
+    whole : bool
+        Also the keys beside the column that are not pressed; else only those that are.
+    """
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    metrics = QFontMetricsF(painter.font())
+    between = chart.between_hands
+    if between is not None:
+        y, half_px = place.top_px + between * place.hole_px, HOLE / 2.0 * place.hole_px
+        painter.setPen(QPen(colours.line, 1.0))
+        painter.drawLine(QPointF(place.middle_px - half_px, y), QPointF(place.middle_px + half_px, y))
+    for key in chart.keys:
+        if whole or _is_drawn(key, values):
+            _draw_key(painter, key, values.get(key.control.name, 0.0), place.box(key), colours, metrics)
+
+
+def _is_drawn(key: ChartedKey, values: Mapping[str, float]) -> bool:
+    return key.is_always_shown or values.get(key.control.name, 0.0) > 0.0
+
+
+def _draw_key(
+    painter: QPainter, key: ChartedKey, value: float, box: QRectF, colours: ChartColours, metrics: QFontMetricsF
+) -> None:
+    half, closed = is_half(key.control, value), value > 0.0
+    line_px = 1.0 if box.height() < 2 * LEAST_SIGN_PX else 1.5
+    box = box.adjusted(line_px / 2, line_px / 2, -line_px / 2, -line_px / 2)
+    painter.setPen(QPen(colours.closed if closed else colours.line, line_px))
+    painter.setBrush(colours.closed if closed and not half else colours.ground)
+    radius = box.width() / 2.0 if key.is_round else min(box.width(), box.height()) * 0.3
+    painter.drawRoundedRect(box, radius, radius)
+    if half:
+        # The half of a hole that the finger leaves open is the upper one.
+        painter.setBrush(colours.closed)
+        painter.drawChord(box, 180 * 16, 180 * 16)
+    if box.height() >= LEAST_SIGN_PX and key.sign and metrics.horizontalAdvance(key.sign) <= box.width() + 2.0:
+        painter.setPen(colours.on_closed if closed and not half else colours.on_ground)
+        painter.drawText(box.adjusted(-2, -4, 2, 4), Qt.AlignmentFlag.AlignCenter, key.sign)
