@@ -74,8 +74,6 @@ players.rename, dancers.rename ? typing
 players.next, players.previous, players.select_all ? players + selection
 players.add, players.duplicate, players.remove = project players + selection
 players.select_section ? players + selection
-players.grouped = grouped
-players.fold_sections = folded
 players.arrange, players.reset, players.hear_everyone ? project
 players.* = project
 dancers.add, dancers.duplicate, dancers.remove = project dancer + lanes
@@ -140,7 +138,6 @@ timeline.count_*, time_display > * ? time
 timeline.ghosts, timeline.selected, timeline.all, timeline.alone, ghosts_mode > * ? ghosts + lanes
 */fold ? lanes + project
 timeline.marks = lanes
-stacked_* = project
 lanes.*, lanes_menu > *, lane header > * ? lanes
 front_player ? players
 lane breath > * ? project + selection

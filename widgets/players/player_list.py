@@ -111,6 +111,18 @@ class PlayerList(OrderedList):
         self._showing = False
         self.viewport().update()
 
+    def rename_current(self) -> None:
+        """Open the field for the name of the player in front, unfolding the section."""
+        number = self.rows.number(self._session.players[0]) if self._session.players else None
+        if number is None:
+            return
+        header = self.rows.header_of(number)
+        section = None if header is None else self.rows.section_at(header)
+        if section is not None and section.folded:
+            self._fold(section, False)
+        self.selectionModel().setCurrentIndex(self.rows.index(number), _FLAGS.NoUpdate)
+        super().rename_current()
+
     def _is_on_header_of_selected(self) -> bool:
         """True while the keyboard is on the header of the section whose player is in front."""
         section = self.rows.section_at(self.currentIndex().row())

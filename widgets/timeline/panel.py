@@ -30,7 +30,7 @@ from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
-from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
+from widgets.timeline.stacked_players import STACKED_IDS, PlayerLanes, StackedPlayers
 from widgets.timeline.tool_bar import ToolBar
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
@@ -108,6 +108,10 @@ class TimelinePanel(Retranslated, QWidget):
         self.tool_bar = ToolBar(session, self.roll, self)
         self.flags = Flags(session, self.axis, self)
         self.ruler = Ruler(session, self.axis, self)
+        self._keyboard_lane = ""
+        """Id of the lane that had the keyboard before others were shown; empty: none."""
+        # Before lanes are shown or hidden, which takes the keyboard from them.
+        session.players_changed.connect(self._note_keyboard)
         self.players = StackedPlayers(session, self.axis)
         self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self.players, self)
         for lane in self.lanes.values():
@@ -132,8 +136,9 @@ class TimelinePanel(Retranslated, QWidget):
         self.sought.connect(session.set_playhead)
         self.setFocusProxy(self.roll.plot)
         self.players.made.connect(self._stack_made)
-        self.players.changed.connect(self._give_focus)
+        self.players.changed.connect(self._show_proxy)
         self.players.changed.connect(lambda: self.tool_bar.ghosts_button.setEnabled(not self.stacking))
+        session.players_changed.connect(self._show_proxy)
         session.players_changed.connect(self._show_front)
         self.axis.changed.connect(self._axis_changed)
         session.changed.connect(self._session_changed)
@@ -330,7 +335,9 @@ class TimelinePanel(Retranslated, QWidget):
 
     def set_stacked(self, stacked: bool) -> None:
         """Stack the lanes of selected players, or show those of the player in front."""
+        self._note_keyboard()
         self.lane_layout.set_stacked(stacked)
+        self._pass_keyboard()
 
     def _stack_made(self, place: PlayerLanes) -> None:
         """Connect lanes of a player that were not there before."""
@@ -340,22 +347,28 @@ class TimelinePanel(Retranslated, QWidget):
         place.roll.marks.set_shown(self.marks_shown)
         place.roll.reported.connect(self.tool_bar.report)
 
+    def _note_keyboard(self) -> None:
+        focus = QApplication.focusWidget()
+        own = (lane for lane in self.lanes.values() if focus is not None and lane.isAncestorOf(focus))
+        lane = self.players.lane_with(focus) or next(own, None)
+        self._keyboard_lane = "" if lane is None else lane.id
+
     def _show_front(self) -> None:
         """Bring the notes of the player in front into view, unless the mouse is at work in a lane of the player."""
-        self._give_focus()
+        self._pass_keyboard()
         held = QApplication.mouseButtons() != Qt.MouseButton.NoButton and self.stack.underMouse()
         if self.players.active and not held:
             self.stack.bring_into_view(self.roll)
 
-    def _give_focus(self) -> None:
+    def _pass_keyboard(self) -> None:
+        """Let the lanes of the player in front have the keys that those of another player had."""
+        if self._keyboard_lane in STACKED_IDS:
+            lane = self.players.lane_in_front(self._keyboard_lane) or self.lanes[self._keyboard_lane]
+            lane.plot.setFocus()
+
+    def _show_proxy(self) -> None:
         """The keys that come to the timeline are for the notes of the player in front."""
-        before, now = self.focusProxy(), self.front_roll.plot
-        if before is None or before is now:
-            return
-        had_focus = before.hasFocus()
-        self.setFocusProxy(now)
-        if had_focus and not before.isVisible():
-            now.setFocus()
+        self.setFocusProxy(self.front_roll.plot)
 
     def _header_menu(self, place: QPoint) -> None:
         header = self.sender()

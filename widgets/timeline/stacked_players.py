@@ -136,7 +136,7 @@ class PlayerLanes(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         # Commands and menus are about the player in front: the lane's, before it answers.
-        if event.type() in (QEvent.Type.MouseButtonPress, QEvent.Type.FocusIn, QEvent.Type.ShortcutOverride):
+        if event.type() in (QEvent.Type.MouseButtonPress, QEvent.Type.FocusIn):
             self.session.bring_forward()
         return super().eventFilter(watched, event)
 
@@ -204,6 +204,11 @@ class StackedPlayers(QWidget):
     def lane_in_front(self, lane_id: str) -> Lane | None:
         """The lane of a kind of the player in front, if it is stacked."""
         return None if self.front is None or lane_id not in self._open else self.front.lanes[lane_id]
+
+    def lane_with(self, widget: QWidget | None) -> Lane | None:
+        """The stacked lane of which a widget is a part."""
+        lanes = (lane for one in self.shown for lane in one.lanes.values())
+        return None if widget is None else next((lane for lane in lanes if lane.isAncestorOf(widget)), None)
 
     @property
     def dragging(self) -> bool:

@@ -11,7 +11,6 @@ from msgspec.structs import replace as replace_player
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit
-from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.editor.settings import Settings
@@ -22,6 +21,7 @@ from tests.gui.japanese import speaking
 from tests.gui.players.conftest import ShowPlayers
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child
+from widgets.common.chip import Chip
 from widgets.common.number_slider import NumberSlider
 from widgets.players.panel import PlayersPanel
 from widgets.players.player_rows import SectionRow
@@ -212,17 +212,40 @@ def test_commands_mute_solo_and_select_the_section_of_the_player_in_front(sessio
         assert not any(getattr(player, field) for player in session.project.players)
 
 
-def test_a_section_is_given_the_same_amplitude_in_one_step(panel: PlayersPanel, session: Session, qtbot: QtBot) -> None:
-    click(panel, TROMBONES)
-    control = child(panel, NumberSlider, "parameter_amplitude")
+def type_into(panel: PlayersPanel, name: str, text: str) -> None:
+    control = child(panel, NumberSlider, name)
     control.type_value()
     field = control.findChildren(QLineEdit, "number_field")[-1]
-    QTest.keyClicks(field, "0.9")
+    QTest.keyClicks(field, text)
     QTest.keyClick(field, Qt.Key.Key_Return)
+
+
+def test_a_section_is_given_amplitude_breath_and_habit_in_one_step_each(panel: PlayersPanel, session: Session) -> None:
+    # One of them differs from the others before.
+    session.set_players(section_ids(session, "trombone")[:1])
+    type_into(panel, "parameter_amplitude", "0.2")
+    click(panel, TROMBONES)
+    type_into(panel, "parameter_amplitude", "0.9")
+    type_into(panel, "parameter_breath_need", "0.7")
+    chip = child(panel, Chip, "habit_tapper")
+    session.set_folded("players_acting", False)
+    QTest.mouseClick(chip, Qt.MouseButton.LeftButton)
     own = section_ids(session, "trombone")
     for player in session.project.players:
-        assert (player.parameters.amplitude == 0.9) is (player.id in own)
-    assert len(session.document.done) == 1
+        given = player.parameters
+        assert (given.amplitude == 0.9, given.breath_need == 0.7, given.habits == "tapper") == (player.id in own,) * 3
+    assert len(session.document.done) == 4
+
+
+def test_the_player_in_front_of_a_folded_section_is_renamed(panel: PlayersPanel, session: Session) -> None:
+    horns = section_ids(session, "horn")
+    click(panel, HORNS)
+    press(panel, Qt.Key.Key_Left)
+    panel.list.rename_current()
+    field = child(panel, QLineEdit, "player_name")
+    assert field.isVisible()
+    assert field.text() == session.project.player(horns[0]).name
+    assert session.players == horns
 
 
 def drag(panel: PlayersPanel, id: str, to: QPoint) -> None:

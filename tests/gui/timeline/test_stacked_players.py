@@ -18,7 +18,7 @@ from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, fingerings, notes, timeline
 from tests.gui.timeline.hand import Hand
 from tests.gui.timeline.lane_hands import middle
-from tests.support.windows import child
+from tests.support.windows import child, show_in_front
 from widgets.timeline.lane_layout import lane_state
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
@@ -242,6 +242,26 @@ def test_who_comes_to_the_front_is_brought_into_view(
     assert in_view()
     table.refresh()
     assert not table.actions["timeline.ghosts"].isEnabled(), "each roll shows one player"
+
+
+def test_the_keyboard_goes_with_the_player_in_front(
+    stacked: TimelinePanel, session: Session, table: ActionTable
+) -> None:
+    ids = player_ids(session)
+    show_in_front(stacked)
+    lane = of(stacked, ids[1]).lanes[FingeringLane.id]
+    lane.plot.setFocus()
+    assert session.players[0] == ids[1]
+    session.set_players((ids[3],))
+    assert of(stacked, ids[3]).lanes[FingeringLane.id].plot.hasFocus(), "the same lane of that player"
+    assert session.players == (ids[3],)
+    do(table, "lanes.stacked")
+    assert stacked.lanes[FingeringLane.id].plot.hasFocus()
+    session.set_players((ids[3], ids[2]))
+    do(table, "lanes.stacked")
+    assert of(stacked, ids[3]).lanes[FingeringLane.id].plot.hasFocus()
+    session.set_players((ids[0],))
+    assert stacked.lanes[FingeringLane.id].plot.hasFocus()
 
 
 def test_stacking_is_kept_with_the_lanes(stacked: TimelinePanel, session: Session, qtbot: QtBot) -> None:
