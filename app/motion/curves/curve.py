@@ -244,7 +244,7 @@ class Envelopes:
         return np.stack((self.start_s, self.full_s, self.fall_s, self.end_s, self.height), axis=1)
 
     @classmethod
-    def of(cls, rows: Sequence[tuple[float, float, float, float, float]]) -> Envelopes:
+    def of(cls, rows: Sequence[tuple[float, float, float, float, float]] | FloatArray) -> Envelopes:
         """From rows of (start_s, full_s, fall_s, end_s, height); times that run backwards are put in order."""
         table = np.array(rows, dtype=np.float64).reshape(-1, 5)
         table[:, :4] = np.maximum.accumulate(table[:, :4], axis=1)

@@ -7,7 +7,7 @@ the mouth go along with each. An attack with stress is pushed by the breath as w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -33,26 +33,24 @@ PUSH_UNTIL_S: Final = 0.20
 
 def tip_strokes(plan: PlayerPlan) -> Envelopes:
     """Return how far the tip of the tongue is up, 1 in a plain stroke."""
-    return _strokes(plan.tongues, lambda event: event.stroke != "ka")
+    return _strokes(plan.tongues, by_back=False)
 
 
 def back_strokes(plan: PlayerPlan) -> Envelopes:
     """Return how far the back of the tongue is up; smaller than a stroke of the tip, as planned."""
-    return _strokes(plan.tongues, lambda event: event.stroke == "ka")
+    return _strokes(plan.tongues, by_back=True)
 
 
-def _strokes(tongues: Sequence[TongueEvent], chosen: Callable[[TongueEvent], bool]) -> Envelopes:
-    ends_s = np.array([event.end_s for event in tongues])
-    steps_s = np.diff(ends_s, prepend=-np.inf, append=np.inf)
-    rows = []
-    for index, event in enumerate(tongues):
-        if chosen(event):
-            before_s, after_s = float(steps_s[index]), float(steps_s[index + 1])
-            rise_s = min(RISES_S, max(NEAR_SHARE * before_s - (event.end_s - event.start_s), 0.0))
-            fall_s = min(FALLS_S * (SOFTLY if event.stroke == "da" else 1.0), NEAR_SHARE * after_s)
-            touches_s = event.start_s + 0.5 * (event.end_s - event.start_s)
-            rows.append((event.start_s - rise_s, touches_s, event.end_s, event.end_s + fall_s, event.strength))
-    return Envelopes.of(rows)
+def _strokes(tongues: Sequence[TongueEvent], *, by_back: bool) -> Envelopes:
+    start_s, end_s, strength = np.array(
+        [(event.start_s, event.end_s, event.strength) for event in tongues], np.float64
+    ).reshape(-1, 3).T  # fmt: skip
+    steps_s = np.diff(end_s, prepend=-np.inf, append=np.inf)
+    fall_s = np.array([FALLS_S * (SOFTLY if event.stroke == "da" else 1.0) for event in tongues], np.float64)
+    rise_s = np.minimum(RISES_S, np.maximum(NEAR_SHARE * steps_s[:-1] - (end_s - start_s), 0.0))
+    fall_s = np.minimum(fall_s, NEAR_SHARE * steps_s[1:])
+    rows = np.stack((start_s - rise_s, start_s + 0.5 * (end_s - start_s), end_s, end_s + fall_s, strength), axis=1)
+    return Envelopes.of(rows[np.array([(event.stroke == "ka") == by_back for event in tongues], np.bool_)])
 
 
 def attack_pushes(plan: PlayerPlan) -> Envelopes:

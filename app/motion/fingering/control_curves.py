@@ -8,13 +8,14 @@ moves, and in how much of a note, the instrument map says.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import lru_cache
+from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Final
 
 import numpy as np
 
-from app.arrays import BoolArray
-from app.motion.curves.curve import Curve, minimum_jerk, moves
+from app.arrays import BoolArray, FloatArray, IndexArray
+from app.motion.curves.curve import Curve, minimum_jerk, moves, moves_to
 from app.plan.model import FingeringEvent
 from app.score.metre_map import FeltBeats, beat_ticks_at
 from instrument_maps.model import Control
@@ -29,7 +30,10 @@ STILL_PRESSED = 0.07
 """... and the share of other ways."""
 MOST_BACK_SHARE = 0.9
 """Largest share of a short rest that goes to the way back, however short the way out."""
-_PHASES = np.linspace(0.0, 0.5, 201)
+_PHASES: Final = np.linspace(0.0, 0.5, 201)
+_PROGRESS: Final = minimum_jerk(_PHASES)
+_PRESSED_PHASE: Final = float(np.interp(STILL_PRESSED, _PROGRESS, _PHASES))
+"""Time, as a share of a minimum-jerk move, at which a key has come so far that it is seen."""
 LEAST_HELD_SHARE = 0.3
 RELEASE_S = 0.12
 """A finger's way back to rest after a note, unhurried."""
@@ -46,44 +50,39 @@ def need_s(control: Control, distance: float) -> float:
     return abs(distance) * control.travel_m / control.max_speed_m_s
 
 
-def window_s(control: Control, distance: float, duration_s: float, gap_s: float) -> float:
-    """Return how long before an onset a control may leave its place.
+def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
+    """Return how long before its onsets (M,) a control may leave its place.
 
     Where the share of the note is too short for a human speed (the plan flags such notes) the control starts
     earlier, but leaves the note its first frame at 24 frames/s.
 
     Parameters
     ----------
-    distance : float
+    distances : (M,) float
         How far it goes, 0..1 of its travel.
-    duration_s, gap_s : float
-        Sounding length of the note before, and the rest between that note and the onset.
+    durations_s, gaps_s : (M,) float
+        Sounding lengths of the notes before, and the rests between those notes and the onsets.
     """
-    need = need_s(control, distance)
-    allowed = max(gap_s, control.move_note_share * duration_s)
-    if need <= allowed:
-        return min(max(control.move_window_s, need), allowed)
-    return min(need, max(allowed, duration_s + gap_s - SLOWEST_FRAME_S))
+    needs = np.zeros(len(distances))
+    if control.max_speed_m_s is not None and control.travel_m:
+        needs = np.abs(distances) * control.travel_m / control.max_speed_m_s
+    allowed = np.maximum(gaps_s, control.move_note_share * durations_s)
+    unhurried = np.minimum(np.maximum(control.move_window_s, needs), allowed)
+    hurried = np.minimum(needs, np.maximum(allowed, durations_s + gaps_s - SLOWEST_FRAME_S))
+    return np.where(needs <= allowed, unhurried, hurried)
 
 
-def unseen_s(control: Control, distance: float, window: float) -> float:
-    """Return how much earlier than its window a control may begin to move, because when the window opens it is still in
-    place.
+def _unseen_s(control: Control, distances: FloatArray | float, windows_s: FloatArray | float) -> FloatArray | float:
+    """Return how much earlier than its windows a control may begin to move, because when the window opens it is still
+    in place.
 
     What looks like standing still is where finger or hand gathers speed, so that it need not jerk.
     """
-    share = STILL_PRESSED
+    phase: FloatArray | float = _PRESSED_PHASE
     if control.kind == "slide" and control.travel_m:
-        share = min(STILL_IN_PLACE_M / (abs(distance) * control.travel_m), STILL_SHARE)
-    phase = _phase(share)
-    return window * phase / (1.0 - phase)
-
-
-@lru_cache(maxsize=4096)
-@lru_cache(maxsize=4096)
-def _phase(share: float) -> float:
-    """Time, as a share of a minimum-jerk move, at which it has come so far."""
-    return float(np.interp(share, minimum_jerk(_PHASES), _PHASES))
+        share = STILL_IN_PLACE_M / np.maximum(np.abs(distances) * control.travel_m, STILL_IN_PLACE_M / STILL_SHARE)
+        phase = np.asarray(np.interp(share, _PROGRESS, _PHASES))
+    return windows_s * phase / (1.0 - phase)
 
 
 def control_curves(
@@ -96,47 +95,104 @@ def control_curves(
 
     Fingerings are in order, each from its note's onset to its end; a control they do not name is at rest.
     """
-    starts = np.array([event.start_tick for event in fingerings], np.int64)
-    ends = np.array([event.end_tick for event in fingerings], np.int64)
-    rests = np.zeros(len(starts), dtype=np.bool_)
-    rests[1:] = starts[1:] - ends[:-1] >= beat_ticks_at(felt_beats, starts[1:])
-    return {control.name: _curve(fingerings, control, rests, farthest.get(control.name, 1.0)) for control in controls}
+    notes = _Notes.of(fingerings, felt_beats)
+    return {control.name: _curve(notes, control, farthest.get(control.name, 1.0)) for control in controls}
 
 
-def _curve(fingerings: Sequence[FingeringEvent], control: Control, rests: BoolArray, farthest: float) -> Curve:
-    """One control's; ``rests`` (N,) says which notes a rest precedes that brings controls back to rest."""
-    if not fingerings:
+@dataclass(frozen=True, eq=False)
+class _Notes:
+    """Fingerings as arrays.
+
+    Attributes
+    ----------
+    fingerings : sequence of FingeringEvent
+    kinds : (N,) int
+        Which of ``places`` each has.
+    places : list of mapping of str to float
+        Different values of controls.
+    start_s, end_s : (N,) float
+    rests : (N,) bool
+        True if a rest precedes the note that brings controls back to rest.
+    """
+
+    fingerings: Sequence[FingeringEvent]
+    kinds: IndexArray
+    places: list[Mapping[str, float]]
+    start_s: FloatArray
+    end_s: FloatArray
+    rests: BoolArray
+
+    @classmethod
+    def of(cls, fingerings: Sequence[FingeringEvent], felt_beats: FeltBeats) -> _Notes:
+        starts = np.array([event.start_tick for event in fingerings], np.int64)
+        ends = np.array([event.end_tick for event in fingerings], np.int64)
+        rests = np.zeros(len(starts), dtype=np.bool_)
+        rests[1:] = starts[1:] - ends[:-1] >= beat_ticks_at(felt_beats, starts[1:])
+        # Notes of one fingering share its values; of equal ones that are not the same object, no more is saved.
+        different = {id(event.controls): event.controls for event in fingerings}
+        numbers = {identity: number for number, identity in enumerate(different)}
+        return cls(
+            fingerings,
+            np.array([numbers[id(event.controls)] for event in fingerings], np.intp),
+            list(different.values()),
+            np.array([event.start_s for event in fingerings], np.float64),
+            np.array([event.end_s for event in fingerings], np.float64),
+            rests,
+        )
+
+
+def _curve(notes: _Notes, control: Control, farthest: float) -> Curve:
+    """One control's curve."""
+    if not notes.fingerings:
         return moves((), control.rest_value)
     name, rest = control.name, control.rest_value
-    targets = np.minimum([event.controls.get(name, rest) for event in fingerings], farthest)
+    targets = np.minimum([place.get(name, rest) for place in notes.places], farthest)[notes.kinds]
     # Nothing happens where a control stays where it is: most keys do, in most notes.
-    stays = (targets[1:] == targets[:-1]) & (~rests[1:] | (targets[1:] == rest))
-    first = fingerings[0]
-    value = float(targets[0])
-    segments = [(first.start_s - _free_window_s(control, value - rest), first.start_s, value)]
-    for index in (np.flatnonzero(~stays) + 1).tolist():
-        last, event = fingerings[index - 1], fingerings[index]
-        value, target = float(targets[index - 1]), float(targets[index])
-        if rests[index]:
-            segments += _through_rest(control, last.end_s, event.start_s, value, target)
-        else:
-            end_s = min(last.end_s, event.start_s)
-            window = window_s(control, target - value, end_s - last.start_s, event.start_s - end_s)
-            start_s = event.start_s - window - unseen_s(control, target - value, window)
-            # However hurried, the note before has its first frame, and most of its first half.
-            earliest_s = last.start_s + max(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (event.start_s - last.start_s))
-            start_s = min(max(start_s, earliest_s), event.start_s - window)
-            if control.kind == "slide" and event.glide_from_s is not None:
-                start_s = min(start_s, event.glide_from_s)
-            segments.append((start_s, event.start_s, target))
-    last_s = fingerings[-1].end_s
-    segments.append((last_s, last_s + release_s(control, float(targets[-1])), rest))
-    return moves(segments, rest)
+    stays = (targets[1:] == targets[:-1]) & (~notes.rests[1:] | (targets[1:] == rest))
+    changes = np.flatnonzero(~stays) + 1
+    through = notes.rests[changes]
+    first_s, last_s, value = float(notes.start_s[0]), float(notes.end_s[-1]), float(targets[0])
+    rows = [
+        np.array([(first_s - _free_window_s(control, value - rest), first_s, value)]),
+        _at_once(notes, control, targets, changes[~through]),
+        *(
+            np.array(
+                _through_rest(
+                    control,
+                    float(notes.end_s[index - 1]),
+                    float(notes.start_s[index]),
+                    float(targets[index - 1]),
+                    float(targets[index]),
+                )
+            )
+            for index in changes[through].tolist()
+        ),
+        np.array([(last_s, last_s + release_s(control, float(targets[-1])), rest)]),
+    ]
+    order = np.concatenate(([0], changes[~through], np.repeat(changes[through], 2), [len(targets)]))
+    table = np.concatenate(rows)[np.argsort(order, kind="stable")]
+    return moves_to(table[:, 0], table[:, 1], table[:, 2], rest)
+
+
+def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: IndexArray) -> FloatArray:
+    """Moves (M, 3) from note to note without a rest, to the notes at these indices."""
+    before_s, onset_s = notes.start_s[changes - 1], notes.start_s[changes]
+    end_s = np.minimum(notes.end_s[changes - 1], onset_s)
+    distances = targets[changes] - targets[changes - 1]
+    windows_s = window_s(control, distances, end_s - before_s, onset_s - end_s)
+    start_s = onset_s - windows_s - _unseen_s(control, distances, windows_s)
+    # However hurried, the note before has its first frame, and most of its first half.
+    earliest_s = before_s + np.maximum(SLOWEST_FRAME_S, LEAST_HELD_SHARE * (onset_s - before_s))
+    start_s = np.minimum(np.maximum(start_s, earliest_s), onset_s - windows_s)
+    if control.kind == "slide":
+        glides = [notes.fingerings[index].glide_from_s for index in changes.tolist()]
+        start_s = np.minimum(start_s, [np.inf if glide_s is None else glide_s for glide_s in glides])
+    return np.stack((start_s, onset_s, targets[changes]), axis=1)
 
 
 def _free_window_s(control: Control, distance: float) -> float:
     window = max(control.move_window_s, need_s(control, distance))
-    return window + unseen_s(control, distance, window) if distance else window
+    return window + float(_unseen_s(control, distance, window)) if distance else window
 
 
 def release_s(control: Control, value: float) -> float:

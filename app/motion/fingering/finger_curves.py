@@ -179,9 +179,10 @@ def _visits(
 
 
 def _hull(spans: Sequence[Span]) -> Span | None:
-    if not spans:
-        return None
-    return min(start_s for start_s, _ in spans), max(end_s for _, end_s in spans)
+    if len(spans) < 2:
+        return spans[0] if spans else None
+    starts_s, ends_s = zip(*spans, strict=True)
+    return min(starts_s), max(ends_s)
 
 
 class _Moves(NamedTuple):

@@ -24,7 +24,7 @@ from app.motion.gestures.idle_gestures import NOTHING_BESIDE, Concert, ConcertSa
 from app.motion.gestures.named_gestures import Gestured, Sums
 from app.motion.gestures.nods import Nods
 from app.plan.by_hand.events import PoseTarget
-from app.plan.kinds import Part
+from app.plan.kinds import GESTURE_KINDS, Part
 from app.plan.model import GestureEvent
 from app.plan.styles import shown_in_style
 from app.steps import StepTable, reading
@@ -152,7 +152,8 @@ def lowering_curve(gestures: Sequence[GestureEvent], lower_s: float, raise_s: fl
 
 def _of_parts(gestures: tuple[GestureEvent, ...], parts: tuple[Part, ...]) -> tuple[GestureEvent, ...]:
     """Return the gestures that some parts of the body's motion answer."""
-    return tuple(event for event in gestures if event.part in parts)
+    kinds = {kind for kind, row in GESTURE_KINDS.items() if row.part in parts}
+    return tuple([event for event in gestures if event.kind in kinds])
 
 
 LAYERS: Final = StepTable(

@@ -48,10 +48,17 @@ class _Finger:
 
     def tips_m(self, rotations: FloatArray) -> FloatArray:
         """Place (S, 3) of the touching point in the wrist's frame."""
+        return self.carried_m(rotations, 0, self.beyond_m(rotations))
+
+    def beyond_m(self, rotations: FloatArray) -> FloatArray:
+        """The same (S, 3) in the frame of the first joint."""
         point = np.broadcast_to(self.tip_m, (len(rotations), 3))
-        for joint in (2, 1, 0):
-            point = self.offsets_m[joint] + quaternion.rotate(rotations[:, joint], point)
-        return point
+        return self.carried_m(rotations, 1, self.carried_m(rotations, 2, point))
+
+    def carried_m(self, rotations: FloatArray, joint: int, points_m: FloatArray) -> FloatArray:
+        """Points (S, 3) of a joint's frame in the frame of the one before."""
+        carried: FloatArray = self.offsets_m[joint] + quaternion.rotate(rotations[:, joint], points_m)
+        return carried
 
     def flexed(self, rotations: FloatArray, joint: int, angles_rad: FloatArray) -> FloatArray:
         """Rotations (S, 3, 4) with a joint bent by so much more."""
@@ -64,6 +71,11 @@ class _Finger:
         """Return how far a joint (4,) is bent."""
         swing, _ = quaternion.swing_twist(rotation, self.twist[joint])
         return float(quaternion.to_rotation_vector(swing) @ self.flexion[joint])
+
+    def knuckle_rad(self, rotations: FloatArray) -> FloatArray:
+        """Return how far the knuckle (S, 4) is bent, (S,)."""
+        swing, _ = quaternion.swing_twist(rotations, self.twist[0])
+        return np.asarray(quaternion.to_rotation_vector(swing) @ self.flexion[0])
 
     def spread_rad(self, rotations: FloatArray) -> float:
         """Return how far the knuckle (S, 4) is turned sideways at most."""
@@ -133,16 +145,16 @@ def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> Floa
     for joint, eased_rad in ((1, middle_rad), (2, outer_rad)):
         solved_rad = finger.bent_rad(waiting[joint], joint)
         rotations = finger.flexed(rotations, joint, share * amount * (eased_rad - solved_rad))
-    bare, turn = rotations, np.zeros(len(share))
+    bare, turn, beyond_m = rotations, np.zeros(len(share)), finger.beyond_m(rotations)
     for _ in range(ROUNDS):
-        now_m = finger.tips_m(finger.flexed(bare, 0, turn))
+        now_m = finger.carried_m(finger.flexed(bare, 0, turn), 0, beyond_m)
         slope = quaternion.cross(np.broadcast_to(finger.flexion[0], now_m.shape), now_m - finger.offsets_m[0]) @ way
         slope = np.where(np.abs(slope) < LEAST_SLOPE_M, -LEAST_SLOPE_M, slope)
         turn = turn + np.clip((height_m - (now_m - tips_m[-1]) @ way) / slope, -MOST_STEP_RAD, MOST_STEP_RAD)
     rotations = finger.flexed(bare, 0, turn)
     off_m = finger.tips_m(rotations) - tips_m[-1]
     aside_m = np.linalg.norm(off_m - np.multiply.outer(off_m @ way, way), axis=1)
-    knuckle_rad = np.array([finger.bent_rad(one[0], 0) for one in station.rotations]) + turn
+    knuckle_rad = finger.knuckle_rad(station.rotations[:, 0]) + turn
     if knuckle_rad.min() < KNUCKLE_RAD[0] or knuckle_rad.max() > KNUCKLE_RAD[1]:
         return None
     if finger.spread_rad(rotations[:, 0]) > finger.spread_rad(station.rotations[:, 0]) + SPREAD_RAD:

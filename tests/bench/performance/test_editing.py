@@ -20,6 +20,7 @@ from app.plan.by_hand.corrections import (
     SetEmbouchure,
 )
 from app.project.edit.corrections import with_corrections
+from app.project.edit.piece import new_piece
 from app.project.model import Project
 from app.rig.characters.character_library import bundled_characters
 from app.rig.characters.load_character import load_character
@@ -35,6 +36,30 @@ def planned() -> tuple[Performance, float]:
     performance.prepare()
     reported("plans of 50 players and 100,000 notes, fresh", time.perf_counter() - start_s, unit_s)
     return performance, unit_s
+
+
+@pytest.mark.bench
+def test_who_is_in_front_of_an_opened_piece_moves_first() -> None:
+    project = large_project()
+    front, ids = project.players[0].id, [player.id for player in project.players]
+    unit_s, live = calibration_s(), LiveMotion(Performance(new_piece()))
+    live.request(0.0, player_ids=(front,))
+    performance, start_s = Performance(project), time.perf_counter()
+
+    def planned(player_ids: tuple[str, ...]) -> None:
+        if front in player_ids:
+            reported("the front player of an opened piece is planned", time.perf_counter() - start_s, unit_s)
+            live.show_first(performance, player_ids)
+            live.work()
+            assert live.pose(front, 0.0) is not None
+            reported("it moves", time.perf_counter() - start_s, unit_s)
+
+    performance.prepare(first=lambda: (front,), planned=planned)
+    reported("everyone is planned", time.perf_counter() - start_s, unit_s)
+    live.show(performance)
+    while any(live.pose(player_id, 0.0) is None for player_id in ids):
+        live.work()
+    reported("everyone moves", time.perf_counter() - start_s, unit_s)
 
 
 def corrections(performance: Performance) -> dict[str, Correction]:

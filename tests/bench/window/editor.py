@@ -205,11 +205,11 @@ class LargeEditor:
 
         self.program.editor.files.open(path, ask=False)
         yield since("the window shows the piece and reacts", lambda: len(self.session.project.players) == count)
-        yield since("plans are there", self.is_planned)
         front = self.session.players[0]
         yield since(
             "the player in front plays in the viewport", lambda: not self.viewport.message() and self.is_right(front)
         )
+        yield since("plans are there", self.is_planned)
         yield since("everyone at the playhead does", lambda: self.program.generator.live.is_seen)
 
     def is_planned(self) -> bool:

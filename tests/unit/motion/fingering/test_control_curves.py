@@ -143,10 +143,9 @@ def test_repeated_notes_do_not_lift() -> None:
 
 def test_a_slide_too_far_for_half_its_note_starts_earlier_but_leaves_the_first_frame() -> None:
     # 0.6 m need 0.24 s; a note of 0.2 s has 0.1 s in its half and 0.1583 s after its first frame at 24 frames/s
-    assert window_s(slide(), 1.0, 0.2, 0.0) == pytest.approx(0.2 - 1 / 24)
-    assert window_s(slide(), 1.0, 0.47, 0.0) == pytest.approx(0.24)
-    assert window_s(slide(), 1.0, 1.0, 0.0) == pytest.approx(0.24)
-    assert window_s(slide(), 0.05, 1.0, 0.0) == pytest.approx(0.060)
+    distances, durations_s = np.array([1.0, 1.0, 1.0, 0.05]), np.array([0.2, 0.47, 1.0, 1.0])
+    windows_s = window_s(slide(), distances, durations_s, np.zeros(4))
+    assert windows_s == pytest.approx([0.2 - 1 / 24, 0.24, 0.24, 0.060])
 
 
 def test_a_long_move_gathers_speed_while_it_still_looks_in_place() -> None:
