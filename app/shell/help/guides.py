@@ -22,7 +22,8 @@ FEATURES: Final = (
     QTextDocument.MarkdownFeature.MarkdownDialectGitHub.value | QTextDocument.MarkdownFeature.MarkdownNoHTML.value
 )
 ORDER: Final = (
-    *("editor", "from-your-notation-program", "piece-settings", "marks", "acting", "curves", "choreography"),
+    *("editor", "correct-by-hand"),
+    *("from-your-notation-program", "piece-settings", "marks", "acting", "curves", "choreography"),
     *("record-your-first-take", "follow-a-recording", "reference-video", "bring-your-own-character"),
     *("into-unreal", "files-for-other-programs", "skeletons", "stream-live", "evaluate"),
     *("add-an-instrument", "metadata", "inspect", "glossary", "licences", "architecture"),
