@@ -13,6 +13,7 @@ from app.editor.session import Session
 from app.plan.by_hand.corrections import Correction
 from app.project.cameras import View
 from app.project.document import Change
+from app.project.edit.found_events import events_of
 from app.project.model import Project
 
 _SOON_MS: Final = 40
@@ -32,6 +33,8 @@ class SelectionCamera(QObject):
         self._session = session
         self._notes, self._events = session.selection.notes, session.selection.events
         self._goal: tuple[str, View] | None = None
+        self._event: EventKey | None = None
+        """The event that is gone to; a note's playhead is `follow_selection`'s."""
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
         self._soon.timeout.connect(self._go)
         session.selection_changed.connect(self._selected)
@@ -48,23 +51,26 @@ class SelectionCamera(QObject):
         self._notes, self._events = selection.notes, selection.events
         if len(selection.notes) == 1 and notes and not selection.events:
             player_id = _player_of(self._session, next(iter(notes)))
+            self._event = None
             self._show(player_id, "hands")
         elif len(selection.events) == 1 and events and not selection.notes:
             self._show_event(next(iter(events)))
 
     def _changed(self, change: Change) -> None:
-        """Show an edit of corrections of one kind and player; what is dragged was selected before, and undo goes
-        through many."""
+        """Show an edit of corrections of one kind and selected player; what is dragged was selected before, and undo
+        goes through many."""
         document = self._session.document
         if change.opened or document.undone or not document.done or document.done[-1].gesture is not None:
             return
         keys = _corrected(change.before, change.after)
-        if len({(key.player_id, view_of_event(key.event_id)) for key in keys}) == 1:
+        places = {(key.player_id, view_of_event(key.event_id)) for key in keys}
+        if len(places) == 1 and keys[0].player_id in self._session.players:
             self._show_event(keys[0])
 
     def _show_event(self, key: EventKey) -> None:
         view = view_of_event(key.event_id)
         if view is not None:
+            self._event = key
             self._show(key.player_id, view)
 
     def _show(self, player_id: str, view: View) -> None:
@@ -90,6 +96,15 @@ class SelectionCamera(QObject):
             session.set_players((player_id, *others) if player_id in session.players else (player_id,))
         if view != viewport.view:
             viewport.set_view(view)
+        if viewport.follows_selection and self._event is not None:
+            self._seek(self._event)
+
+    def _seek(self, key: EventKey) -> None:
+        """Put the playhead where the event is seen, unless it is there."""
+        session, plan = self._session, self._session.plans.get(key.player_id)
+        event = None if plan is None else events_of(plan).get(key.event_id)
+        if event is not None and not event.start_s <= session.playhead_s < event.end_s:
+            session.set_playhead(event.start_s)
 
 
 def _player_of(session: Session, note_id: str) -> str:

@@ -14,7 +14,7 @@ from functools import cache
 from typing import Final
 
 BESIDES: Final = frozenset(
-    ("axis", "choices", "notice", "playhead", "preview", "sought", "status", "tab", "typing", "work")
+    ("axis", "choices", "notice", "playhead", "preview", "sought", "status", "tab", "typing", "view", "work")
 )
 """What follows from other changes, and goes on by itself while the piece plays."""
 

@@ -93,15 +93,20 @@ def _numbered(index: int) -> Action:
     )
 
 
-def _row(name: str, run: Callable[[Session], None], keys: str = "", about_current: bool = True) -> Action:
-    enabled, step = (_has_current, _named) if about_current else (has_everyone, None)
+def _row(
+    name: str,
+    run: Callable[[Session], None],
+    keys: str = "",
+    enabled: Callable[[Session], bool] = _has_current,
+    step: Callable[[Session], Message | None] | None = _named,
+) -> Action:
     return Action(f"cameras.{name}", run, "view/cameras", keys, "viewport", enabled, step=step)
 
 
 ACTIONS: tuple[Action, ...] = (
     *map(_numbered, range(NUMBERED)),
-    _row("keep", _keep, "Ctrl+B", about_current=False),
+    _row("keep", _keep, "Ctrl+B", has_everyone, None),
     _row("update", _update, "Ctrl+Shift+B"),
-    _row("rename", _rename),
+    _row("rename", _rename, step=None),
     _row("remove", _remove),
 )

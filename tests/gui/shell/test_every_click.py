@@ -65,6 +65,7 @@ def by_hand(desk: Desk) -> None:
     actions(desk.session)["players.randomise"].trigger()
     actions(desk.session)["fingering.cycle"].trigger()
     actions(desk.session)["marks.staccato"].trigger()
+    actions(desk.session)["cameras.keep"].trigger()
     tabs, corrections = desk.program.window.findChild(QTabWidget), desk.program.window.findChild(CorrectionList)
     assert isinstance(tabs, QTabWidget)
     assert isinstance(corrections, CorrectionList)

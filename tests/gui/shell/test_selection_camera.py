@@ -64,8 +64,12 @@ def test_a_breath_of_another_player(program: Program, follows: Follows, before: 
     session = program.session
     session.viewport.set(camera_follows=follows)
     session.viewport.set_view(before)
-    session.select(Selection(events=frozenset({_breath(program, 2)})))
+    session.set_playhead(7.0)
+    key = _breath(program, 2)
+    session.select(Selection(events=frozenset({key})))
     assert _wait(program) == after
+    breath = next(event for event in session.plans[key.player_id].breaths if event.id == key.event_id)
+    assert session.playhead_s == (breath.start_s if before != after else 7.0)
     moves = before != after
     assert (session.players[0] == session.project.players[2].id) is moves
 
@@ -73,7 +77,8 @@ def test_a_breath_of_another_player(program: Program, follows: Follows, before: 
 def test_a_correction_without_a_selection_is_shown_and_undo_is_not(program: Program) -> None:
     session = program.session
     session.viewport.set(camera_follows="always")
-    player = session.project.players[1]
+    other, player = session.project.players[:2]
+    session.set_players((other.id, player.id))
     note = session.project.part(player).notes[3]
     session.apply(
         Message("edit.pin_fingerings", {"count": 1}), pin_fingerings(session.project, player.id, {note.id: "1-3"})
@@ -83,6 +88,18 @@ def test_a_correction_without_a_selection_is_shown_and_undo_is_not(program: Prog
     session.viewport.set_view("ensemble")
     session.document.undo()
     assert _wait(program) == "ensemble"
+
+
+def test_an_edit_of_a_player_who_is_not_selected_moves_nothing(program: Program) -> None:
+    """As a cue that the conductor is to give, edited from the lane of one who takes it."""
+    session = program.session
+    session.viewport.set(camera_follows="always")
+    front, other = session.players, session.project.players[1]
+    note = session.project.part(other).notes[3]
+    pinned = pin_fingerings(session.project, other.id, {note.id: "1-3"})
+    session.apply(Message("edit.pin_fingerings", {"count": 1}), pinned)
+    assert _wait(program) == "ensemble"
+    assert session.players == front
 
 
 def test_it_stays_while_a_button_is_down_or_the_piece_plays(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
