@@ -131,6 +131,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "start_page.begin": ("Start", "開始"),
     "start_page.discard": ("Discard", "破棄"),
     "start_page.files_you_open_appear_here": ("Files you open appear here.", "開いたファイルがここに表示されます。"),
+    "start_page.first_steps": ("First Steps in Five Stops", "ファーストステップ（5 ステップ）"),
     "start_page.how_it_works": ("How it works", "使い方"),
     "start_page.new_piece": ("New Project", "新規プロジェクト"),
     "start_page.not_found": ("not found", "見つかりません"),

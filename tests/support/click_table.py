@@ -22,6 +22,7 @@ _LINES: Final = """
 # The start page, the status line and the title of the window
 start_open = asked
 start_new = file page panels project + lanes view
+help.first_steps, start_first_steps = file page players project + dancer panels view
 start_example, start_danced_example = file page players project + dancer panels view
 midi_device, stream_state = dialog
 palette_button = palette popup

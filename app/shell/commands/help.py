@@ -6,6 +6,7 @@ from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from app.shell.editor import Editor, EditorAction
+from app.shell.first_steps.tour import FirstSteps
 from app.shell.help.guides import names
 from app.shell.help.places import part_under, place_in_menu, place_of
 from app.shell.help.window import HelpWindow
@@ -36,7 +37,13 @@ def _help_window(editor: Editor) -> HelpWindow:
     return editor.window.findChild(HelpWindow) or HelpWindow(editor.session, editor.language, editor.window)
 
 
+def first_steps(editor: Editor) -> None:
+    """Begin the tour, or bring it into view."""
+    (editor.window.findChild(FirstSteps) or FirstSteps(editor)).begin()
+
+
 ACTIONS: tuple[EditorAction, ...] = (
+    EditorAction("help.first_steps", first_steps, "help", icon="foot"),
     EditorAction("help.guides", guides, "help", icon="help"),
     EditorAction("help.here", help_here, "help", "F1", icon="pointer"),
 )

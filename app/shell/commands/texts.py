@@ -95,6 +95,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "action.generate.bars_back": ("Restore First Performance", "最初の演奏に戻す"),
     "action.generate.everyone": ("Regenerate All Players", "全奏者を再生成"),
     "action.generate.players": ("Regenerate Selected Players", "選択した奏者を再生成"),
+    "action.help.first_steps": ("First Steps", "ファーストステップ"),
     "action.help.guides": ("Guides", "ガイド"),
     "action.help.here": ("Help at Pointer", "ポインター位置のヘルプ"),
     "action.language.en": ("English", "English"),

@@ -12,6 +12,7 @@ PLACES: Final[Mapping[str, str]] = {
     # The window
     "window": "editor",
     "start_page": "editor#start-page",
+    "start_first_steps": "editor#help",
     "menu_file": "editor#file",
     "menu_edit": "editor#edit",
     "menu_edit_breaths_and_acting": "acting#gestures-by-hand",
@@ -36,6 +37,7 @@ PLACES: Final[Mapping[str, str]] = {
     "transport": "editor#transport",
     "status": "editor#status-line",
     "banner": "editor#start-page",
+    "first_steps": "editor#help",
     # The viewport
     "viewport": "editor#viewport",
     "viewport_pose": "editor#pose-tool",

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QDockWidget, QMenu, QMessag
 from pytestqt.qtbot import QtBot
 
 from app.shell.app import Program
+from app.shell.first_steps.tour import FirstSteps
 from app.shell.help import guides
 from app.shell.help.guides import FOLDER, anchor_of, guide, names, search, sections
 from app.shell.help.places import ACTIONS, PLACES, place_of
@@ -127,6 +128,7 @@ def test_the_guides_and_their_pictures_are_packaged() -> None:
 
 def test_every_panel_lane_section_tab_and_menu_has_a_place(program: Program) -> None:
     window = program.window
+    FirstSteps(program.editor)
     lanes = [lane.id for lane in LANES]
     assert {f"lane_{id}" for id in (*lanes, "roll")} <= PLACES.keys()
     assert {f"menu_{name}" for name in BAR} <= PLACES.keys()

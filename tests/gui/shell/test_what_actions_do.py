@@ -31,6 +31,7 @@ from app.score.model import Note
 from app.score.read import read_midi
 from app.score.take import Cleaning
 from app.shell.commands.timeline import LANES
+from app.shell.first_steps.tour import FirstSteps
 from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
 from metadata.library import FOLDERS
@@ -868,6 +869,9 @@ CASES: dict[str, Case] = {
         lambda d: d.session.recording.count_in_bars == 1, lambda d: d.session.recording.set(count_in_bars=0)
     ),
     "record.count_in_2": Case(lambda d: d.session.recording.count_in_bars == 2),
+    "help.first_steps": Case(
+        lambda d: d.project.source.endswith("quartet.mid") and d.program.window.findChild(FirstSteps) is not None
+    ),
     "help.guides": Case(lambda d: d.dialog("help")),
     "help.here": Case(lambda d: d.dialog("help")),
     "application.about": Case(lambda d: d.dialog("about")),

@@ -1,0 +1,130 @@
+"""Progress of the tour: a value that goes on by what the user does and by its buttons."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+from app.plan.by_hand.corrections import PinFingering, SetBreath
+from app.plan.model import PlayerPlan
+from app.project.model import Project
+
+
+@dataclass(frozen=True)
+class TourFacts:
+    """State of the editor by which the user's work is recognised.
+
+    Attributes
+    ----------
+    is_playing : bool
+    fingerings : frozenset of (str, PinFingering)
+        Pinned fingerings, with the ids of their players.
+    breaths : frozenset of (str, int)
+        Starts of the breaths that were set by hand and not added, with the ids of their players.
+    breath_ticks : frozenset of (str, int)
+        Starts of the breaths of all plans, with the ids of their players.
+    amplitudes : mapping of str to float
+        By the ids of the players.
+    is_exporting : bool
+        True if the export dialog is open.
+    """
+
+    is_playing: bool = False
+    fingerings: frozenset[tuple[str, PinFingering]] = frozenset()
+    breaths: frozenset[tuple[str, int]] = frozenset()
+    breath_ticks: frozenset[tuple[str, int]] = frozenset()
+    amplitudes: Mapping[str, float] = field(default_factory=dict)
+    is_exporting: bool = False
+
+
+def facts_of(project: Project, plans: Mapping[str, PlayerPlan], is_playing: bool, is_exporting: bool) -> TourFacts:
+    """Gather the facts of a project and its newest plans."""
+    made = [(player, each) for player in project.players for each in project.corrections.get(player.id, ())]
+    return TourFacts(
+        is_playing,
+        frozenset((player.id, each) for player, each in made if isinstance(each, PinFingering)),
+        frozenset(
+            (player.id, note.onset_tick + each.start_offset_tick)
+            for player, each in made
+            if isinstance(each, SetBreath) and not each.added
+            for note in project.part(player).notes
+            if note.id == each.note_id
+        ),
+        frozenset((player_id, breath.start_tick) for player_id, plan in plans.items() for breath in plan.breaths),
+        {player.id: player.parameters.amplitude for player in project.players},
+        is_exporting,
+    )
+
+
+def _has_moved_breath(then: TourFacts, now: TourFacts) -> bool:
+    # One that was only made deeper begins where a breath began before.
+    return bool(now.breaths - then.breaths - then.breath_ticks)
+
+
+def _has_other_amplitude(then: TourFacts, now: TourFacts) -> bool:
+    return any(now.amplitudes.get(id, amplitude) != amplitude for id, amplitude in then.amplitudes.items())
+
+
+STOPS: Final[Mapping[str, Callable[[TourFacts, TourFacts], bool]]] = {
+    "play": lambda then, now: now.is_playing,
+    "fingering": lambda then, now: bool(now.fingerings - then.fingerings),
+    "breath": _has_moved_breath,
+    "amplitude": _has_other_amplitude,
+    "export": lambda then, now: now.is_exporting,
+}
+"""The stops in their order, with what tells from the facts at the arrival and those of now that the stop is done."""
+_NAMES: Final = tuple(STOPS)
+
+
+@dataclass(frozen=True)
+class TourProgress:
+    """The tour at a stop.
+
+    Attributes
+    ----------
+    arrival : TourFacts
+        The facts when the user came to the stop.
+    number : int
+        Of the stop, from 0; that of none once the tour is over.
+    done : frozenset of str
+        Stops whose work was done, whatever was undone since.
+    """
+
+    arrival: TourFacts
+    number: int = 0
+    done: frozenset[str] = frozenset()
+
+    @property
+    def stop(self) -> str:
+        """Name of the stop; empty once the tour is over."""
+        return _NAMES[self.number] if self.number < len(_NAMES) else ""
+
+    @property
+    def is_done(self) -> bool:
+        """True if the work of this stop was done."""
+        return self.stop in self.done
+
+    @property
+    def is_last(self) -> bool:
+        """True at the last stop."""
+        return self.number == len(_NAMES) - 1
+
+    def observe(self, now: TourFacts) -> TourProgress:
+        """Recognise the work of this stop."""
+        if not self.stop or self.is_done:
+            return self
+        if STOPS[self.stop](self.arrival, now):
+            return replace(self, done=self.done | {self.stop})
+        if now.breaths == self.arrival.breaths and now.breath_ticks != self.arrival.breath_ticks:
+            # Plans may come after the arrival, and be made again for other reasons than a breath set by hand.
+            return replace(self, arrival=replace(self.arrival, breath_ticks=now.breath_ticks))
+        return self
+
+    def next(self, now: TourFacts) -> TourProgress:
+        """Go on to the next stop, or end the tour, whether or not this one is done."""
+        return TourProgress(now, min(self.number + 1, len(_NAMES)), self.done)
+
+    def back(self, now: TourFacts) -> TourProgress:
+        """Go back to the stop before."""
+        return TourProgress(now, max(self.number - 1, 0), self.done)
