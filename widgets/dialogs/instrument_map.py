@@ -31,6 +31,7 @@ from app.editor.session import Session, Severity
 from app.errors import AppError
 from app.messages.pitches import LETTERS, pitch_name
 from instrument_maps import fingering_table as edit
+from instrument_maps.fingering_words import fingering_words
 from instrument_maps.library import library
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
@@ -38,7 +39,7 @@ from widgets.common.fingering_diagram import FingeringDiagram
 from widgets.common.fingering_tags import tag_words, tags_of_text, words_of_tags
 from widgets.common.help import HelpButton
 from widgets.common.icons import icon
-from widgets.common.instrument_name import instrument_name
+from widgets.common.instrument_name import instrument_name, language
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.paths import show_folder
 from widgets.common.pitch import syllables
@@ -287,7 +288,7 @@ class InstrumentsDialog(Retranslated, QDialog):
                 if column < LABEL:
                     item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
                 if column == LABEL:
-                    item.setToolTip(one.label)
+                    item.setToolTip(fingering_words(draft.instrument, one.label, language()))
                 if base and base.get((one.written_pitch, one.rank)) != one:
                     item.setForeground(mark)
                 self._table.setItem(row, column, item)

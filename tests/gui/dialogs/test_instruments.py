@@ -105,6 +105,14 @@ def test_it_opens_on_the_instrument_of_the_player_in_front_and_lists_all(page: P
     assert {name for name, value in page.diagram.values.items() if value} == set(TRUMPET.fingerings_for(72)[1].controls)
 
 
+def test_the_signs_of_a_fingering_have_names_under_the_mouse_and_beside_the_chart(page: Page) -> None:
+    page.dialog.choose("bassoon")
+    row = next(row for row in range(page.table.rowCount()) if page.table.item(row, LABEL).text() == "L1 L2 Lt_w")
+    assert page.table.item(row, LABEL).toolTip() == "whisper key + L1·2"
+    page.table.setCurrentCell(row, LABEL)
+    assert page.diagram.names == ["whisper key", "L1·2"]
+
+
 def test_a_change_is_saved_as_ones_own_played_and_taken_back(page: Page, session: Session, folder: Path) -> None:
     before = page.labels(D5)
     page.choose(D5, 2)
