@@ -12,7 +12,7 @@ from app.formats.bvh.read import read_bvh
 from app.formats.files import open_file
 
 SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf", ".vrma")
-"""What files of motion are called; what is in them decides how they are read."""
+"""Endings of files of motion; the content decides how they are read."""
 _HEAD_BYTES: Final = 4096
 
 

@@ -42,7 +42,7 @@ _RATES: Final = (
 )
 """Rates of film, games and motion capture: a frame time of so much is a rate, unless it is one in milliseconds too."""
 _NEAR: Final = 0.002
-"""How far a rate may be off, as a part of it, to be one of `_RATES`."""
+"""Part of a rate by which another may differ to be the same of `_RATES`."""
 _MOTION: Final = re.compile(r"(?:^|[\r\n])[ \t]*MOTION(?=\s|$)", re.IGNORECASE)
 _FRAMES: Final = re.compile(r"\s*Frames\s*:\s*(\S+)\s+Frame[ \t]*Time\s*:\s*(\S+)", re.IGNORECASE)
 _BRACES: Final = re.compile(r"([{}])")
