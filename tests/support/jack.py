@@ -100,7 +100,7 @@ class Server:
         if self._process is not None:
             self._process.send_signal(by)
             try:
-                self._process.wait(5.0)
+                self._process.wait(1.0)
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()

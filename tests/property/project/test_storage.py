@@ -35,7 +35,7 @@ def test_there_and_back(project: Project) -> None:
 
 
 @given(projects())
-@settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=5, deadline=None, suppress_health_check=list(HealthCheck))
 def test_through_a_real_file(tmp_path_factory: Any, project: Project) -> None:
     folder = tmp_path_factory.mktemp("projects")
     save(project, folder / "piece.suisou")

@@ -13,7 +13,7 @@ from tests.support.jack import QUICK_FRAMES, jack_server
 from tests.support.listening import Ear
 from tests.support.wind_player import WindPlayer, burst
 
-BURST_S = 10.0
+BURST_S = 4.0
 
 
 def test_nothing_is_lost_in_bursts_while_the_editor_is_busy(tmp_path: Path) -> None:
