@@ -19,7 +19,7 @@ CATCH_MIN_S = 0.2
 """A shorter gasp is no breath: a litre at 5 to 8 litres a second, the most that healthy adults breathe in with."""
 CATCH_MAX_S = 0.4
 """A catch breath lasts at most so long, ..."""
-UNHURRIED_SHARE = 0.25
+UNHURRIED_SHARE = 1.0 / 3.0
 """... or as long as a full breath, where that takes at most this part of the note before it."""
 CATCH_NOTE_SHARE = 0.5
 """A catch breath takes at most this part of the note before it ..."""

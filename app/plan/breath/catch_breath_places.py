@@ -18,7 +18,7 @@ LEAST_COST = 0.2
 """A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
 ONE_MORE = 1.5
 """Times that air a stretch takes at least in which a breath is taken for a phrase's end: some of it comes after."""
-EARLY_COST = 1.0
+EARLY_COST = 0.25
 """Breathing in with lungs still full; with half a lungful a quarter of it."""
 HASTY_COST = 10.0
 """Breathing in again before `HASTY_SHARE` of the lungs is used up."""

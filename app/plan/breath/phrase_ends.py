@@ -49,7 +49,7 @@ FOUR_BARS: Final = 0.7
 """... four bars: so much more."""
 
 # What songs do not show.
-PLACE_COST: Final = 4.9
+PLACE_COST: Final = 5.15
 """A breath without anything that speaks for one: of this -3.9 is the log odds of such a place."""
 REST: Final = 4.0
 """In a rest of the score."""
