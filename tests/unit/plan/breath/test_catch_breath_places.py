@@ -5,8 +5,10 @@ from __future__ import annotations
 import itertools
 import random
 
+import numpy as np
 import pytest
 
+from app.plan.breath.catch_breath_places import cheapest_chain
 from app.plan.breath.lungs import FULL_BREATH_S
 from app.plan.generate import MonophonicPart, make_plans, time_frame
 from app.plan.parameters import PlayerParameters
@@ -31,6 +33,14 @@ def test_most_breaths_are_where_engravers_mark_them(held_out: bool, least: float
     rows = [row for row in marked_lines() if row["held_out"] == held_out]
     assert rows
     assert share_at_phrase_ends(rows) >= least
+
+
+@pytest.mark.parametrize(("dearer", "chosen"), [(0.1, 0), (0.02, 1)])
+def test_a_clearer_end_is_chosen_though_air_is_left(dearer: float, chosen: int) -> None:
+    """Two places in a stretch of 12 s: after 5 s, and after 8 s of lungs that last 10 s, where a breath costs more."""
+    at_s = np.array([0.0, 5.0, 8.0, 12.0]).tobytes()
+    cost, drawn_s = np.array([3.0, 3.0 + dearer]).tobytes(), np.array([8.0, 8.0]).tobytes()
+    assert cheapest_chain(at_s, at_s, cost, drawn_s, 1.0, 10.0, 3.5) == ((chosen,), True)
 
 
 @pytest.mark.parametrize("after", [1, 2])

@@ -7,9 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from app.errors import Message
 from app.plan.generate import MonophonicPart, make_plans, time_frame
-from app.plan.gestures.gestures import ARCH, RELEASE
+from app.plan.gestures.gestures import ARCH, RELEASE, in_order
 from app.plan.gestures.lowered_instrument import LOWER_S, LOWERED_LEAST_S, RAISE_S
 from app.plan.gestures.sways import STIR_S
 from app.plan.model import GestureEvent, PlayerPlan
@@ -32,6 +35,16 @@ def of_kind(plan: PlayerPlan, kind: str) -> list[GestureEvent]:
 
 def tune(track: int = 1, bars: int = 32) -> tuple[PlainNote, ...]:
     return even([65, 67, 69, 70] * bars, Q, track=track)
+
+
+@given(st.lists(st.tuples(st.integers(0, 4), st.sampled_from("abcdef")), max_size=20))
+def test_gestures_are_ordered_by_start_then_by_id(rows: list[tuple[int, str]]) -> None:
+    events = [
+        GestureEvent(f"lean:{name}", "lean", start, start + 1, float(start), start + 1.0, 1.0, Message("gesture.lean"))
+        for start, name in rows
+    ]
+    expected = sorted(events, key=lambda event: (event.start_s, event.id))
+    assert list(in_order((events[::2], events[1::2]))) == expected
 
 
 def test_sway_goes_from_beat_to_beat_without_gaps() -> None:
