@@ -7,6 +7,7 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator, Signal
 
+from app.editor.translated import system_language
 from app.features import modules
 from app.messages import LANGUAGES, WORDINGS
 from app.shell.commands.texts import TEXTS as COMMANDS
@@ -31,15 +32,6 @@ ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
 def english_text(text_id: str) -> str:
     """The English text of an id, whatever language is shown."""
     return next(room[text_id][0] for room in ROOMS if text_id in room)
-
-
-def system_language() -> str:
-    """The first language of the system's list that the editor speaks; English where it speaks none."""
-    for name in QLocale.system().uiLanguages():
-        code = name.split("-")[0].split("_")[0]
-        if code in LANGUAGES:
-            return code
-    return "en"
 
 
 class Language(QObject):
@@ -91,8 +83,22 @@ def _translators(code: str) -> list[QTranslator]:
     return [*found, TextTranslator(code)]
 
 
+_LACKING_IN_QT: Final[Mapping[str, Mapping[tuple[str, str], str]]] = {
+    "ja": {
+        ("QFileDialog", "&Look in:"): "場所(&I):",
+        ("QFileDialog", "Files of &type:"): "ファイルの種類(&T):",
+        (
+            "QFileSystemModel",
+            '<b>The name "%1" cannot be used.</b>'
+            "<p>Try using another name, with fewer characters or no punctuation marks.",
+        ): "<b>「%1」という名前は使えません。</b><p>短い名前や、記号を含まない名前にしてください。",
+    }
+}
+"""Texts of Qt's dialogs, by context and English text, that Qt's own translation lacks (6.11)."""
+
+
 class TextTranslator(QTranslator):
-    """Texts of the editor in one language, by id.
+    """Texts of the editor in one language, by id, and those that Qt's own translation lacks.
 
     Parameters
     ----------
@@ -104,11 +110,12 @@ class TextTranslator(QTranslator):
         super().__init__()
         place = list(LANGUAGES).index(code)
         self._texts = {id: wording[place] for room in ROOMS for id, wording in room.items()}
+        self._of_qt = _LACKING_IN_QT.get(code, {})
 
     def isEmpty(self) -> bool:
         """Qt asks before it announces another language."""
         return False
 
     def translate(self, context: str, source: str, disambiguation: str | None = None, count: int = -1) -> str | None:
-        """The text of an id; None for what others translate, as Qt's own texts."""
-        return self._texts.get(source)
+        """The text of an id; None for what others translate, as most of Qt's own texts."""
+        return self._texts.get(source) or self._of_qt.get((context, source))

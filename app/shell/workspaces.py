@@ -84,7 +84,7 @@ WORKSPACES: Final = (
         timeline_share=0.444,
         left_whole="if_high",
         right_whole="if_low",
-        lists_share=0.4,
+        lists_share=0.55,
         lanes=LaneState(
             order=(
                 *("audio", "roll", "dynamics", "takes", "fingering", "breath", "acting", "problems", "additive"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import cache
 
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -43,13 +44,20 @@ def speaking(code: str = "ja") -> Iterator[None]:
 
 def english_in(texts: Iterable[str]) -> set[str]:
     """Those of some texts that are English, their fields filled in or not."""
-    filled = [
-        re.compile("".join(".+" if part.startswith("{") else re.escape(part) for part in _PARTS.split(source)))
-        for source in ENGLISH
-        if _FIELD.search(source) and len(_FIELD.sub("", source).strip()) > 2
-    ]
-    whole = {source for source in ENGLISH if not _FIELD.search(source)}
-    return {text for text in texts if text in whole or any(one.fullmatch(text) for one in filled)}
+    return set(filter(_is_english, texts))
+
+
+_WHOLE = {source for source in ENGLISH if not _FIELD.search(source)}
+_FILLED = [
+    re.compile("".join(".+" if part.startswith("{") else re.escape(part) for part in _PARTS.split(source)))
+    for source in ENGLISH
+    if _FIELD.search(source) and len(_FIELD.sub("", source).strip()) > 2
+]
+
+
+@cache
+def _is_english(text: str) -> bool:
+    return text in _WHOLE or any(one.fullmatch(text) for one in _FILLED)
 
 
 def texts_of(widget: QWidget) -> set[str]:

@@ -1,7 +1,8 @@
 """Draws the whole editor at some scales, in both languages, and prints what does not fit; run as a program.
 
-``python -m tests.support.looks SCALE:THEME:WIDTH:HEIGHT ... [FOLDER]``: a line for each scale and for each fault at it,
-and with a folder a picture of each state. The scale belongs to the process: each has a fork of this one, in which all
+``python -m tests.support.looks SCALE:THEME:WIDTH:HEIGHT[:live] ... [FOLDER]``: a line for each scale and each fault at
+it, and with a folder a picture of each state. With ``live`` the language is switched in every state: nothing may
+be cut, nor left in the other language. The scale belongs to the process: each has a fork of this one, in which all
 modules and the piece are loaded.
 """
 
@@ -10,6 +11,7 @@ from __future__ import annotations
 import importlib
 import os
 import pkgutil
+import re
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -53,6 +55,7 @@ from app.shell.app import Program, make_application
 from app.shell.commands.record import latency as show_latency
 from app.shell.workspaces import WORKSPACES
 from instrument_maps.load import bundled_maps
+from tests.gui.japanese import english_in, texts_of
 from tests.gui.shell.conftest import Answers
 from tests.support.real_work import LUTKIN
 from tests.support.takes import take_of
@@ -64,6 +67,9 @@ from widgets.viewport import figures
 
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
+_JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
+_SAME_IN_BOTH = {"日本語", "End", "L"}
+"""The name of a language, and keys."""
 QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
 """Fields whose small button is Qt's; keys do the same."""
 
@@ -75,6 +81,13 @@ def faults(application: QApplication) -> Iterator[str]:
             if widget.isVisible():
                 for fault in _faults_of(widget):
                     yield f"{_place(widget)}: {fault}"
+
+
+def left_over(application: QApplication, language: str) -> list[str]:
+    """Visible texts that are not in the language that is shown."""
+    texts = {text for window in application.topLevelWidgets() if window.isVisible() for text in texts_of(window)}
+    japanese = {text for text in texts if _JAPANESE.search(text)}
+    return sorted((japanese if language == "en" else english_in(texts - japanese)) - _SAME_IN_BOTH)
 
 
 def _faults_of(widget: QWidget) -> Iterator[str]:
@@ -151,8 +164,11 @@ def _place(widget: QWidget) -> str:
 class Look:
     """An editor in every state, one after another."""
 
-    def __init__(self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None) -> None:
+    def __init__(
+        self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None, *, live: bool = False
+    ) -> None:
         self.application = make_application()
+        self.live = live
         settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = "en", theme
         answers = Answers()
@@ -184,7 +200,17 @@ class Look:
         pause(round(1000 * seconds))
 
     def at(self, state: str) -> None:
-        """Judge a state."""
+        """Judge a state, in the other language too where it is switched."""
+        self._judge(state)
+        if self.live:
+            before = self.language
+            for language in ("ja", "en") if before == "en" else ("en", "ja"):
+                self.speak(language)
+                self._judge(f"{state}_switched")
+                for text in left_over(self.application, language):
+                    self.found.setdefault(f"{text!r} is left in the other language", f"{state}_{language}")
+
+    def _judge(self, state: str) -> None:
         self.settle()
         name = f"{state}_{self.language}"
         found = set(faults(self.application))
@@ -342,13 +368,13 @@ class Look:
 
 def look_at(screen: str, pictures: Path | None) -> None:
     """Look at one scale, and print what was found."""
-    scale, theme, width, height = screen.split(":")
+    scale, theme, width, height, *live = screen.split(":")
     os.environ["QT_SCALE_FACTOR"] = scale
     with tempfile.TemporaryDirectory() as folder:
-        look = Look(theme, (int(width), int(height)), Path(folder), pictures)
+        look = Look(theme, (int(width), int(height)), Path(folder), pictures, live=bool(live))
         look.start()
         look.open()
-        for language in ("en", "ja"):
+        for language in ("en",) if live else ("en", "ja"):
             look.speak(language)
             look.workspaces()
             look.selections()

@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QCheckBox,
+    QDialog,
     QDialogButtonBox,
     QHeaderView,
     QListWidget,
@@ -161,7 +162,19 @@ class Retranslated(_Mixin):
     def changeEvent(self, event: QEvent) -> None:
         if event.type() == QEvent.Type.LanguageChange:
             self.word()
+            if isinstance(self, QDialog) and self.isVisible():
+                # Its parts get the event after it.
+                QTimer.singleShot(0, self, partial(_fit, self))
         super().changeEvent(event)
+
+
+def _fit(dialog: QDialog) -> None:
+    """Make a dialog as high and as wide as its texts need by now; it does not shrink."""
+    layout = dialog.layout()
+    if layout is not None:
+        layout.activate()
+        least = layout.totalMinimumSize().expandedTo(dialog.size())
+        dialog.resize(least.width(), max(least.height(), layout.totalHeightForWidth(least.width())))
 
 
 def said(text_id: str, **arguments: object) -> Callable[[], str]:

@@ -2,7 +2,8 @@
 
 Qt takes the name of a file for UTF-8 and drops the bytes that are not; in a URL they survive. So files come from
 dialogs and drops as URLs, and a path that can be edited is written as `app.encoding.stored` has it. Qt's own file
-dialog does not list names that are not UTF-8 at all; those of the desktops do.
+dialog does not list names that are not UTF-8 at all; those of the desktops do, so they are used unless they speak
+another language than the editor.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices, QDropEvent
 from PySide6.QtWidgets import QFileDialog, QLineEdit, QWidget
 
+from app.editor.translated import speaks_as_system
 from app.encoding import is_text, restored, shown, stored
 from app.formats.other_computers import agree, may_touch
 
@@ -51,27 +53,37 @@ def dropped_paths(event: QDropEvent) -> list[Path]:
 
 def ask_for_file(parent: QWidget | None, title: str, start: Path | None, filters: str) -> Path | None:
     """An existing file; None where none was chosen. The dialog begins in a folder or with a file, or at home."""
-    url, _ = QFileDialog.getOpenFileUrl(parent, title, url_of(_reachable(start)), filters, supportedSchemes=_SCHEMES)
+    url, _ = QFileDialog.getOpenFileUrl(
+        parent, title, url_of(_reachable(start)), filters, options=_options(), supportedSchemes=_SCHEMES
+    )
     return path_of(url)
 
 
 def ask_for_files(parent: QWidget | None, title: str, start: Path | None, filters: str) -> list[Path]:
     """Existing files; none where none was chosen. The dialog begins as that of `ask_for_file`."""
-    urls, _ = QFileDialog.getOpenFileUrls(parent, title, url_of(_reachable(start)), filters, supportedSchemes=_SCHEMES)
+    urls, _ = QFileDialog.getOpenFileUrls(
+        parent, title, url_of(_reachable(start)), filters, options=_options(), supportedSchemes=_SCHEMES
+    )
     return [path for url in urls if (path := path_of(url)) is not None]
 
 
 def ask_where_to_save(parent: QWidget | None, title: str, proposal: Path, filters: str) -> Path | None:
     """A file to write; None where none was chosen. Whether one that is there may be replaced was asked."""
     start = url_of(_reachable(proposal.parent) / shown(proposal.name))
-    url, _ = QFileDialog.getSaveFileUrl(parent, title, start, filters, supportedSchemes=_SCHEMES)
+    url, _ = QFileDialog.getSaveFileUrl(parent, title, start, filters, options=_options(), supportedSchemes=_SCHEMES)
     return path_of(url)
 
 
 def ask_for_folder(parent: QWidget | None, title: str, start: Path | None) -> Path | None:
     """An existing folder; None where none was chosen."""
-    url = QFileDialog.getExistingDirectoryUrl(parent, title, url_of(_reachable(start)), supportedSchemes=_SCHEMES)
+    options = _options() | QFileDialog.Option.ShowDirsOnly
+    url = QFileDialog.getExistingDirectoryUrl(parent, title, url_of(_reachable(start)), options, _SCHEMES)
     return path_of(url)
+
+
+def _options() -> QFileDialog.Option:
+    """The system's dialog where it speaks the editor's language, else Qt's."""
+    return QFileDialog.Option(0) if speaks_as_system() else QFileDialog.Option.DontUseNativeDialog
 
 
 def show_folder(folder: Path) -> None:

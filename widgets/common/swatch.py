@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QColorDialog, QMenu, QPushButton, QWidget
 
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.translated import speaks_as_system
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
 
@@ -63,7 +64,10 @@ class ColourSwatch(QPushButton):
 
     def _ask(self) -> None:
         before = QColor(self._colours[0]) if self._colours else QColor(self._session.tokens.accent)
-        colour = QColorDialog.getColor(before, self, self.tr("colour_swatch.colour_of_player"))
+        options = QColorDialog.ColorDialogOption(0)
+        if not speaks_as_system():
+            options = QColorDialog.ColorDialogOption.DontUseNativeDialog
+        colour = QColorDialog.getColor(before, self, self.tr("colour_swatch.colour_of_player"), options)
         if colour.isValid():
             self.chosen.emit(colour.name())
 

@@ -26,7 +26,7 @@ from widgets.inspector.problem_list import ProblemList
 from widgets.inspector.take_section import TakeSection
 
 MOST_COUNTED = 999
-LISTS_SHARE = 0.4
+LISTS_SHARE = 0.55
 WHOLE = 1000
 """Sizes of the splitter in shares of its height."""
 

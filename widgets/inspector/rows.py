@@ -90,7 +90,7 @@ class _LineDelegate(QStyledItemDelegate):
     # Qt's own names
 
     def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:
-        height = _line_px(self._view.font()) + 8
+        height = _line_px(self._view.font()) + 6
         if self._view.has_details:
             height += 2 * _line_px(self._small())
         return QSize(100, max(26, round(height)))

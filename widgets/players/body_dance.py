@@ -18,7 +18,7 @@ from app.project.edit.players import parameter_edit, reset_parameters, set_param
 from app.project.model import Project
 from app.project.performers import Player
 from widgets.common.combo import Combo, Option
-from widgets.common.controls import Caption, IconButton, named
+from widgets.common.controls import Caption, IconButton, Retranslated, named
 from widgets.common.layouts import in_column, in_row
 from widgets.common.paths import ask_for_file
 from widgets.players.parameter_rows import ParameterSlider, rows_of
@@ -30,12 +30,14 @@ _DANCED = PARAMETERS["choreography"]
 _VARIATION = "dance_variation"
 
 
-class BodyDanceRows(QWidget):
+class BodyDanceRows(Retranslated, QWidget):
     """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
+        self._dances: list[str] = []
+        """Those of the players that are shown."""
         self._choreography = named(Combo(), "parameter_choreography")
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
         self._dice = IconButton(session, "dice", "body_dance_rows.another_dance_for_each", self._vary, "dance_dice")
@@ -45,6 +47,7 @@ class BodyDanceRows(QWidget):
             slider.changed.connect(lambda value, token, name=name: self._set(name, value, token))
             slider.reset.connect(lambda _, name=name: self._reset(name))
             slider.released.connect(session.document.end_gesture)
+        self.retranslate()
 
     def _build(self) -> None:
         choice = in_row(Caption(_DANCED.label, self._choreography), (self._choreography, 1), spacing=4)
@@ -56,13 +59,8 @@ class BodyDanceRows(QWidget):
 
     def show_players(self, players: Sequence[Player]) -> None:
         """Show what these players dance, of whom there is at least one."""
-        dances = list(dict.fromkeys(player.parameters.choreography for player in players))
-        options = [Option(_GENERATED, self.tr("body_dance_rows.generated"))]
-        options += [Option(name, name) for name in bundled_choreographies()]
-        known = {option.id for option in options}
-        options += [Option(path, shown(Path(path).stem)) for path in dances if path not in known]
-        self._choreography.set_options([*options, Option(_FROM_FILE, self.tr("body_dance_rows.from_file"))])
-        self._show_choreography(dances)
+        dances = self._dances = list(dict.fromkeys(player.parameters.choreography for player in players))
+        self.retranslate()
         for widget in (*self._sliders.values(), self._dice):
             widget.setVisible(any(dances))
         for name, slider in self._sliders.items():
@@ -70,6 +68,14 @@ class BodyDanceRows(QWidget):
             default = float(slider.parameter.default)
             changed = not slider.parameter.is_own and any(value != default for value in values)
             slider.show_value(values[0], mixed=len(set(values)) > 1, default=default, by_hand=changed)
+
+    def retranslate(self) -> None:
+        options = [Option(_GENERATED, self.tr("body_dance_rows.generated"))]
+        options += [Option(name, name) for name in bundled_choreographies()]
+        known = {option.id for option in options}
+        options += [Option(path, shown(Path(path).stem)) for path in self._dances if path not in known]
+        self._choreography.set_options([*options, Option(_FROM_FILE, self.tr("body_dance_rows.from_file"))])
+        self._show_choreography(self._dances)
 
     def _show_choreography(self, dances: Sequence[str]) -> None:
         self._choreography.show_option(dances[0] if len(dances) == 1 else None)

@@ -101,6 +101,7 @@ class ToolBar(Retranslated, QWidget):
     def retranslate(self) -> None:
         self._fill_players()
         self.show_state()
+        self._count()
 
     def show_state(self) -> None:
         """Show the tool and the way of seeing the others."""

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
+from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox, QPushButton
 
+from app.shell.language import Language
 from app.shell.questions import DialogQuestions
+from tests.gui.japanese import texts_of
+from widgets.common.paths import ask_for_file, ask_for_files, ask_for_folder, ask_where_to_save
 
 SUFFIXES = (".mid", ".midi")
 
@@ -81,3 +86,61 @@ def test_what_the_systems_dialog_asked_about_is_not_asked_again(
     (tmp_path / "piece.mid").write_bytes(b"mine")
     Typed(monkeypatch, tmp_path, "piece.mid")
     assert save(tmp_path) == tmp_path / "piece.mid"
+
+
+JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
+ASKED: Mapping[str, Callable[[Path], object]] = {
+    "open": lambda folder: ask_for_file(None, "title", folder, "MIDI (*.mid)"),
+    "open_many": lambda folder: ask_for_files(None, "title", folder, "MIDI (*.mid)"),
+    "save": lambda folder: ask_where_to_save(None, "title", folder / "x.mid", "MIDI (*.mid)"),
+    "folder": lambda folder: ask_for_folder(None, "title", folder),
+}
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_file_dialogs_speak_the_language_of_the_editor(
+    qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """Where the system speaks another one, Qt's own dialog does, with all of its texts."""
+    monkeypatch.setattr("app.editor.translated.system_language", lambda: "en")
+    seen: list[set[str]] = []
+
+    def look() -> None:
+        dialog = QApplication.activeModalWidget()
+        assert isinstance(dialog, QFileDialog)
+        seen.append({text for text in texts_of(dialog) if re.search("[A-Za-z]{3}", text)} - {str(tmp_path)})
+        cancel = next(one for one in dialog.findChildren(QPushButton) if one.text() in ("キャンセル", "Cancel"))
+        seen.append({cancel.text()})
+        QTest.mouseClick(cancel, Qt.MouseButton.LeftButton)
+
+    language = Language()
+    try:
+        language.set("ja")
+        QTimer.singleShot(200, look)
+        assert not ASKED[name](tmp_path)
+        left, cancelled = seen
+        assert {text for text in left if not JAPANESE.search(text)} - {"title", "MIDI (*.mid)", "x.mid"} == set()
+        assert cancelled == {"キャンセル"}
+    finally:
+        language.set("en")
+
+
+@pytest.mark.parametrize(("system", "editor", "native"), [("ja", "ja", True), ("en", "ja", False), ("ja", "en", False)])
+def test_the_systems_dialog_is_used_where_it_speaks_the_same(
+    qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, system: str, editor: str, native: bool
+) -> None:
+    monkeypatch.setattr("app.editor.translated.system_language", lambda: system)
+    chosen: list[QFileDialog.Option] = []
+
+    def note(*given: object, options: QFileDialog.Option, **more: object) -> tuple[QUrl, str]:
+        chosen.append(options)
+        return QUrl(), ""
+
+    monkeypatch.setattr(QFileDialog, "getOpenFileUrl", note)
+    language = Language()
+    try:
+        language.set(editor)
+        ask_for_file(None, "title", tmp_path, "*")
+        assert bool(chosen[0] & QFileDialog.Option.DontUseNativeDialog) is not native
+    finally:
+        language.set("en")
