@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from typing import Final
 
 import msgspec
 
-from app.errors import Message
 from app.plan.event_id import EventId
 from app.plan.model import PlayerPlan
 from app.project.edit.events import events_of, is_there
@@ -19,26 +18,11 @@ UNPLANNED: Final = ("vary", "additive", MARK)
 """Kinds of what may be selected as events and is not in plans."""
 
 
-ONE_EVENT: Final = {
-    "edit.move_events": "edit.move_event",
-    "edit.resize_events": "edit.resize_event",
-    "edit.remove_events": "edit.remove_event",
-}
-"""Names of edits of a single event by those of several."""
-
-
 class EventKey(msgspec.Struct, frozen=True, order=True):
     """An event of a player's plan."""
 
     player_id: str
     event_id: str
-
-
-def edit_of_events(name: str, keys: Collection[EventKey]) -> Message:
-    """Return the name of an edit of events (one of `ONE_EVENT`): what a single one is, or how many there are."""
-    if len(keys) != 1:
-        return Message(name, {"count": len(keys)})
-    return Message(ONE_EVENT[name], {"event": EventId.parse(next(iter(keys)).event_id).kind})
 
 
 class Selection(msgspec.Struct, frozen=True):

@@ -48,6 +48,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "colour_swatch.yellow": ("Yellow", "黄"),
     "event.cue": ("Cue", "合図"),
     "event.embouchure": ("Embouchure", "アンブシュア"),
+    "event.event": ("Event", "イベント"),
     "event.expression": ("Expression", "表情"),
     "event.style": ("Style", "演奏スタイル"),
     "event.mark": ("Mark", "記号"),

@@ -9,6 +9,8 @@ import msgspec
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QWidget
 
+from app.editor.edit_names import OF_EVENTS, edit_of_events
+from app.editor.selection import EventKey
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.corrections import PoseCorrection
@@ -268,7 +270,8 @@ class EventSection(Retranslated, QWidget):
         plan = self._plan
         if plan is None:
             return
-        message = Message(name, {"count": len(self._events)})
+        keys = [EventKey(plan.player_id, event.id) for event in self._events]
+        message = edit_of_events(self._session, name, keys) if name in OF_EVENTS else Message(name)
         if not self._session.attempt(message, lambda project: change(project, plan), token):
             self.show_events()
 
@@ -292,7 +295,7 @@ class EventSection(Retranslated, QWidget):
 
     def _set_amount(self, value: float, token: object | None) -> None:
         amounts = dict.fromkeys(self._ids(), value)
-        self._edit("edit.set_event_amount", lambda project, plan: edit.set_amounts(project, plan, amounts), token)
+        self._edit("edit.set_event_amounts", lambda project, plan: edit.set_amounts(project, plan, amounts), token)
 
     def _set_beats(self, value: float, token: object | None) -> None:
         events = [event for event in self._events if isinstance(event, CueEvent)]
@@ -315,7 +318,7 @@ class EventSection(Retranslated, QWidget):
             ]
             return with_corrections(project, plan.player_id, poses)
 
-        self._edit("edit.set_event_amount", changed, token)
+        self._edit("edit.set_event_amounts", changed, token)
 
     def _set_fade(self, name: str, value: float, token: object | None) -> None:
         ids = self._ids()

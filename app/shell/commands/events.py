@@ -17,7 +17,8 @@ from app.editor.additions import (
     bars_of,
     change_styles,
 )
-from app.editor.selection import EventKey, Selection, edit_of_events
+from app.editor.edit_names import edit_of_events
+from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.event_id import EventId
@@ -146,7 +147,7 @@ def delete(session: Session) -> None:
         return project
 
     keys = [EventKey(player_id, event_id) for player_id, ids in events.items() for event_id in ids]
-    if session.attempt(edit_of_events("edit.remove_events", keys), edit):
+    if session.attempt(edit_of_events(session, "edit.remove_events", keys), edit):
         session.select(Selection())
 
 

@@ -9,7 +9,8 @@ import msgspec
 from PySide6.QtCore import QByteArray, QMimeData
 from PySide6.QtGui import QGuiApplication
 
-from app.editor.selection import EventKey, Selection, edit_of_events
+from app.editor.edit_names import edit_of_events
+from app.editor.selection import EventKey, Selection
 from app.editor.session import Session, Severity
 from app.editor.timeline_view import Tool
 from app.errors import Message
@@ -215,7 +216,7 @@ def _shift_events(session: Session, moved: Callable[[int], int]) -> None:
             now.update(EventKey(player_id, event_id) for event_id in edited.event_ids)
         return project
 
-    if session.attempt(edit_of_events("edit.move_events", keys), run):
+    if session.attempt(edit_of_events(session, "edit.move_events", keys), run):
         session.select(Selection(events=frozenset(now) or keys))
 
 

@@ -54,7 +54,7 @@ def dialog(qt_app: QApplication, qtbot: QtBot) -> ImportDialog:
 
 
 def imported(dialog: ImportDialog) -> Project:
-    """What comes of the dialog."""
+    """The project that the dialog makes."""
     return import_project(dialog._table.contents, dialog.rows, dialog._maps)
 
 

@@ -101,7 +101,7 @@ ASKED: Mapping[str, Callable[[Path], object]] = {
 def test_file_dialogs_speak_the_language_of_the_editor(
     qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    """Where the system speaks another one, Qt's own dialog does, with all of its texts."""
+    """Qt's own dialog is used where the system speaks another one, and all of its texts are translated."""
     monkeypatch.setattr("app.editor.translated.system_language", lambda: "en")
     seen: list[set[str]] = []
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -57,7 +59,8 @@ def test_a_breath_is_dragged_while_plans_are_made_elsewhere(
     assert after.end_tick - after.start_tick == before.end_tick - before.start_tick
     assert list(lane.visible(0.0, 1e6)).count(after) == 1
     qtbot.waitUntil(actions(program.session)["edit.undo"].isEnabled)
-    assert actions(program.session)["edit.undo"].text() == "Undo: Move Breath"
+    undo = actions(program.session)["edit.undo"]
+    assert re.fullmatch(r"Undo: Move Breath \(Trumpet 1 · \d+\.\d+\.\d+\)", undo.text())
     actions(program.session)["edit.undo"].trigger()
     assert not program.session.project.corrections
     up_to_date(program, qtbot)

@@ -11,6 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.editor.edit_names import edit_of_events
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session, Severity
 from app.errors import Message
@@ -321,8 +322,8 @@ class RegionLane(Lane):
             return project
 
         if requested and plans:
-            count = sum(map(len, requested.values()))
-            self.session.attempt(Message("edit.set_event_amount", {"count": count}), edit, token)
+            keys = [EventKey(player_id, event_id) for player_id, ids in requested.items() for event_id in ids]
+            self.session.attempt(edit_of_events(self.session, "edit.set_event_amounts", keys), edit, token)
 
     def key(self, event: QKeyEvent) -> bool:
         """Up and Down change the amount (with Shift finely), Enter types it, Alt and an arrow go to a neighbour."""

@@ -8,7 +8,8 @@ from typing import Protocol
 
 from msgspec.structs import replace
 
-from app.editor.selection import EventKey, Selection, edit_of_events
+from app.editor.edit_names import edit_of_events
+from app.editor.selection import EventKey, Selection
 from app.errors import Message
 from app.plan.by_hand.corrections import SetBreath
 from app.plan.model import PlayerPlan
@@ -167,7 +168,7 @@ class RegionDrag(MouseGesture):
         preview = {
             key: self._at_ticks(item, item.start_tick + start, item.end_tick + end) for key, item in self._shown.items()
         }
-        self._apply(edit_of_events(name, self._keys), edit, preview)
+        self._apply(edit_of_events(lane.session, name, self._keys), edit, preview)
 
     def _change_amount(self, region: Region, mouse: LaneMouse) -> None:
         """All selected change by the same."""
@@ -186,7 +187,7 @@ class RegionDrag(MouseGesture):
             amounts = {key.event_id: preview[key].amount for key in keys if key in preview}
             return Edited(set_amounts(project, plan, amounts), tuple(ids))
 
-        self._apply(Message("edit.set_event_amount", {"count": len(self._keys)}), edit, preview)
+        self._apply(edit_of_events(self._lane.session, "edit.set_event_amounts", self._keys), edit, preview)
 
     def _change_fade(self, region: Region, mouse: LaneMouse) -> None:
         by_s, most_s = mouse.time_s - self.at.time_s, region.end_s - region.start_s

@@ -6,6 +6,7 @@ from bisect import bisect_left
 from collections.abc import Iterable, Mapping
 from typing import Final, Literal, NamedTuple, Protocol, TypeAlias
 
+from app.editor.edit_names import edit_of_events
 from app.editor.selection import EventKey, Selection
 from app.errors import Message
 from app.plan.model import PlayerPlan
@@ -221,7 +222,8 @@ class EntryDrag(MouseGesture):
             return Message("edit.set_giver", {"player": project.player(shown.giver_id).name})
         if shown.taker_id != arrow.taker_id:
             return Message("edit.set_taker", {"player": project.player(shown.taker_id).name})
-        return Message("edit.resize_event" if self.end == "tail" else "edit.move_event", {"event": "cue"})
+        name = "edit.resize_events" if self.end == "tail" else "edit.move_events"
+        return edit_of_events(self._session, name, (EventKey(arrow.giver_id, arrow.cue_id),))
 
     def cancel(self) -> None:
         self.shown, self.meant = self.arrow, False

@@ -1,0 +1,58 @@
+"""Names of edits of events say of what kind they are, whose, and where."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from app.editor.edit_names import edit_of_events
+from app.editor.selection import EventKey
+from app.errors import Message
+from app.messages import text
+from app.performance.ensemble import Performance
+from app.plan.model import BreathEvent
+from app.project.model import Project
+from app.project.performers import Player
+from tests.gui.conftest import quartet_project
+
+
+class Shown(NamedTuple):
+    project: Project
+    performance: Performance
+
+
+def _breaths(performance: Performance, player: Player) -> list[BreathEvent]:
+    return [one for one in performance.plan(player).breaths if one.kind == "breath"]
+
+
+def test_one_event_says_its_kind_player_and_place() -> None:
+    project = quartet_project()
+    performance = Performance(project)
+    performance.prepare()
+    player = project.players[1]
+    breath = _breaths(performance, player)[0]
+    named = edit_of_events(Shown(project, performance), "edit.move_events", [EventKey(player.id, breath.id)])
+    place = project.score.metre_map.label(breath.start_tick)
+    assert named == Message("edit.move_event", {"event": "breath", "of": f"{player.name} · {place}"})
+    assert place in text(named)
+    # Before there are plans, the note that it belongs to says where it is.
+    unplanned = edit_of_events(
+        Shown(project, Performance(project)), "edit.move_events", [EventKey(player.id, breath.id)]
+    )
+    note = next(note for note in project.part(player).notes if breath.id.endswith(note.id))
+    assert unplanned.arguments["of"] == f"{player.name} · {project.score.metre_map.label(note.onset_tick)}"
+
+
+def test_several_events_say_how_many_and_from_where_to_where() -> None:
+    project = quartet_project()
+    performance = Performance(project)
+    performance.prepare()
+    keys = [EventKey(one.id, _breaths(performance, one)[place].id) for one in project.players[:3] for place in (0, 2)]
+    named = edit_of_events(Shown(project, performance), "edit.remove_events", keys)
+    assert (named.id, named.arguments["event"], named.arguments["count"]) == ("edit.remove_events", "breath", 6)
+    players, _, places = str(named.arguments["of"]).partition(" · ")
+    assert players == f"{project.players[0].name}, {project.players[1].name}, …"
+    first, last = places.split("–")
+    assert int(first.partition(".")[0]) < int(last.partition(".")[0])
+    cue = EventKey(project.players[0].id, performance.plan(project.players[0]).cues[0].id)
+    mixed = edit_of_events(Shown(project, performance), "edit.remove_events", [*keys, cue])
+    assert mixed.arguments["event"] == "event"
