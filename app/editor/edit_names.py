@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable
 from typing import Final, Protocol
 
 from app.editor.selection import EventKey
-from app.errors import Message
+from app.errors import Argument, Message
 from app.performance.ensemble import Performance
 from app.plan.event_id import EventId
 from app.plan.problem_lines import note_of
@@ -38,7 +38,8 @@ def edit_of_events(session: Planned, name: str, keys: Collection[EventKey]) -> M
     """Return the name of an edit of some events, one of `OF_EVENTS`: their kind, their players, from where to where."""
     kinds = {EventId.parse(key.event_id).kind for key in keys}
     kind = kinds.pop() if len(kinds) == 1 else _ANY_KIND
-    said = {"event": kind, "of": " · ".join(filter(None, (_players(session, keys), _places(session, keys))))}
+    of = " · ".join(filter(None, (_players(session, keys), _places(session, keys))))
+    said: dict[str, Argument] = {"event": kind, "of": of}
     if len(keys) == 1:
         return Message(OF_EVENTS[name], said)
     return Message(name, {**said, "count": len(keys)})

@@ -5,7 +5,8 @@ The command line prints the English ones. One module per subject.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from string import Formatter
 from typing import Final
 
@@ -111,14 +112,51 @@ class _Filling(Formatter):
         one, _, more = format_spec.partition("|")
         return one if value == 1 else more
 
+    def vformat(self, format_string: str, args: Sequence[object], kwargs: Mapping[str, object]) -> str:
+        text = value = ""
+        for literal, field, spec, conversion in self.parse(format_string):
+            text += _after(value, literal)
+            value = ""
+            if field is not None:
+                found, _ = self.get_field(field, args, kwargs)
+                value = self.format_field(self.convert_field(found, conversion), spec or "")
+                text = _before(text, literal, value)
+        return text
 
+
+def _after(value: str, literal: str) -> str:
+    """The words behind a value: a space where Japanese follows Latin letters or digits, none between Japanese."""
+    words = literal.removeprefix(" ")
+    if _JAPANESE_START.match(words):
+        if _LATIN_END.search(value):
+            return f" {words}"
+        if _JAPANESE_END.search(value):
+            return words
+    return literal
+
+
+def _before(text: str, literal: str, value: str) -> str:
+    """The text with a value behind its last words; as `_after`."""
+    words = text.removesuffix(" ")
+    if _JAPANESE_END.search(literal.removesuffix(" ")):
+        if _LATIN_START.match(value):
+            return f"{words} {value}"
+        if _JAPANESE_START.match(value):
+            return words + value
+    return text + value
+
+
+_KANA_OR_KANJI: Final = "[\u3005\u3041-\u3096\u30a1-\u30fa\u30fc\u4e00-\u9fff]"
+_JAPANESE_START, _JAPANESE_END = re.compile(_KANA_OR_KANJI), re.compile(f"{_KANA_OR_KANJI}$")
+_LATIN_START, _LATIN_END = re.compile("[A-Za-z0-9]"), re.compile("[A-Za-z0-9\u266d\u266f]$")
 _FILLING = _Filling()
 
 
 def filled(template: str, arguments: Mapping[str, object]) -> str:
     """A template with its arguments; ``{count:note|notes}`` is the first word where the count is 1, else the second.
 
-    A language without a plural leaves such a field out.
+    A language without a plural leaves such a field out. Around what is filled into Japanese there is a space where
+    Latin letters or digits meet it, and none where it is Japanese, whatever the template has.
     """
     return _FILLING.vformat(template, (), arguments)
 

@@ -200,7 +200,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "edit.reset_parameters": ("Reset Players: {count}", "奏者をリセット（{count} 人）"),
     "edit.randomise_players": ("Randomise Players: {count}", "奏者をランダム化（{count} 人）"),
     "edit.place_players": ("Place Players: {count}", "奏者を配置（{count} 人）"),
-    "edit.arrange_players": ("Arrange in Arc", "弧状に配置"),
+    "edit.arrange_players": ("Arrange in Arc", "扇形に配置"),
     "edit.apply_preset": ("Apply Preset {preset} to Players: {count}", "プリセット {preset} を適用（{count} 人）"),
     "preset.saved": ("the preset {name} was saved", "プリセット {name} を保存しました"),
     "doubling.posture": (

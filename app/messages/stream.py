@@ -34,7 +34,7 @@ WORDINGS: Final[dict[str, tuple[str, str]]] = {
     ),
     "stream.no_players": (
         "there are no performers to stream; add a player or a dancer",
-        "配信する出演者がいません。奏者またはダンサーを追加してください",
+        "送信する出演者がいません。奏者またはダンサーを追加してください",
     ),
     "stream.from": (
         "--from {time_s:g} is outside the piece, which lasts from {first_s:g} to {end_s:g} s",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
@@ -13,7 +13,7 @@ import msgspec
 from app.project.kept_parts import moved_part
 from app.project.moved_ticks import place_map
 from app.score.marks import Mark
-from app.score.model import Note, Part
+from app.score.model import Note, Part, Score
 
 ChangeKind: TypeAlias = Literal["added", "removed", "moved", "changed", "marks", "controllers"]
 KINDS: tuple[ChangeKind, ...] = ("added", "removed", "moved", "changed", "marks", "controllers")
@@ -39,6 +39,17 @@ class PartChange:
     before: Note | Mark | None = None
     now: Note | Mark | None = None
     count: int = 1
+
+
+PartChanges: TypeAlias = Mapping[str, tuple[PartChange, ...]]
+"""The changes of each part, by its id."""
+
+
+def changes_by_part(before: Score, now: Score) -> PartChanges:
+    """The changes of every part of a newer version of a score, by its id."""
+    scale = Fraction(now.ticks_per_quarter, before.ticks_per_quarter)
+    former = {part.id: part for part in before.parts}
+    return {part.id: part_changes(former.get(part.id), part, scale) for part in now.parts}
 
 
 def part_changes(before: Part | None, now: Part | None, scale: Fraction) -> tuple[PartChange, ...]:

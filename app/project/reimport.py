@@ -29,6 +29,7 @@ from typing import Any, Literal, TypeAlias
 
 import msgspec
 
+from app.errors import Progress, StopRequested, raise_if_stopped
 from app.plan.by_hand.corrections import Correction
 from app.project.anchors import moved_correction
 from app.project.derived_decisions import derived_decisions, is_read
@@ -97,9 +98,18 @@ class Reimport:
     keeping: Callable[[Collection[str]], Reimport] = field(kw_only=True, compare=False, repr=False)
 
 
-def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) -> Reimport:
+def reimported(
+    project: Project,
+    path: Path,
+    maps: Mapping[str, InstrumentMap],
+    progress: Progress = lambda share: None,
+    stop_requested: StopRequested = lambda: False,
+) -> Reimport:
     """Read a MIDI file, as it was decided when the project was made from an earlier version of it, and let it take the
-    place of the project's score. Raises as `app.score.read.read_contents`."""
+    place of the project's score.
+
+    Raises as `app.score.read.read_contents`, and Cancelled when ``stop_requested``, asked between its steps, says so.
+    """
     decisions = project.imported
     apart = {(part.track, part.channel) for part in project.score.parts}
     apart.update((mark.track, mark.channel) for row in (decisions.rows if decisions else ()) for mark in row.tracks)
@@ -108,11 +118,17 @@ def reimported(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) 
     encoding = None if decisions is None else decisions.encoding
     contents = read_contents(path, encoding=encoding, apart=apart, assumed=assumed)
     choices = map_choices(maps.values())
+    progress(0.15)
+    raise_if_stopped(stop_requested)
     if decisions is None:
         decisions = derived_decisions(project, contents, choices)
+    raise_if_stopped(stop_requested)
     played_on = {part.place: part.map_id for part in reversed(project.score.parts) if is_read(project, part)}
     reading = read_as_decided(contents, decisions, maps, choices, played_on)
-    return reimport(project, score_of_rows(reading.contents, reading.rows, maps), maps, str(path), reading)
+    progress(0.3)
+    score = score_of_rows(reading.contents, reading.rows, maps, stop_requested)
+    progress(0.45)
+    return reimport(project, score, maps, str(path), reading)
 
 
 def reimport(

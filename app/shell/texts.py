@@ -168,7 +168,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "status_line.go_to_next_problem": ("Go to the next problem", "次の問題へ"),
     "status_line.h_ago": ("{count} h ago", "{count} 時間前"),
     "status_line.how_much_of_players_motion": ("Motion generation progress", "モーションの生成状況"),
-    "status_line.live_stream_what_is_sent": ("Live stream status and destination", "ライブ配信の状態と送信先"),
+    "status_line.live_stream_what_is_sent": ("Live stream status and destination", "モーション送信の状態と送信先"),
     "status_line.looking_for": ("resolving {host}…", "{host} を検索中…"),
     "status_line.making_motion": ("generating motion…", "モーション生成中…"),
     "status_line.midi_devices_choose_watch_what": (
@@ -245,7 +245,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "{name} は開いた後に別の場所で変更されたため、保存していません。",
     ),
     "setting.language": ("Language", "言語"),
-    "setting.middle_c_octave": ("Middle C", "中央ハ"),
+    "setting.middle_c_octave": ("Middle C", "中央のド"),
     "setting.syllables": ("Note names", "音名"),
     "setting.theme": ("Theme", "テーマ"),
     "setting.time_display": ("Ruler", "ルーラー"),

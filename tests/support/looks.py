@@ -68,6 +68,7 @@ from widgets.viewport import figures
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
+_TRIES = 5
 _SAME_IN_BOTH = {"日本語", "End", "L"}
 """The name of a language, and keys."""
 QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
@@ -214,10 +215,11 @@ class Look:
         self.settle()
         name = f"{state}_{self.language}"
         found = set(faults(self.application))
-        if found:
-            # What was said only just now may not have its room yet.
-            self.settle()
-            found &= set(faults(self.application))
+        for _ in range(_TRIES):
+            if found:
+                # What was said only just now may not have its room yet, on a busy machine for some turns.
+                self.settle()
+                found &= set(faults(self.application))
         for fault in sorted(found):
             self.found.setdefault(fault, name)
         if self.pictures is not None:

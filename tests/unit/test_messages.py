@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from app.errors import Message
-from app.messages import LANGUAGES, WORDINGS, text
+from app.messages import LANGUAGES, WORDINGS, filled, text
 from app.messages.body import touch_name
 from instrument_maps.model import PARTS
 
@@ -173,3 +173,23 @@ def test_every_part_that_touches_has_a_name_in_both_languages() -> None:
     assert text(message).startswith("the side of the proximal phalanx of the left index finger")
     assert "左手の人差し指の基節の側面" in text(message, "ja")
     assert touch_name("left.paw", "en") == "left.paw"
+
+
+@pytest.mark.parametrize(
+    ("template", "value", "filled_in"),
+    [
+        ("{mark}を追加", "強弱記号 mf", "強弱記号 mf を追加"),
+        ("{mark}を追加", "スラー", "スラーを追加"),
+        ("{player} を追加", "フルート", "フルートを追加"),
+        ("{player} を追加", "Trumpet 1", "Trumpet 1 を追加"),
+        ("合図で{player}を入らせる", "Oboe", "合図で Oboe を入らせる"),
+        ("第 {bar} 小節", "5", "第 5 小節"),
+        ("（{pitch}）", "B♭", "（B♭）"),
+        ("{a} {b}", "笛", "笛 笛"),
+        ("Add {player} now", "笛", "Add 笛 now"),
+        ("{note}の音", "B♭", "B♭ の音"),
+    ],
+)
+def test_what_is_filled_into_japanese_is_spaced_alike(template: str, value: str, filled_in: str) -> None:
+    fields = dict.fromkeys(("mark", "player", "bar", "pitch", "a", "b", "note"), value)
+    assert filled(template, fields) == filled_in

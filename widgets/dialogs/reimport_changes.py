@@ -12,8 +12,9 @@ from PySide6.QtWidgets import QTreeWidgetItem, QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.translated import tr
+from app.messages import filled
 from app.project.found_parts import PartMatch
-from app.project.part_changes import KINDS, PartChange, part_changes
+from app.project.part_changes import KINDS, PartChange, PartChanges
 from app.project.performers import Player
 from app.project.reimport import Reimport
 from app.score.marks import Mark
@@ -56,9 +57,15 @@ class ReimportChanges(Retranslated, QWidget):
 
     chosen = Signal()
 
-    def __init__(self, session: Session, outcome: Reimport, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        outcome: Reimport,
+        changes: PartChanges,
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
-        self._session, self._before, self._outcome = session, session.project, outcome
+        self._session, self._before, self._outcome, self._found = session, session.project, outcome, changes
         former, now = self._before.score, outcome.project.score
         self._scale = Fraction(now.ticks_per_quarter, former.ticks_per_quarter)
         self._tree = ColumnList(
@@ -110,7 +117,7 @@ class ReimportChanges(Retranslated, QWidget):
                 part.id,
                 part.name if player is None else player.name,
                 player,
-                part_changes(former.get(part.id), part, self._scale),
+                self._found[part.id],
             )
             self._fill_counts(row, matches.get(part.id), part)
             rows.append(row)
@@ -291,11 +298,11 @@ def _mark_text(before: Note | Mark | None, now: Note | Mark | None) -> str:
     name = mark_name(mark.kind)
     named_so = f"{name} {mark.text}".rstrip()
     if before is None or now is None:
-        return tr(f"reimport_dialog.mark.{'added' if before is None else 'removed'}").format(mark=named_so)
+        return filled(tr(f"reimport_dialog.mark.{'added' if before is None else 'removed'}"), {"mark": named_so})
     assert isinstance(now, Mark)
     if now.text != mark.text:
         return f"{named_so} → {now.text}"
-    return tr("reimport_dialog.mark.changed").format(mark=named_so)
+    return filled(tr("reimport_dialog.mark.changed"), {"mark": named_so})
 
 
 def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fraction) -> str:

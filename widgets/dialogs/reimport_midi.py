@@ -16,6 +16,7 @@ from app.errors import Message
 from app.plan.by_hand.corrections import Correction
 from app.project.file_timing import timing_of
 from app.project.found_parts import Conflict
+from app.project.part_changes import PartChanges
 from app.project.performers import Player
 from app.project.reimport import Reimport
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, said, selectable, wrapped
@@ -37,6 +38,8 @@ class ReimportDialog(Retranslated, QDialog):
         Name of the MIDI file.
     title : callable
         Names a correction.
+    changes : PartChanges
+        Of the outcome (`app.project.part_changes.changes_by_part`): worked out beforehand, since it takes a while.
     """
 
     def __init__(
@@ -45,14 +48,17 @@ class ReimportDialog(Retranslated, QDialog):
         outcome: Reimport,
         file: str,
         title: Callable[[Correction, str], str],
+        changes: PartChanges,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("reimport_midi")
         self._session, self._before, self._outcome = session, session.project, outcome
         self._title = title
-        self._changes = ReimportChanges(session, outcome)
-        self._changes.chosen.connect(lambda: self._enable())
+        self._changes = ReimportChanges(session, outcome, changes)
+        self._changes.chosen.connect(lambda: self._chosen())
+        self._conflict_count = [len(outcome.conflicts)]
+        """Those of the parts that are taken; a list, which the text of the heading reads."""
         self._gone = named(QListWidget(), "reimport_gone")
         self._buttons = OkCancel("reimport_dialog.re_import", "reimport_dialog.cancel")
         self._buttons.accepted.connect(self.accept)
@@ -88,9 +94,20 @@ class ReimportDialog(Retranslated, QDialog):
         new = ", ".join(names[id] for id in outcome.new_players)
         players = named(wrapped(Label()), "reimport_players")
         _shown(bool(new), self.texted(players, text=said("reimport_dialog.new_players", names=new)))
-        reasons = [partial(_not_played, part.name, part.reason) for part in outcome.new_unplayed]
-        unplayed = self._list("reimport_unplayed", Caption("reimport_dialog.new_parts_without_player"), reasons)
-        unplayed[1].setWordWrap(True)
+        parts = [part for part in outcome.new_unplayed if not part.is_of_played_part]
+        left_out = [part for part in outcome.new_unplayed if part.is_of_played_part]
+        unplayed = (
+            *self._list(
+                "reimport_unplayed",
+                Caption("reimport_dialog.new_parts_without_player"),
+                [partial(_said_of, "import_dialog.is_not_played", part.name, part.reason) for part in parts],
+            ),
+            *self._list(
+                "reimport_left_out",
+                Caption("reimport_dialog.notes_left_out"),
+                [partial(_said_of, "import_dialog.left_out_of_part", part.name, part.reason) for part in left_out],
+            ),
+        )
         self._gone.setMaximumHeight(min(140, LEAST_TARGET_PX * len(outcome.gone_players) + 6))
         for player_id in outcome.gone_players:
             item = QListWidgetItem(names[player_id], self._gone)
@@ -126,7 +143,7 @@ class ReimportDialog(Retranslated, QDialog):
         names = {part.id: part.name for part in self._before.score.parts}
         players = {player.part_id: player for player in reversed(self._before.players)}
         names |= {id: player.name for id, player in players.items()}
-        changed = said("reimport_dialog.changed_here_and_in_file", count=len(outcome.conflicts))
+        counted = self._conflict_count
         conflicts = [
             partial(_conflict, session, names[one.part_id], one, players.get(one.part_id)) for one in outcome.conflicts
         ]
@@ -134,8 +151,12 @@ class ReimportDialog(Retranslated, QDialog):
             partial(_orphan, outcome.project.player(one.player_id), one.correction, title) for one in outcome.orphans
         ]
         lost = Caption("reimport_dialog.these_corrections_have_lost_their")
-        count = self.texted(Label(), text=changed)
-        return (*self._list("reimport_conflicts", count, conflicts), *self._list("reimport_orphans", lost, orphans))
+        self._conflicts = self._list(
+            "reimport_conflicts",
+            self.texted(Label(), text=lambda: tr("reimport_dialog.changed_here_and_in_file").format(count=counted[0])),
+            conflicts,
+        )
+        return (*self._conflicts, *self._list("reimport_orphans", lost, orphans))
 
     def _list(self, name: str, heading: Label, items: Sequence[Callable[[], str]]) -> tuple[Label, QListWidget]:
         """A list under its heading; neither where it is empty."""
@@ -143,6 +164,7 @@ class ReimportDialog(Retranslated, QDialog):
         below.addItems([""] * len(items))
         below.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         below.setMaximumHeight(140)
+        below.setWordWrap(True)
         self.texted(below, items=items)
         _shown(bool(items), wrapped(heading), below)
         return heading, below
@@ -156,10 +178,25 @@ class ReimportDialog(Retranslated, QDialog):
         )
 
     @property
+    def kept(self) -> frozenset[str]:
+        """Ids of the parts whose changes are not taken."""
+        return self._changes.kept
+
+    @property
     def taken(self) -> Reimport:
         """The re-import of the players that are checked."""
-        kept = self._changes.kept
-        return self._outcome.keeping(kept) if kept else self._outcome
+        return self._outcome.keeping(self.kept) if self.kept else self._outcome
+
+    def _chosen(self) -> None:
+        """List only conflicts of the players that are checked: the others keep what they have."""
+        kept, below = self.kept, self._conflicts[1]
+        for row, conflict in enumerate(self._outcome.conflicts):
+            below.item(row).setHidden(conflict.part_id in kept)
+        self._conflict_count[0] = sum(one.part_id not in kept for one in self._outcome.conflicts)
+        for widget in self._conflicts:
+            widget.setVisible(self._conflict_count[0] > 0)
+        self.word()
+        self._enable()
 
     def _enable(self) -> None:
         """Nothing is to be agreed to where nothing changes."""
@@ -175,8 +212,8 @@ def _shown(shown: bool, *widgets: QWidget) -> tuple[QWidget, ...]:
     return widgets
 
 
-def _not_played(part: str, reason: Message) -> str:
-    return tr("import_dialog.is_not_played").format(name=part, reason=message_text(reason))
+def _said_of(text_id: str, part: str, reason: Message) -> str:
+    return tr(text_id).format(name=part, reason=message_text(reason))
 
 
 def _conflict(session: Session, name: str, conflict: Conflict, player: Player | None) -> str:

@@ -118,7 +118,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
     "row_delegate.solo_only_these_sound": ("Solo: only soloed players sound", "ソロ: ソロにした奏者だけが鳴ります"),
     "stage_section.automatic_arc_everyone_in_order": (
         "Arrange in arc: all players in order, open to the audience",
-        "弧状に配置: 全奏者を順番に、客席に開いた弧に並べます",
+        "扇形に配置: 全奏者を順番に、客席に開いた弧に並べます",
     ),
     "stage_section.snap_to_0_1_m": (
         "Snap to 0.1 m and 5° (hold Alt to invert)",

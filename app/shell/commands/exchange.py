@@ -15,6 +15,7 @@ from app.formats.other_computers import is_file
 from app.project.edit.players import remove_players
 from app.project.midi_out import export_midi as write_piece
 from app.project.model import Project
+from app.project.part_changes import PartChanges, changes_by_part
 from app.project.reimport import Reimport, reimported
 from app.score import suffixes
 from app.shell.action import Action
@@ -47,25 +48,43 @@ def reimport_from(editor: Editor, path: Path) -> None:
     session = editor.session
     project = session.project
 
-    def work(progress: Progress, stop_requested: StopRequested) -> Reimport:
-        return reimported(project, path, all_maps())
+    def work(progress: Progress, stop_requested: StopRequested) -> tuple[Reimport, PartChanges]:
+        outcome = reimported(project, path, all_maps(), progress, stop_requested)
+        progress(0.95)
+        return outcome, changes_by_part(project.score, outcome.project.score)
 
-    def done(outcome: Reimport) -> None:
+    def done(found: tuple[Reimport, PartChanges]) -> None:
+        outcome, changes = found
         if session.project is not project:
             # Edited meanwhile: what was worked out is of another piece.
             reimport_from(editor, path)
             return
         from widgets.dialogs.reimport_midi import ReimportDialog
 
-        dialog = ReimportDialog(session, outcome, shown(path.name), correction_title, editor.window)
+        dialog = ReimportDialog(session, outcome, shown(path.name), correction_title, changes, editor.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.accepted.connect(lambda: _take(session, project, dialog.taken, dialog.removed))
+        dialog.accepted.connect(lambda: _take_of_others(session, project, outcome, dialog.kept, dialog.removed))
         dialog.open()
 
     def failed(error: AppError) -> None:
         session.notice(error.message, Severity.ERROR)
 
     session.tasks.run(Message("work.reimport"), work, done, failed, key="reimport")
+
+
+def _take_of_others(
+    session: Session, before: Project, outcome: Reimport, kept: frozenset[str], removed: tuple[str, ...]
+) -> None:
+    """Take a re-import, but for the parts that are kept: working that out takes seconds of a large piece."""
+    if not kept:
+        _take(session, before, outcome, removed)
+        return
+    session.tasks.run(
+        Message("work.reimport"),
+        lambda progress, stop_requested: outcome.keeping(kept),
+        lambda taken: _take(session, before, taken, removed),
+        key="reimport",
+    )
 
 
 def _take(session: Session, before: Project, outcome: Reimport, removed: tuple[str, ...]) -> None:

@@ -16,7 +16,8 @@ from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.project.model import Project
-from app.project.reimport import reimport, reimported
+from app.project.part_changes import changes_by_part
+from app.project.reimport import Reimport, reimport, reimported
 from app.score.model import Note, Score
 from app.shell.language import Language
 from instrument_maps.load import bundled_maps
@@ -27,6 +28,12 @@ from tests.unit.project.test_rereading import quintet, tracks, written
 from widgets.common.combo import Combo
 from widgets.common.text import note_text
 from widgets.dialogs.reimport_midi import ReimportDialog
+
+
+def shown_dialog(session: Session, outcome: Reimport, file: str = "q.mid") -> ReimportDialog:
+    """The dialog about a re-import."""
+    changes = changes_by_part(session.project.score, outcome.project.score)
+    return ReimportDialog(session, outcome, file, lambda correction, player: "", changes)
 
 
 @pytest.mark.parametrize("language", ["en", "ja"])
@@ -40,7 +47,7 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
     spoken = Language()
     spoken.set(language)
     try:
-        dialog = ReimportDialog(session, outcome, "quartet.mid", lambda correction: "")
+        dialog = shown_dialog(session, outcome, "quartet.mid")
         qtbot.addWidget(dialog)
         dialog.show()
         rows = child(dialog, QListWidget, "reimport_conflicts")
@@ -56,6 +63,13 @@ def test_conflicts_are_rows_and_what_stays_is_counted(session: Session, qtbot: Q
         assert texts[1].startswith(f"{part.name}: {'deleted' if language == 'en' else '削除'}")
         table = child(dialog, QTreeWidget, "reimport_parts")
         assert [table.topLevelItem(row).text(5) for row in range(table.topLevelItemCount())] == ["1", "0", "0", "0"]
+        # Conflicts of a player who keeps the notes are none.
+        table.setCurrentItem(table.topLevelItem(0))
+        QTest.keyClick(table, Qt.Key.Key_Space)
+        assert not rows.isVisible()
+        QTest.keyClick(table, Qt.Key.Key_Space)
+        assert [rows.isRowHidden(row) for row in range(rows.count())] == [False, False]
+        assert rows.isVisible()
         ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
         with qtbot.waitSignal(dialog.accepted):
             qtbot.mouseClick(ok, Qt.MouseButton.LeftButton)
@@ -77,7 +91,7 @@ def changed_quintet(tmp_path: Path) -> tuple[Project, Path, Path]:
 def dialog_of(session: Session, qtbot: QtBot, before: Project, path: Path) -> ReimportDialog:
     session.document.open(before)
     outcome = reimported(before, path, bundled_maps())
-    dialog = ReimportDialog(session, outcome, path.name, lambda correction: "")
+    dialog = shown_dialog(session, outcome, path.name)
     qtbot.addWidget(dialog)
     dialog.show()
     return dialog
@@ -120,7 +134,7 @@ def test_changes_are_stepped_through_and_shown_behind_the_dialog(session: Sessio
     spoken = Language()
     spoken.set(language)
     try:
-        dialog = ReimportDialog(session, reimport(project, score, bundled_maps()), "q.mid", lambda one: "")
+        dialog = shown_dialog(session, reimport(project, score, bundled_maps()))
         qtbot.addWidget(dialog)
         dialog.show()
         dialog.activateWindow()
@@ -151,7 +165,7 @@ def test_changes_are_stepped_through_and_shown_behind_the_dialog(session: Sessio
 def test_a_filter_leaves_the_changes_of_one_kind(session: Session, qtbot: QtBot) -> None:
     project, score = changed_quartet()
     session.document.open(project)
-    dialog = ReimportDialog(session, reimport(project, score, bundled_maps()), "q.mid", lambda one: "")
+    dialog = shown_dialog(session, reimport(project, score, bundled_maps()))
     qtbot.addWidget(dialog)
     dialog.show()
     tree, kinds = child(dialog, QTreeWidget, "reimport_parts"), child(dialog, Combo, "reimport_filter")
@@ -168,7 +182,7 @@ def test_a_player_that_is_unchecked_keeps_its_notes(session: Session, qtbot: QtB
     project, score = changed_quartet()
     session.document.open(project)
     outcome = reimport(project, score, bundled_maps())
-    dialog = ReimportDialog(session, outcome, "q.mid", lambda one: "")
+    dialog = shown_dialog(session, outcome, "q.mid")
     qtbot.addWidget(dialog)
     dialog.show()
     tree = child(dialog, QTreeWidget, "reimport_parts")
@@ -199,7 +213,7 @@ def test_ten_thousand_changes_are_shown_at_once(session: Session, qtbot: QtBot) 
     session.document.open(project)
     outcome = reimport(project, score, bundled_maps())
     begun = time.perf_counter()
-    dialog = ReimportDialog(session, outcome, "q.mid", lambda one: "")
+    dialog = shown_dialog(session, outcome, "q.mid")
     qtbot.addWidget(dialog)
     dialog.show()
     dialog.activateWindow()

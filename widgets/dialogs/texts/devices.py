@@ -176,7 +176,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "全出演者（1 人ずつ別のポート、ステージ上の位置のまま）",
     ),
     "stream_dialog.frames_per_second": ("Frames per second", "フレームレート"),
-    "stream_dialog.live_stream": ("Live Stream", "ライブ配信"),
+    "stream_dialog.live_stream": ("Live Stream", "モーション送信"),
     "stream_dialog.looking_for": ("Resolving {host}…", "{host} を検索中…"),
     "stream_dialog.names_of_face": ("Blendshape naming", "ブレンドシェイプの命名"),
     "stream_dialog.no_receiver_there_yet_start": (
@@ -184,7 +184,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "送信先に受信側が見つかりません。受信側のプログラムで、同じポートの受信を開始してください。",
     ),
     "stream_dialog.not_sent": ("{name}: not sent. {reason}", "{name}: 送信していません。{reason}"),
-    "stream_dialog.nothing_is_sent": ("Not streaming.", "配信していません。"),
+    "stream_dialog.nothing_is_sent": ("Not streaming.", "送信していません。"),
     "stream_dialog.performer": ("Performer", "出演者"),
     "stream_dialog.performers": ("Performers", "出演者"),
     "stream_dialog.port": ("Port", "ポート"),
@@ -205,8 +205,8 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
             "VSeeFace、Warudo、Blender のアドオンなどで受信できます。1 つのポートで 1 キャラクターです。"
         ),
     ),
-    "stream_dialog.start_streaming": ("Start Streaming", "配信を開始"),
-    "stream_dialog.stop_streaming": ("Stop Streaming", "配信を停止"),
+    "stream_dialog.start_streaming": ("Start Streaming", "送信を開始"),
+    "stream_dialog.stop_streaming": ("Stop Streaming", "送信を停止"),
     "stream_dialog.this_computer": ("This Computer", "このコンピューター"),
     "stream_dialog.vrm_presets_blink_l_joy": ("VRM presets: A, Blink_L, Joy", "VRM プリセット: A、Blink_L、Joy"),
     "stream_dialog.what_is_sent_leaves_this": (
@@ -215,7 +215,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
             "firewall of the receiving computer."
         ),
         (
-            "配信内容はこのコンピューターの外に送信され、ネットワーク上の誰でも読み取れます。"
+            "送信内容はこのコンピューターの外に送信され、ネットワーク上の誰でも読み取れます。"
             "受信側のコンピューターのファイアウォールで、このポートを許可してください。"
         ),
     ),

@@ -162,6 +162,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "奏者のいない新しいパートです。奏者を付けるには、新規プロジェクトとして読み込んでください:",
     ),
     "reimport_dialog.new_players": ("New players: {names}", "新しい奏者: {names}"),
+    "reimport_dialog.notes_left_out": ("Notes left out of parts that are played:", "演奏されるパートから除いた音:"),
     "reimport_dialog.not_in_file_any_more": ("no longer in the file", "ファイルに存在しません"),
     "reimport_dialog.players_whose_part_is_gone": (
         "These players' parts are no longer in the file. They keep their notes; check the players to remove:",
