@@ -69,6 +69,7 @@ ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "proble
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 _TRIES = 5
+_GUIDES = "help"
 _SAME_IN_BOTH = {"日本語", "End", "L"}
 """The name of a language, and keys."""
 QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
@@ -86,7 +87,9 @@ def faults(application: QApplication) -> Iterator[str]:
 
 def left_over(application: QApplication, language: str) -> list[str]:
     """Visible texts that are not in the language that is shown."""
-    texts = {text for window in application.topLevelWidgets() if window.isVisible() for text in texts_of(window)}
+    windows = [window for window in application.topLevelWidgets() if window.isVisible()]
+    # The guides are written in English.
+    texts = {text for window in windows if window.objectName() != _GUIDES for text in texts_of(window)}
     japanese = {text for text in texts if _JAPANESE.search(text)}
     return sorted((japanese if language == "en" else english_in(texts - japanese)) - _SAME_IN_BOTH)
 
@@ -166,10 +169,10 @@ class Look:
     """An editor in every state, one after another."""
 
     def __init__(
-        self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None, *, live: bool = False
+        self, theme: str, size: tuple[int, int], folder: Path, pictures: Path | None, *, switches: bool = False
     ) -> None:
         self.application = make_application()
-        self.live = live
+        self.switches = switches
         settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = "en", theme
         answers = Answers()
@@ -203,7 +206,7 @@ class Look:
     def at(self, state: str) -> None:
         """Judge a state, in the other language too where it is switched."""
         self._judge(state)
-        if self.live:
+        if self.switches:
             before = self.language
             for language in ("ja", "en") if before == "en" else ("en", "ja"):
                 self.speak(language)
@@ -373,7 +376,7 @@ def look_at(screen: str, pictures: Path | None) -> None:
     scale, theme, width, height, *live = screen.split(":")
     os.environ["QT_SCALE_FACTOR"] = scale
     with tempfile.TemporaryDirectory() as folder:
-        look = Look(theme, (int(width), int(height)), Path(folder), pictures, live=bool(live))
+        look = Look(theme, (int(width), int(height)), Path(folder), pictures, switches=bool(live))
         look.start()
         look.open()
         for language in ("en",) if live else ("en", "ja"):
