@@ -38,8 +38,8 @@ class ViewportState(State):
         The camera, for commands that mean it; the panel sets it.
     camera_follows : str
         When the camera goes to what is selected or corrected: one of `FOLLOWS`.
-    bookmark : str
-        Name of the bookmark of cameras that was kept or recalled last; empty: none.
+    bookmarks : tuple of str
+        Names of the bookmarks of cameras that were kept or recalled in this piece, the last one first.
 
     Signals
     -------
@@ -67,7 +67,7 @@ class ViewportState(State):
         self._posing = False
         self.follows_selection = True
         self.camera: ViewportCamera | None = None
-        self.bookmark = ""
+        self.bookmarks: tuple[str, ...] = ()
         self.camera_follows: Follows = "close_ups"
 
     @property
@@ -102,6 +102,10 @@ class ViewportState(State):
         if posing != self._posing:
             self._posing = posing
             self.changed.emit()
+
+    def use_bookmark(self, name: str) -> None:
+        """Note that a bookmark was kept, renamed or recalled."""
+        self.set(bookmarks=(name, *(other for other in self.bookmarks if other != name)))
 
     def turn(self) -> None:
         """Look from the other side."""

@@ -80,7 +80,7 @@ class PieceViews(QObject):
         if not piece:
             return
         view = PieceView(
-            None if viewport.camera is None else viewport.camera.bookmark(viewport.bookmark or "-"),
+            None if viewport.camera is None else viewport.camera.bookmark("-"),
             viewport.camera is not None and viewport.camera.is_moved,
             session.players[:_MOST_PLAYERS],
             session.playhead_s,

@@ -107,7 +107,7 @@ viewport.follow_selection ? playhead
 viewport.dolly_* = dollied
 viewport.camera_follows_* ? camera_follows
 cameras.keep = project + notice
-cameras.update ? project + notice
+cameras.update = notice + project
 cameras.rename ? typing
 cameras.remove ? project
 cameras.recall_* ? view + players selection
@@ -142,7 +142,7 @@ timeline.marks = lanes
 lanes.*, lanes_menu > *, lane header > * ? lanes
 front_player ? players
 lane breath > * ? project + selection
-lane fingering > *, lane acting > takers > *, lane acting > givers > * ? project + selection
+lane fingering > *, lane acting > takers > *, lane acting > givers > * ? project + selection players
 lane acting > * ? project + selection
 ruler > Select Bar = selection
 ruler > * ? typing

@@ -22,7 +22,7 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
     "front": (0.0, 4.0),
     "side": (-90.0, 4.0),
     "top": (0.0, 89.9),
-    "hands": (0.0, 20.0),
+    "hands": (-24.0, 20.0),
     "mouth": (-58.0, 4.0),
     "feet": (-28.0, 16.0),
 }

@@ -162,7 +162,7 @@ class ViewportHeader(Retranslated, QWidget):
         eye = self._session.viewport.camera
         if eye is not None:
             eye.recall(camera)
-            self._session.viewport.set(bookmark=camera.name)
+            self._session.viewport.use_bookmark(camera.name)
 
     def ask_name(self, camera: CameraBookmark) -> None:
         """Have another name for a camera typed beside the button of cameras."""
@@ -185,7 +185,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._end_typing()
         edit = partial(rename_camera, name=before, new_name=name)
         if name != before and self._session.attempt(Message("edit.rename_camera"), edit):
-            self._session.viewport.set(bookmark=name)
+            self._session.viewport.use_bookmark(name)
 
     def _end_typing(self) -> None:
         field, self._name = self._name, None

@@ -465,6 +465,7 @@ class ViewportPanel(Retranslated, QWidget):
         if change.opened:
             self._tool.release()
             self.scene.leave()
+            self._session.viewport.set(bookmarks=())
             self._session.viewport.set_view("ensemble")
         if self._canvas is not None and (change.opened or cast_key(change.before) != cast_key(change.after)):
             self.scene.load()

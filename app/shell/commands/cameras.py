@@ -21,8 +21,8 @@ NUMBERED: Final = 9
 
 def current(session: Session) -> CameraBookmark | None:
     """The bookmark that was kept or recalled last, if it is still there."""
-    name = session.viewport.bookmark
-    return next((camera for camera in session.project.cameras if camera.name == name), None)
+    cameras = {camera.name: camera for camera in session.project.cameras}
+    return next((cameras[name] for name in session.viewport.bookmarks if name in cameras), None)
 
 
 def recall(session: Session, index: int) -> None:
@@ -30,7 +30,7 @@ def recall(session: Session, index: int) -> None:
     cameras, eye = session.project.cameras, session.viewport.camera
     if eye is not None and index < len(cameras):
         eye.recall(cameras[index])
-        session.viewport.set(bookmark=cameras[index].name)
+        session.viewport.use_bookmark(cameras[index].name)
 
 
 def _keep(session: Session) -> None:
@@ -50,7 +50,7 @@ def _keep_as(session: Session, name: str) -> None:
         return
     edit = partial(keep_camera, camera=eye.bookmark(name))
     if session.attempt(Message("edit.keep_camera", {"name": name}), edit):
-        session.viewport.set(bookmark=name)
+        session.viewport.use_bookmark(name)
         session.notice(Message("edit.keep_camera", {"name": name}))
 
 

@@ -106,6 +106,17 @@ def test_it_is_overwritten_renamed_and_deleted(qtbot: QtBot, program: Program) -
     assert [camera.name for camera in session.project.cameras] == ["Camera 2"]
 
 
+def test_where_saving_is_undone_the_camera_before_is_in_hand_again(program: Program) -> None:
+    session = program.session
+    _kept(program)
+    session.document.undo()
+    program.editor.table.refresh()
+    actions(session)["cameras.remove"].trigger()
+    assert session.project.cameras == ()
+    program.editor.table.refresh()
+    assert not actions(session)["cameras.update"].isEnabled()
+
+
 def test_menus_list_the_cameras(program: Program) -> None:
     _kept(program)
     menus = child(program.window, QMenu, "menu_view_cameras"), child(program.window, QMenu, "viewport_camera_menu")

@@ -12,6 +12,7 @@ from app.editor.settings import SETTINGS, Settings
 from app.editor.stored_settings import Setting
 from app.editor.translated import tr
 from app.editor.video_state import PLACEMENTS
+from app.editor.viewport_state import FOLLOWS
 from app.shell.app import Program
 from app.shell.preferences import show_preferences
 from app.shell.texts import TEXTS
@@ -25,7 +26,13 @@ def other(setting: Setting[Any]) -> object:
         return setting.options[-1][0]
     if isinstance(setting.default, bool):
         return not setting.default
-    others = {"volume": 0.25, "source": SOURCES[-1], "video_placement": PLACEMENTS[-1], "video_opacity": 0.25}
+    others = {
+        "camera_follows": FOLLOWS[-1],
+        "volume": 0.25,
+        "source": SOURCES[-1],
+        "video_placement": PLACEMENTS[-1],
+        "video_opacity": 0.25,
+    }
     return {"folded": {"a part": True}, **others}[setting.name]
 
 

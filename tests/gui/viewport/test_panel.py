@@ -304,7 +304,7 @@ def test_dragging_orbits_pans_and_the_wheel_dollies(viewport: ViewportPanel) -> 
 def test_control_and_a_drag_dolly(viewport: ViewportPanel, button: Qt.MouseButton) -> None:
     """For who has no wheel: a pen has one button, a mouse of Blender's and Maya's users the middle one."""
     before = viewport.camera
-    drag(canvas(viewport), QPointF(20, 60), QPointF(20, 20), button, Qt.KeyboardModifier.ControlModifier)
+    drag(canvas(viewport), QPointF(20, 60), QPointF(0, -40), button, Qt.KeyboardModifier.ControlModifier)
     assert viewport.camera == replace(before, distance_m=viewport.camera.distance_m)
     assert viewport.camera.distance_m < 0.95 * before.distance_m
 

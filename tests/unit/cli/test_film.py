@@ -34,6 +34,8 @@ def _no_display(monkeypatch: pytest.MonkeyPatch) -> None:
         ("--to a.mp4 --size 101x100", 2, "even width and height"),
         ("--to a.mp4 --size 10x10", 2, "not between 64x64 and 7680x4320"),
         ("--to a.mp4 --size 99999999999", 2, "is not a size such as 1600x1000"),
+        ("--to a.mp4 --camera Left", 2, "there is no camera 'Left' in this piece; known: -"),
+        ("--to a.mp4 --camera Left --view top", 2, "not allowed with argument --camera"),
         ("--to a.mp4 --view bell", 2, "'hands', 'mouth', 'feet'"),
         ("--to a.mp4 --player flute", 2, "choose one of: Trumpet 1, Trumpet 2, Trombone 1, Trombone 2"),
         ("--to a.mp4 --from-bar 45", 2, "the piece has bars 1 to 44"),
