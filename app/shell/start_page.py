@@ -29,7 +29,7 @@ RECENT_PX, LEAST_FOLDER_PX = 360, 90
 _BEGIN = (
     ("file.open", "start_open", "start_page.open_midi_file_or_project", "open"),
     ("file.new", "start_new", "start_page.new_piece", "new"),
-    ("help.first_steps", "start_first_steps", "start_page.first_steps", "foot"),
+    ("help.first_steps", "start_first_steps", "start_page.first_steps", "help"),
     ("file.open_example", "start_example", "start_page.try_example_quartet", "players"),
     ("file.open_danced_example", "start_danced_example", "start_page.try_example_with_dancer", "pose"),
 )

@@ -6,9 +6,10 @@ from typing import Protocol, runtime_checkable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QApplication, QDialogButtonBox, QWidget
+from PySide6.QtWidgets import QApplication, QDialogButtonBox, QHBoxLayout, QWidget
 
 from widgets.common.controls import Button
+from widgets.common.layouts import in_row
 
 
 @runtime_checkable
@@ -48,7 +49,6 @@ class HelpButton(Button):
         ask_for_help(field if field is not None and field.window() is self.window() else self.window())
 
 
-def with_help(buttons: QDialogButtonBox) -> QDialogButtonBox:
-    """The buttons of a dialog, with the one that opens its guide."""
-    buttons.addButton(HelpButton(), QDialogButtonBox.ButtonRole.HelpRole)
-    return buttons
+def with_help(buttons: QDialogButtonBox) -> QHBoxLayout:
+    """The buttons of a dialog, and at the left, whatever the system's order is, the one that opens its guide."""
+    return in_row(HelpButton(), (buttons, 1))

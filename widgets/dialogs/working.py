@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLayout, QProgressBar, QPushButton, QWidget
 
 from app.errors import Message, StopRequested
 from widgets.common.clicks import on_click
@@ -67,7 +67,7 @@ class WorkingDialog(Retranslated, QDialog):
         self._close = named(QPushButton(), f"{prefix}_close")
         on_click(self._close, self.reject)
 
-    def _box(self, start_id: str, start: Callable[[], object], show_folder: Callable[[], object]) -> QDialogButtonBox:
+    def _box(self, start_id: str, start: Callable[[], object], show_folder: Callable[[], object]) -> QLayout:
         """Buttons to start, to look at what was written, and to cancel or close."""
         box = QDialogButtonBox()
         self._start = Button(start_id, start, f"{self._prefix}_start")

@@ -22,7 +22,7 @@ FEATURES: Final = (
     QTextDocument.MarkdownFeature.MarkdownDialectGitHub.value | QTextDocument.MarkdownFeature.MarkdownNoHTML.value
 )
 ORDER: Final = (
-    *("editor", "correct-by-hand"),
+    *("editor", "correct-by-hand", "cameras"),
     *("from-your-notation-program", "piece-settings", "marks", "acting", "curves", "choreography"),
     *("record-your-first-take", "follow-a-recording", "reference-video", "bring-your-own-character"),
     *("into-unreal", "files-for-other-programs", "skeletons", "stream-live", "evaluate"),
