@@ -123,6 +123,8 @@ def plan_by_rules(
 def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray, FloatArray]:
     """At which notes a rule holds, and (N,) how much; ``played_in`` are the notes' styles where there are several."""
     here, when = matches(rule.when, line.facts), rule.when
+    if not here.any():
+        return np.zeros(0, np.int64), np.zeros(len(here))
     here[here] = by_chance(rule, line.times.onset_tick[here], line.seeds)
     if played_in and when.styles:
         here &= np.array([style in when.styles for style in played_in])

@@ -112,15 +112,15 @@ def leans(
     vigours = dynamics.at((starts_s + ends_s) / 2.0)
     sizes = sizes * np.minimum(1.0, (ends_s - starts_s) / WHOLE_S)
     amounts = amount_at_vigour(np.where(back, -0.5 * sizes, sizes), vigours)
-    rests = seeds.chances_at("lean rest", ticks)
+    rests, onsets_s = seeds.chances_at("lean rest", ticks), times.onset_s.tolist()
     for place, (first, last) in enumerate(zip(firsts.tolist(), lasts.tolist(), strict=True)):
         start_s, end_s = float(starts_s[place]), float(ends_s[place])
         if end_s - start_s < SHORTEST_S:
             continue
         low, high = start_s + CLIMAX_FROM * (end_s - start_s), start_s + CLIMAX_TO * (end_s - start_s)
-        one, other = np.searchsorted(times.onset_s[first : last + 1], (low, high)).tolist()
+        one, other = (bisect_left(onsets_s, at_s, first, last + 1) for at_s in (low, high))
         if one < other:
-            top = first + one + int(np.argmax(climbing[first + one : first + other]))
+            top = one + int(np.argmax(climbing[one:other]))
             top_s, top_tick = float(times.onset_s[top]), int(times.onset_tick[top])
         else:
             top_s = low + 0.5 * (high - low)

@@ -109,9 +109,9 @@ def mean_around(
 
 def louder_by(times: LineTimes) -> FloatArray:
     """(N,): how much louder each note is than those around it, and than the mark in force where it is known: a *forte*
-    of three notes is no accent on each."""
+    of three notes is no accent on each. 0 in a line that is too even for an accent."""
     loudness = times.loudness
-    if len(loudness) < 2:
+    if len(loudness) < 2 or np.ptp(loudness) < ACCENT:
         return np.zeros(len(loudness))
     padded = np.pad(loudness, ACCENT_NOTES, mode="reflect" if len(loudness) > ACCENT_NOTES else "edge")
     around = running_medians(padded, 2 * ACCENT_NOTES + 1)
