@@ -43,7 +43,7 @@ def first_steps(editor: Editor) -> None:
 
 
 ACTIONS: tuple[EditorAction, ...] = (
-    EditorAction("help.first_steps", first_steps, "help", icon="check"),
+    EditorAction("help.first_steps", first_steps, "help"),
     EditorAction("help.guides", guides, "help", icon="help"),
     EditorAction("help.here", help_here, "help", "F1", icon="pointer"),
 )
