@@ -22,7 +22,7 @@ _LINES: Final = """
 # The start page, the status line and the title of the window
 start_open = asked
 start_new = file page panels project + lanes view
-help.first_steps, start_first_steps = file page players project + dancer panels view
+start_first_steps = file page players project + dancer panels view
 start_example, start_danced_example = file page players project + dancer panels view
 midi_device, stream_state = dialog
 palette_button = palette popup
@@ -40,6 +40,7 @@ file.reimport, file.rules, file.piece_settings, file.evaluation, file.evaluation
 file.close = file page panels project + asked players selection dancer recording tool view
 export.files, export.playblast = dialog
 help.guides, help.here = dialog
+help.first_steps = project + asked axis file ghosts page players panels recording selection dancer lanes tool view
 application.characters, application.instruments, application.preferences, application.shortcuts = dialog
 application.about, record.devices, record.latency, stream.settings, dancers.learn, dancers.choreography = dialog
 application.palette = palette popup
