@@ -272,8 +272,7 @@ class Performance:
         self, planning: EnsemblePlanning, played: tuple[Player, ...], stop_requested: StopRequested
     ) -> None:
         """Plan everything that one musician plays, and find its problems."""
-        lines = {line.player_id for line in self.lines}
-        made = {player.id: planning.plan(player.id) for player in played if player.id in lines}
+        made = {player.id: planning.plan(player.id) for player in played if player.id in self._lines}
         turns = (first_played(made), changes(made)) if len(made) > 1 else None
         for player in played:
             # Hands are posed to find out what they reach: with many players it takes as long as planning.
