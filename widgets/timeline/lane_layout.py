@@ -184,12 +184,6 @@ class LaneLayout(QObject):
         """Show the lanes that are open of several players."""
         self._players.show_kinds([id for id in STACKED_IDS if self.is_open(id)])
 
-    def set_stacked(self, stacked: bool) -> None:
-        """Stack the lanes of selected players, or show those of the player in front."""
-        if stacked != self._players.requested:
-            self._players.request(stacked)
-            self.changed.emit()
-
     # Menus
 
     def _fill_menu(self) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated, NamedTuple, TypeAlias
 import msgspec
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QScrollBar, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QScrollBar, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
@@ -18,6 +18,7 @@ from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.text import sentence
 from widgets.timeline.extent import scroll_limits, selected_span
+from widgets.timeline.front_lanes import FrontLanes, KeyboardNote
 from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
 from widgets.timeline.lanes import LANES
@@ -30,7 +31,7 @@ from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
-from widgets.timeline.stacked_players import STACKED_IDS, PlayerLanes, StackedPlayers
+from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
 from widgets.timeline.tool_bar import ToolBar
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
@@ -108,11 +109,8 @@ class TimelinePanel(Retranslated, QWidget):
         self.tool_bar = ToolBar(session, self.roll, self)
         self.flags = Flags(session, self.axis, self)
         self.ruler = Ruler(session, self.axis, self)
-        self._keyboard_lane = ""
-        """Id of the lane that had the keyboard before others were shown; empty: none."""
-        # Before lanes are shown or hidden, which takes the keyboard from them.
-        session.players_changed.connect(self._note_keyboard)
-        self.players = StackedPlayers(session, self.axis)
+        keyboard = KeyboardNote(session, self.lanes, self)
+        self.players = keyboard.players = StackedPlayers(session, self.axis)
         self.stack = LaneStack(session, tuple(self.lanes.values()), self.roll, self.players, self)
         for lane in self.lanes.values():
             lane.sought.connect(self.sought)
@@ -136,10 +134,8 @@ class TimelinePanel(Retranslated, QWidget):
         self.sought.connect(session.set_playhead)
         self.setFocusProxy(self.roll.plot)
         self.players.made.connect(self._stack_made)
-        self.players.changed.connect(self._show_proxy)
         self.players.changed.connect(lambda: self.tool_bar.ghosts_button.setEnabled(not self.stacking))
-        session.players_changed.connect(self._show_proxy)
-        session.players_changed.connect(self._show_front)
+        self._front = FrontLanes(session, self.lanes, self.roll, self.stack, keyboard)
         self.axis.changed.connect(self._axis_changed)
         session.changed.connect(self._session_changed)
         session.performance_changed.connect(self._set_limits)
@@ -179,12 +175,6 @@ class TimelinePanel(Retranslated, QWidget):
     def rolls(self) -> tuple[PianoRoll, ...]:
         """The rolls that are shown: of the player in front, or of several."""
         return tuple(place.roll for place in self.players.shown) if self.players.active else (self.roll,)
-
-    @property
-    def front_roll(self) -> PianoRoll:
-        """The roll of the player in front that is shown."""
-        front = self.players.front
-        return self.roll if front is None else front.roll
 
     @property
     def tool(self) -> Tool:
@@ -256,7 +246,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     def ask_quantise(self) -> None:
         """Open the quantise popover over the roll."""
-        self.quantise.open_over(self.front_roll)
+        self.quantise.open_over(self._front.roll)
 
     def ask_take_name(self) -> None:
         """Type the selected take's name where it stands."""
@@ -295,7 +285,7 @@ class TimelinePanel(Retranslated, QWidget):
     def offer_fingerings(self, player_id: str, note_id: str, why: Message) -> None:
         """Show the fingerings of a note beside it, and why another one is none."""
         lane = self.players.lane_in_front(FingeringLane.id) or self.lanes[FingeringLane.id]
-        plan, roll = self.session.plans.get(player_id), self.front_roll
+        plan, roll = self.session.plans.get(player_id), self._front.roll
         events = () if plan is None else plan.fingerings
         event = next((event for event in events if event.note_id == note_id), None)
         note = roll.model.note(note_id)
@@ -335,9 +325,9 @@ class TimelinePanel(Retranslated, QWidget):
 
     def set_stacked(self, stacked: bool) -> None:
         """Stack the lanes of selected players, or show those of the player in front."""
-        self._note_keyboard()
-        self.lane_layout.set_stacked(stacked)
-        self._pass_keyboard()
+        if stacked != self.stacked:
+            self._front.stack_lanes(stacked)
+            self.arranged.emit()
 
     def _stack_made(self, place: PlayerLanes) -> None:
         """Connect lanes of a player that were not there before."""
@@ -346,29 +336,6 @@ class TimelinePanel(Retranslated, QWidget):
         place.roll.set_tool(self.tool)
         place.roll.marks.set_shown(self.marks_shown)
         place.roll.reported.connect(self.tool_bar.report)
-
-    def _note_keyboard(self) -> None:
-        focus = QApplication.focusWidget()
-        own = (lane for lane in self.lanes.values() if focus is not None and lane.isAncestorOf(focus))
-        lane = self.players.lane_with(focus) or next(own, None)
-        self._keyboard_lane = "" if lane is None else lane.id
-
-    def _show_front(self) -> None:
-        """Bring the notes of the player in front into view, unless the mouse is at work in a lane of the player."""
-        self._pass_keyboard()
-        held = QApplication.mouseButtons() != Qt.MouseButton.NoButton and self.stack.underMouse()
-        if self.players.active and not held:
-            self.stack.bring_into_view(self.roll)
-
-    def _pass_keyboard(self) -> None:
-        """Let the lanes of the player in front have the keys that those of another player had."""
-        if self._keyboard_lane in STACKED_IDS:
-            lane = self.players.lane_in_front(self._keyboard_lane) or self.lanes[self._keyboard_lane]
-            lane.plot.setFocus()
-
-    def _show_proxy(self) -> None:
-        """The keys that come to the timeline are for the notes of the player in front."""
-        self.setFocusProxy(self.front_roll.plot)
 
     def _header_menu(self, place: QPoint) -> None:
         header = self.sender()
@@ -454,7 +421,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
-        self.axis.set_width(self.front_roll.plot.width())
+        self.axis.set_width(self._front.roll.plot.width())
         if not self._fitted:
             # Only now is it known how wide everything is.
             self._fitted = True

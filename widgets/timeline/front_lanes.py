@@ -1,0 +1,83 @@
+"""Lanes of the player in front where several players' are stacked: in view, and with the keyboard."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QApplication, QWidget
+
+from app.editor.session import Session
+from widgets.timeline.lane import Lane
+from widgets.timeline.roll.piano_roll import PianoRoll
+from widgets.timeline.stack import LaneStack
+from widgets.timeline.stacked_players import STACKED_IDS, StackedPlayers
+
+
+class KeyboardNote(QObject):
+    """Notes which lane has the keyboard before lanes are shown or hidden, which takes it from them.
+
+    It is made before the stack, whose slots follow its own.
+    """
+
+    def __init__(self, session: Session, lanes: Mapping[str, Lane], parent: QWidget) -> None:
+        super().__init__(parent)
+        self._lanes = lanes
+        self.players: StackedPlayers | None = None
+        self.lane_id = ""
+        """Id of that lane; empty: none."""
+        session.players_changed.connect(self.take)
+
+    def take(self) -> None:
+        """Note which lane has it now."""
+        focus = QApplication.focusWidget()
+        own = (lane for lane in self._lanes.values() if focus is not None and lane.isAncestorOf(focus))
+        stacked = None if self.players is None else self.players.lane_with(focus)
+        lane = stacked or next(own, None)
+        self.lane_id = "" if lane is None else lane.id
+
+
+class FrontLanes(QObject):
+    """Keeps the lanes of the player in front in view, and gives them the keys that another player's had."""
+
+    def __init__(
+        self, session: Session, lanes: Mapping[str, Lane], roll: PianoRoll, stack: LaneStack, keyboard: KeyboardNote
+    ) -> None:
+        super().__init__(stack)
+        assert keyboard.players is not None
+        self._lanes, self._roll, self._stack = lanes, roll, stack
+        self._keyboard, self._players = keyboard, keyboard.players
+        self._players.changed.connect(self._show_proxy)
+        session.players_changed.connect(self._show_proxy)
+        session.players_changed.connect(self._show)
+
+    @property
+    def roll(self) -> PianoRoll:
+        """The roll of the player in front that is shown."""
+        front = self._players.front
+        return self._roll if front is None else front.roll
+
+    def stack_lanes(self, stacked: bool) -> None:
+        """Stack the lanes of selected players, or no longer; the keyboard stays with the player in front."""
+        self._keyboard.take()
+        self._players.request(stacked)
+        self._pass_keyboard()
+
+    def _show(self) -> None:
+        """Bring the notes of the player in front into view, unless the mouse is at work in a lane of the player."""
+        self._pass_keyboard()
+        held = QApplication.mouseButtons() != Qt.MouseButton.NoButton and self._stack.underMouse()
+        if self._players.active and not held:
+            self._stack.bring_into_view(self._roll)
+
+    def _pass_keyboard(self) -> None:
+        lane_id = self._keyboard.lane_id
+        if lane_id in STACKED_IDS:
+            lane = self._players.lane_in_front(lane_id) or self._lanes[lane_id]
+            lane.plot.setFocus()
+
+    def _show_proxy(self) -> None:
+        """The keys that come to the timeline are for these notes."""
+        timeline = self._keyboard.parent()
+        if isinstance(timeline, QWidget):
+            timeline.setFocusProxy(self.roll.plot)
