@@ -84,7 +84,7 @@ class Work:
         self.planned()
         viewport, playhead_s = self.viewport, self.session.playhead_s
         self.until(lambda: self.program.generator.live.pose(self.front, playhead_s) is not None, "motion")
-        pause(240)
+        pause(LOOK_AGAIN_MS)
         viewport.refresh()
         self.application.processEvents()
         self.pictures += 1
@@ -175,7 +175,6 @@ def pin_three(work: Work) -> None:
         work.show_bars(max(bar - 1, 1), bar + 2)
         work.click_note(note.id)
         work.keys(work.timeline.roll.plot, [digits[sign] for sign in others[0]])
-        pause(900)
         work.planned()
         now = next(event for event in work.plan.fingerings if event.note_id == note.id)
         assert (now.label, now.corrected) == (others[0], True), (now, others)
