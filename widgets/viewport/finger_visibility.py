@@ -16,7 +16,7 @@ from widgets.viewport.cast import Stage
 Direction = tuple[float, float]
 """Turn from the player's front towards their left, height of the eye, both in degrees."""
 
-_SIDES_DEG = (-24.0, 24.0, -48.0, 48.0, -72.0, 72.0)
+_SIDES_DEG = (-12.0, 12.0, -24.0, 24.0, -48.0, 48.0, -72.0, 72.0)
 _HEIGHTS_DEG = (14.0, 34.0)
 """Sides and heights to look from; none from the front, of which the other side would be the back."""
 _EYE_M = 0.7
