@@ -25,7 +25,7 @@ _ANY_KIND: Final = "event"
 _MOST_NAMES: Final = 2
 
 
-class Planned(Protocol):
+class PlannedPiece(Protocol):
     """Part of the session that says where events are."""
 
     @property
@@ -34,7 +34,7 @@ class Planned(Protocol):
     def performance(self) -> Performance: ...
 
 
-def edit_of_events(session: Planned, name: str, keys: Collection[EventKey]) -> Message:
+def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey]) -> Message:
     """Return the name of an edit of some events, one of `OF_EVENTS`: their kind, their players, from where to where."""
     kinds = {EventId.parse(key.event_id).kind for key in keys}
     kind = kinds.pop() if len(kinds) == 1 else _ANY_KIND
@@ -45,13 +45,13 @@ def edit_of_events(session: Planned, name: str, keys: Collection[EventKey]) -> M
     return Message(name, {**said, "count": len(keys)})
 
 
-def _players(session: Planned, keys: Iterable[EventKey]) -> str:
+def _players(session: PlannedPiece, keys: Iterable[EventKey]) -> str:
     ids = {key.player_id for key in keys}
     names = [player.name for player in session.project.players if player.id in ids]
     return ", ".join(names[:_MOST_NAMES]) + (", …" if len(names) > _MOST_NAMES else "")
 
 
-def _places(session: Planned, keys: Iterable[EventKey]) -> str:
+def _places(session: PlannedPiece, keys: Iterable[EventKey]) -> str:
     players = {player.id: player for player in session.project.players}
     ticks = {_tick(session, players[key.player_id], key.event_id) for key in keys if key.player_id in players}
     known = sorted(tick for tick in ticks if tick is not None)
@@ -59,7 +59,7 @@ def _places(session: Planned, keys: Iterable[EventKey]) -> str:
     return "–".join(labels)
 
 
-def _tick(session: Planned, player: Player, event_id: str) -> int | None:
+def _tick(session: PlannedPiece, player: Player, event_id: str) -> int | None:
     """The tick at which an event begins as planned, else that of the note or the tick that its id names."""
     performance = session.performance
     plan = performance.plans.get(player.id) if performance.planned else None
