@@ -209,7 +209,7 @@ class LiveMotion:
     def work(self, stop_requested: StopRequested = lambda: False) -> bool:
         """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
         player."""
-        if self.is_seen or len(self._made) >= MOST_UNJUDGED:
+        if self._has_pictures() or len(self._made) >= MOST_UNJUDGED:
             self._judge_made()
         more = self._make_missing(stop_requested)
         if not more:
@@ -337,6 +337,15 @@ class LiveMotion:
         places = self._in_sight(shown.grid)
         return shown.is_whole and all(
             track.error is not None or (track.basis is None and all(index in track.chunks for index in places))
+            for track in shown.tracks.values()
+        )
+
+    def _has_pictures(self) -> bool:
+        """Return whether everything that is looked at has a motion to show, if only that of before an edit."""
+        shown = self._shown
+        places = self._in_sight(shown.grid)
+        return shown.is_whole and all(
+            track.error is not None or all(track.has_picture(index) for index in places)
             for track in shown.tracks.values()
         )
 

@@ -122,6 +122,10 @@ class LiveTrack:
         self.breaks[index] = breaks
         return True
 
+    def has_picture(self, index: int) -> bool:
+        """Return whether there is a motion of a chunk to show."""
+        return index in self.chunks or index in self.unproven or index in self.outdated
+
     def found_problems(self) -> tuple[Problem, ...]:
         """Return the contacts that a player breaks, or corrections that a dance does not hold."""
         if self.playing is not None and not isinstance(self.playing, PerformanceCurves):

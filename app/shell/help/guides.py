@@ -6,6 +6,7 @@ so that a place in one is a place in the other. Qt's Markdown reads them; HTML i
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -120,7 +121,7 @@ def guide(name: str, language: str) -> Guide:
     if name not in names():
         raise KeyError(name)
     translation = FOLDER / f"{name}_{language}.md"
-    is_translated = language == "en" or translation.is_file()
+    is_translated = language == "en" or os.path.isfile(translation)
     path = translation if language != "en" and is_translated else FOLDER / f"{name}.md"
     markdown = path.read_text(encoding="utf-8")
     return Guide(name, markdown, is_translated, sections(markdown))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Final
@@ -236,4 +237,4 @@ def _picture_names(document: QTextDocument) -> set[str]:
 def _picture_path(name: str) -> Path | None:
     """Return the file of a picture in the folder of the guides; None: there is none, or it is somewhere else."""
     path = (FOLDER / name).resolve()
-    return path if path.is_relative_to(FOLDER.resolve()) and path.is_file() else None
+    return path if path.is_relative_to(FOLDER.resolve()) and os.path.isfile(path) else None

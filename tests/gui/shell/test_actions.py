@@ -57,7 +57,7 @@ def test_no_two_actions_have_the_same_shortcut_in_one_place(program: Program) ->
 def test_a_command_has_one_shortcut(program: Program) -> None:
     """Several only where keyboards or systems differ: two Enter keys, plus without Shift, two ways to redo."""
     several = {row.id for row in program.editor.table.rows.values() if ";" in row.shortcut}
-    assert several == {"edit.redo", "notes.louder", "play.bar", "timeline.zoom_in"}
+    assert several == {"edit.redo", "notes.louder", "play.bar", "timeline.zoom_in", "viewport.dolly_in"}
 
 
 def test_menus_show_a_command_with_one_shortcut(program: Program) -> None:

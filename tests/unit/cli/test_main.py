@@ -158,7 +158,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
     assert set(found) == {
         "duration_s", "ticks_per_beat", "tempo", "tempo_source", "markers", "percussion_hits", "first_frame_s",
         "warnings", "unplayed", "left_out", "players", "dancers", "title", "fps", "fps_exact", "preroll_beats",
-        "felt_beat_quarters", "seed", "section_intensity", "conductor",
+        "felt_beat_quarters", "seed", "section_intensity", "conductor", "ignored_problems",
     }  # fmt: skip
     assert set(found["tempo"][0]) == {"tick", "bpm"}
     for player in found["players"]:
@@ -178,7 +178,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
         for note in player["notes"]:
             assert set(note) == {
                 "id", "onset_tick", "duration_tick", "onset_s", "duration_s", "pitch", "velocity", "fingering",
-                "controls", "articulation", "tongue", "tongue_reason", "bend", "loudness", "dynamic", "muted",
+                "fingering_keys", "controls", "articulation", "tongue", "tongue_reason", "bend", "loudness", "dynamic", "muted",
                 "sources",
             }  # fmt: skip
             assert all(0.0 <= value <= 1.0 for value in (*note["controls"].values(), note["loudness"]))
@@ -389,7 +389,7 @@ def test_a_scale_has_every_note_of_the_range_with_its_first_choice(run: Run) -> 
         status, out, _ = run("instruments", "scale", instrument.id, "--first")
         assert status == 0
         head, *rows = out.splitlines()
-        assert head.split() == ["sounds", "written", "rank", "fingering", "cents", "for"]
+        assert head.split() == ["sounds", "written", "rank", "fingering", "cents", "for", "keys"]
         assert len(rows) == instrument.range.high - instrument.range.low + 1
         at = head.index("fingering")
         for pitch, row in zip(range(instrument.range.low, instrument.range.high + 1), rows, strict=True):

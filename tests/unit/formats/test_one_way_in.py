@@ -17,6 +17,7 @@ OUR_OWN = {
     "app/export/unreal/plugin.py": {"read_bytes"},
     "app/formats/table_cache.py": {"read_bytes"},
     "app/evaluation/page.py": {"read_text", "read_bytes"},  # and clips that were drawn a moment ago
+    "app/shell/help/guides.py": {"read_text"},
     "app/shell/theme.py": {"read_text"},
     "widgets/common/icons.py": {"read_text"},
     # A file that this process has made: a lock, or what it copies to its backup.
