@@ -12,6 +12,7 @@ from app.evaluation.key import Variant
 from app.performance.ensemble import Performance
 from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.model import Project
+from app.project.performers import Player
 
 LATE_S: Final = 0.2
 """Delay of the fingers in the control: beyond what anyone takes for synchronous (ITU-R BT.1359: 45 ms early, 125 ms
@@ -27,6 +28,10 @@ class LateFingers(Performance):
     def plans(self) -> dict[str, PlayerPlan]:
         """Every player's plan by player id."""
         return {player_id: _late(plan) for player_id, plan in super().plans.items()}
+
+    def plan(self, player: Player) -> PlayerPlan:
+        """One player's plan."""
+        return self.plans[player.id]
 
 
 def performance_of(project: Project, variant: Variant) -> Performance:
