@@ -30,7 +30,7 @@ LIFT_STAY_M = 0.004
 its range to the other."""
 LOW_HOVER = 0.123
 """In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
-the highest (`app.rig.grip.fitting.hand_problem.HOVER_MORE`)."""
+the highest (`app.rig.grip.fitting.touch_targets.HOVER_MORE`)."""
 
 NEIGHBOURS = {
     "index": {"middle": 0.3},

@@ -25,10 +25,11 @@ from app.rig.grip.carriage import Upright, upright
 from app.rig.grip.finger_stations import asked_together
 from app.rig.grip.fitting.fit_terms import GRIP_M, INSIDE_M, TOUCH_M, GripScene, no_progress, require_landmarks
 from app.rig.grip.fitting.grip_measures import judge
-from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem, joint_angles, travel, wrist_transform
+from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem, joint_angles, wrist_transform
 from app.rig.grip.fitting.leaning_hand import Leaning, lean_of, leanings, whole_hand
 from app.rig.grip.fitting.search import refined_solution, search_knots, starts
 from app.rig.grip.fitting.solved_fingers import MOVED_VALUES, STILL_VALUES, finger_tables, solve_tables
+from app.rig.grip.fitting.touch_targets import travel
 from app.rig.grip.fitting.two_fingers import leans_beside
 from app.rig.grip.fitting.ways_between_stations import lifted_ways
 from app.rig.grip.grip_pose import GripPose, HandHold, NodeMotion, StationTable

@@ -29,7 +29,8 @@ from app.rig.characters.landmarks import JAW_MORPHS
 from app.rig.grip.body_size import arm_m, arm_size, hand_size
 from app.rig.grip.carriage import Upright, upright
 from app.rig.grip.fitting.grip_files import usual_wrists
-from app.rig.grip.fitting.hand_problem import seed_turn, travel
+from app.rig.grip.fitting.hand_problem import seed_turn
+from app.rig.grip.fitting.touch_targets import travel
 from app.rig.grip.lips import fit_lips
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward, rest_positions

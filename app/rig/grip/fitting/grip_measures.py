@@ -18,8 +18,9 @@ from app.rig.grip.fitting.hand_model import (
     wrist_from_joint,
     wrist_from_mesh,
 )
-from app.rig.grip.fitting.hand_problem import HandProblem, contact_at, counts, home_controls, nodes_at
+from app.rig.grip.fitting.hand_problem import HandProblem, home_controls
 from app.rig.grip.fitting.residuals import inside_proxy
+from app.rig.grip.fitting.touch_targets import contact_at, counts, nodes_at
 from app.rig.grip.grip_pose import ContactFit, FingerTable, StationTable
 from app.rig.quaternion import interpolated
 

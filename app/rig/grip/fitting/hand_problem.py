@@ -8,19 +8,19 @@ with the controls of their home stations fully worked, and those of every finger
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.carriage import Upright
-from app.rig.grip.finger_stations import MOST_HOVER_M, Station, aside_m, height_share, stations
+from app.rig.grip.finger_stations import Station, stations
 from app.rig.grip.fitting.hand_model import FINGERS, HandModel, hand_model, rest_landmark
+from app.rig.grip.fitting.touch_targets import TouchTarget, nodes_at, touch_at
 from app.rig.grip.grip_pose import Side
 from app.rig.grip.instrument_proxy import Bodies, bodies, near
-from app.rig.instrument import node_transforms, part_transform, part_values
 from app.rig.model import Character, InstrumentModel
 from instrument_maps.hold import Contact, HandSeed
 from instrument_maps.model import ROOT, Control, InstrumentMap
@@ -28,10 +28,6 @@ from metadata.load import load_skeleton
 from metadata.model import Body, Posture
 
 # What a deviation of one unit of residual is.
-FIRM_M, RESTING_M = 0.0003, 0.0012
-FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
-GUIDE_M, GUIDE_NORMAL = 0.006, 1.5
-SPREADS = {"firm": (FIRM_M, FIRM_NORMAL), "resting": (RESTING_M, RESTING_NORMAL), "guide": (GUIDE_M, GUIDE_NORMAL)}
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 LIMIT_RAD = 0.02
 LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
@@ -40,12 +36,6 @@ SWIVEL_RANGE_RAD = (0.2, 0.9)
 """The elbow hangs, off the ribs: its swing from straight down to the outside ..."""
 SWIVEL_ABOUT_RAD = 0.35
 """... or, where the map says where it is, within so much of that."""
-HOVER_MORE = 1.3
-"""Fingers wait at this multiple of the map's height in the fastest passages."""
-HOVER_SPREAD = 0.5
-"""Spread of a waiting finger about its height, as a share of it: it may be lower or higher as the hand lies."""
-HOVER_TURNS = 2.0
-"""Factor by which its pad may turn elsewhere more freely than at its touch."""
 ANCHOR = (0.25, 0.7, 0.5)
 """Spread of the wrist's place (in 0.1 m), its turn and the fingers (rad) from one knot of a slide to the next."""
 METRES = 0.1
@@ -66,21 +56,6 @@ class Dof:
     high: float
     relaxed: float
     spread: float
-
-
-@dataclass(frozen=True, eq=False)
-class TouchTarget:
-    """A contact in the instrument's frame, for some values of the controls that its finger works there.
-
-    ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
-    """
-
-    contact: Contact
-    positions: FloatArray
-    normals: FloatArray
-    active: BoolArray
-    spread_m: FloatArray
-    spread_normal: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -325,79 +300,3 @@ def joint_angles(problem: HandProblem, x: FloatArray) -> FloatArray:
     for k, i in enumerate(worked_dofs(problem)):
         result[:, 1, problem.dofs[i].joint, problem.dofs[i].kind] = x[:, 7 + count + k]
     return result
-
-
-def touch_at(
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    contact: Contact,
-    worked: frozenset[str],
-    carrier: Control | None,
-    values: FloatArray,
-) -> TouchTarget:
-    """A contact while the ``worked`` controls are all at ``values`` (S,), and where a finger waits over it."""
-    position, normal = contact_at(model, instrument_map, contact, worked, carrier, values)
-    exact_m, exact_normal = SPREADS[contact.grip]
-    spread_m, spread_normal = np.full(len(values), exact_m), np.full(len(values), exact_normal)
-    if contact.control in worked:
-        control = instrument_map.control(contact.control or "")
-        share = height_share(control, values)
-        height_m = min(HOVER_MORE * control.hover_m, MOST_HOVER_M) * share
-        position = position + height_m[:, None] * normal + aside_m(contact, instrument_map, values)
-        spread_m = np.hypot(spread_m, HOVER_SPREAD * height_m)
-        if control.hover_m:
-            spread_normal = spread_normal * (1.0 + HOVER_TURNS * share)
-    return TouchTarget(contact, position, normal, counts(contact, values), spread_m, spread_normal)
-
-
-def counts(contact: Contact, values: FloatArray) -> BoolArray:
-    """At which values of its control a contact counts."""
-    if contact.when == "pressed":
-        return values > 0.0
-    return values == 0.0 if contact.when == "released" else values >= 0.0
-
-
-def contact_at(
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    contact: Contact,
-    worked: frozenset[str],
-    carrier: Control | None,
-    values: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Place (S, 3) and normal (S, 3) of a contact in the instrument's frame while the worked controls are at values."""
-    place = model.node_positions_m[model.node_names.index(contact.node)] + contact.position_m
-    normal = np.asarray(contact.normal, dtype=np.float64)
-    part = next((part for part in instrument_map.moving_parts if part.node == contact.node), None)
-    if part is None or (carrier is not None and carrier.name in part.controls):
-        return np.tile(place, (len(values), 1)), np.tile(normal, (len(values), 1))
-    moved, turn = part_transform(part.motion, part_values(part, _at(worked, values), len(values)))
-    return quaternion.rotate(turn, place) + moved, quaternion.rotate(turn, normal)
-
-
-def _at(worked: frozenset[str], values: FloatArray) -> Mapping[str, FloatArray]:
-    return dict.fromkeys(sorted(worked), values)
-
-
-def nodes_at(
-    model: InstrumentModel,
-    instrument_map: InstrumentMap,
-    worked: frozenset[str],
-    carrier: Control | None,
-    values: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Places (S, N, 3) and bases (S, N, 3, 3) of the nodes while the worked controls are at values.
-
-    A hand that is carried sees its own node stay and all others go the other way.
-    """
-    place, turn = node_transforms(model, instrument_map, _at(worked, values), len(values))
-    if carrier is not None:
-        others = np.arange(len(model.node_names)) != model.node_names.index(carrier.node or ROOT)
-        place[:, others] -= np.multiply.outer(values, travel(carrier))[:, None]
-    return place, quaternion.to_matrix(turn)
-
-
-def travel(control: Control) -> FloatArray:
-    """Way of what a control pushes or pulls, (3,); zero for what turns."""
-    axis = (0.0, 0.0, 0.0) if control.motion is None else control.motion.axis
-    return np.asarray(axis, dtype=np.float64) * control.travel_m

@@ -19,18 +19,16 @@ from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import FINGERS
 from app.rig.grip.fitting.hand_problem import (
     HandProblem,
-    TouchTarget,
     finger_dofs,
     home_controls,
     joint_angles,
-    nodes_at,
-    touch_at,
     worked_dofs,
     wrist_transform,
 )
 from app.rig.grip.fitting.residuals import Residuals
 from app.rig.grip.fitting.search import solve
 from app.rig.grip.fitting.solved_fingers import Solved, followed_table, missed_m, solved_about
+from app.rig.grip.fitting.touch_targets import TouchTarget, nodes_at, touch_at
 from app.rig.grip.grip_pose import WristOffset
 
 LEAN_FROM_M = 0.0015

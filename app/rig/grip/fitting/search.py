@@ -10,8 +10,9 @@ import numpy as np
 from app.arrays import FloatArray
 from app.errors import Progress
 from app.rig.grip.fitting.fit_terms import no_progress
-from app.rig.grip.fitting.hand_problem import HandProblem, home_controls, nodes_at, start_at, travel
+from app.rig.grip.fitting.hand_problem import HandProblem, home_controls, start_at
 from app.rig.grip.fitting.residuals import Residuals
+from app.rig.grip.fitting.touch_targets import nodes_at, travel
 from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
 

@@ -13,8 +13,9 @@ from app.rig.grip.finger_poses import LOW_HOVER, raised_way, solved_pose, with_w
 from app.rig.grip.finger_stations import MOST_HOVER_M, Station, hover_m
 from app.rig.grip.fitting.fit_terms import GripScene
 from app.rig.grip.fitting.hand_model import skinned, wrist_from_joint, wrist_from_mesh
-from app.rig.grip.fitting.hand_problem import HOVER_MORE, HandProblem, nodes_at
+from app.rig.grip.fitting.hand_problem import HandProblem
 from app.rig.grip.fitting.residuals import inside_proxy
+from app.rig.grip.fitting.touch_targets import HOVER_MORE, nodes_at
 from app.rig.grip.grip_pose import FingerTable, StationTable
 from app.rig.quaternion import interpolated, mixed
 
