@@ -1,4 +1,4 @@
-"""Parts of a MIDI file of which nothing says what plays them, and the command line that gives them instruments."""
+"""Parts of a MIDI file that have no instrument, and the options that give parts their instruments and pitches."""
 
 from __future__ import annotations
 
@@ -7,17 +7,23 @@ import os
 import re
 import shlex
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple
 
+import msgspec
+
 from app.encoding import shown
-from app.errors import Message
-from app.project.importing import ImportRow
+from app.errors import Message, UsageError
+from app.project.importing import ImportRow, score_of_rows
 from app.project.names import unique_names
-from app.score.choose import How, MapCandidates, MapChoice, candidates
+from app.project.parameters import select_players
+from app.score.assignments import PERCUSSION
+from app.score.choose import How, MapCandidates, MapChoice, candidates, require_map
+from app.score.contents import PieceContents
 from app.score.parts import stream_name
 from app.score.track_channel import TrackChannel
 from app.score.track_instrument import use_of
+from instrument_maps.model import InstrumentMap
 
 _SPECIAL: Final = re.compile(r'["$`\\!]')
 """Characters that mean something between double quotes."""
@@ -60,6 +66,48 @@ def unassigned_parts(
 def part_names(channels: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
     """Names of the parts for ``--assign``: a row is called like its first stream."""
     return unique_names(stream_name(channels[row.assignment.channels[0]]) for row in rows)
+
+
+def with_pitches(
+    contents: PieceContents,
+    rows: Sequence[ImportRow],
+    names: Sequence[str],
+    written: bool,
+    maps: Mapping[str, InstrumentMap],
+) -> Sequence[ImportRow]:
+    """The rows with the pitches of the players of these names taken for written or for sounding ones."""
+    parts = score_of_rows(contents, rows, maps).parts
+    places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
+    return [
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=written))
+        if contents.channels[row.assignment.channels[0]].place in places
+        else row
+        for row in rows
+    ]
+
+
+def with_instruments(
+    channels: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
+) -> Sequence[ImportRow]:
+    """The rows with the instruments that are assigned to parts as ``PART=INSTRUMENT``; a row is called like its first
+    stream.
+
+    Raises
+    ------
+    UsageError
+        ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
+    """
+    names = part_names(channels, rows) if texts else ()
+    assigned = list(rows)
+    for text in texts:
+        part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
+        if not (part and equals and map_id):
+            raise UsageError("assign.malformed", assignment=text)
+        require_map(map_id, [*maps, PERCUSSION])
+        for index in select_players([part], names):
+            asked = msgspec.structs.replace(rows[index].assignment, map_id=map_id)
+            assigned[index] = msgspec.structs.replace(rows[index], assignment=asked, requested=True)
+    return assigned
 
 
 def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], id: str = "assign.parts") -> Message:

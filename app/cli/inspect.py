@@ -5,29 +5,35 @@ from __future__ import annotations
 import argparse
 import gc
 import math
-from collections import Counter
-from collections.abc import Sequence
-from typing import Any, TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
+from app.cli.inspect_tables import Table, tables
 from app.cli.options import add_ignored_option, add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
 from app.cli.status import report_left_out
-from app.cli.summary import columns, look_at
 from app.cli.terminal import say, say_json
 from app.encoding import shown
 from app.errors import Message
-from app.messages import filled, text
-from app.messages.pitches import pitch_name
+from app.messages import text
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
-from app.performance.fact_sources import FACTS, breath_source, note_sources, tempo_source
+from app.performance.fact_sources import breath_source, note_sources, tempo_source
 from app.performance.loudness import controller_input
 from app.performance.performance_problems import all_problems, reported_lines
 from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
-from app.plan.kinds import BREATH_KINDS
-from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, FingeringEvent, GestureEvent, MuteEvent, TongueEvent
+from app.plan.model import (
+    BreathEvent,
+    CueEvent,
+    ExpressionEvent,
+    FingeringEvent,
+    GestureEvent,
+    MuteEvent,
+    PlayerPlan,
+    TongueEvent,
+)
 from app.plan.music.pitch_bends import WRITTEN_BENDS, bends
 from app.plan.problem_lines import with_names
 from app.project.edit.marks import player_marks
@@ -39,7 +45,6 @@ from app.score.tempo import TempoMap
 from instrument_maps.fingering_words import fingering_words
 from instrument_maps.model import InstrumentMap
 
-Table = dict[str, Any]
 Spanning: TypeAlias = BreathEvent | CueEvent | ExpressionEvent | GestureEvent | MuteEvent | PoseEvent | StyleEvent
 
 COLLECTED_AFTER = 50_000
@@ -113,7 +118,7 @@ def inspection(
         Whether ignored problems are among the warnings.
     """
     project = performance.project
-    score, place = project.score, project.conducting
+    score = project.score
     # No one plans for an instrument that is not there.
     playable = attempt(project.players, performance.instrument)
     absent = {one.player.id for one in playable.left_out}
@@ -126,6 +131,31 @@ def inspection(
         for player in project.players
         if player.id not in absent
     ]
+    return {
+        **_piece(performance),
+        "warnings": [
+            *(text(message) for message in score.warnings),
+            *([] if notice is None else [text(notice)]),
+            *(f"{player.name}: {line}" for player, lines, _ in reported for line in lines),
+        ],
+        "ignored_problems": sum(ignored for _, _, ignored in reported),
+        "unplayed": [
+            {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
+        ],
+        "left_out": [{"player": one.player.name, "reason": text(one.reason)} for one in playable.left_out],
+        "players": [
+            _player(performance, player, playable.made[player.id])
+            for player in project.players
+            if player.id not in absent
+        ],
+        "dancers": [_dancer(dancer) for dancer in project.dancers],
+    }
+
+
+def _piece(performance: Performance) -> Table:
+    """The piece itself: its settings, its tempo and its markers."""
+    project = performance.project
+    score, place = project.score, project.conducting
     return {
         "title": score.title,
         "fps": float(project.fps),
@@ -145,22 +175,6 @@ def inspection(
         ],
         "percussion_hits": len(score.percussion),
         "first_frame_s": performance.time_frame.first_frame_s,
-        "warnings": [
-            *(text(message) for message in score.warnings),
-            *([] if notice is None else [text(notice)]),
-            *(f"{player.name}: {line}" for player, lines, _ in reported for line in lines),
-        ],
-        "ignored_problems": sum(ignored for _, _, ignored in reported),
-        "unplayed": [
-            {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
-        ],
-        "left_out": [{"player": one.player.name, "reason": text(one.reason)} for one in playable.left_out],
-        "players": [
-            _player(performance, player, playable.made[player.id])
-            for player in project.players
-            if player.id not in absent
-        ],
-        "dancers": [_dancer(dancer) for dancer in project.dancers],
     }
 
 
@@ -247,6 +261,14 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         "gestures": _events(plan.gestures, clock, reason, "kind", "amount"),
         "expressions": _events(plan.expressions, clock, reason, "expression", "strength", "fade_in_s", "fade_out_s"),
     }
+    return table | _of_some_players(plan, clock, reason, origins, part.source)
+
+
+def _of_some_players(
+    plan: PlayerPlan, clock: TempoMap, reason: _Reasons, origins: Mapping[Mark, str], source: str
+) -> Table:
+    """Lists of what only some players have: marks, poses, mutes, styles, additive curves."""
+    table: Table = {}
     if origins:
         table["marks"] = [_mark(mark) | {"source": origin} for mark, origin in origins.items()]
     if plan.poses:
@@ -254,7 +276,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap)
         angles = ("up_deg", "left_deg", "roll_deg")
         table["poses"] = _events(plan.poses, clock, reason, "target", *angles, "fade_in_s", "fade_out_s")
     if plan.mutes:
-        table["mutes"] = [event | {"source": part.source} for event in _events(plan.mutes, clock, reason, "kind")]
+        table["mutes"] = [event | {"source": source} for event in _events(plan.mutes, clock, reason, "kind")]
     if plan.styles:
         table["styles"] = _events(plan.styles, clock, reason, "style", "fade_in_s", "fade_out_s")
     if plan.additive:
@@ -309,9 +331,7 @@ def _events(
 
 
 def _spans(
-    events: Sequence[
-        BreathEvent | CueEvent | ExpressionEvent | GestureEvent | MuteEvent | PoseEvent | StyleEvent | AdditiveEvent
-    ],
+    events: Sequence[Spanning | AdditiveEvent],
     clock: TempoMap,
     what: str,
     *fields: str,
@@ -332,75 +352,3 @@ def _spans(
             events, seconds.tolist(), beats.tolist(), strict=True
         )
     ]
-
-
-def _counted(count: int, what: str) -> str:
-    return filled(f"{{count}} {{count:{what}|{what}s}}", {"count": count})
-
-
-def tables(file: str, found: Table) -> list[str]:
-    """The same for people: one line per player, then what is not played and what to look at."""
-    lines = [
-        f"{file}: {found['duration_s']:.2f} s, {_counted(len(found['players']), 'player')}, "
-        f"{found['ticks_per_beat']} ticks per quarter, tempo {_tempo(found['tempo'])}"
-    ]
-    if found["players"]:
-        head = ("player", "instrument", "notes", "range", "breaths", "cues", "first fingerings")
-        lines += ["", *columns([head, *(_row(player) for player in found["players"])])]
-        lines += ["", *columns([("from", *FACTS, "breath"), *map(_sources_row, found["players"])], of_numbers=False)]
-    if found["dancers"]:
-        titles = ("dancer", "choreography", "character", "x m", "z m")
-        rows = (
-            (one["name"], one["choreography"], one["character"], f"{one['x_m']:.2f}", f"{one['z_m']:.2f}")
-            for one in found["dancers"]
-        )
-        lines += ["", *columns([titles, *rows])]
-    if found["left_out"]:
-        lines += ["", "excluded:", *(f"  {one['player']}: {one['reason']}" for one in found["left_out"])]
-    if found["unplayed"]:
-        lines += ["", "not played:"]
-        lines += [
-            f"  {part['name']} ({_counted(part['note_count'], 'note')}): {part['reason']}" for part in found["unplayed"]
-        ]
-    return [*lines, *look_at(found["warnings"], found["ignored_problems"])]
-
-
-def _tempo(tempos: list[Table]) -> str:
-    values = [tempo["bpm"] for tempo in tempos]
-    if len(values) <= 1:
-        return f"{values[0]:.4g}" if values else "120"
-    return f"{min(values):.4g} to {max(values):.4g} ({_counted(len(values), 'change')})"
-
-
-FIRST, FIRST_WORDS = 10, 2
-"""Number of fingerings shown of each player, and of words."""
-
-
-def _row(player: Table) -> tuple[str, ...]:
-    pitches = [note["pitch"] for note in player["notes"]]
-    span = f"{pitch_name(min(pitches))}-{pitch_name(max(pitches))}" if pitches else "-"
-    breaths = sum(BREATH_KINDS[breath["kind"]].draws_air for breath in player["breaths"])
-    return (
-        player["name"],
-        player["instrument"],
-        str(len(pitches)),
-        span,
-        str(breaths),
-        str(len(player["cues"])),
-        _fingerings([note["fingering_keys"] for note in player["notes"][:FIRST]]),
-    )
-
-
-def _sources_row(player: Table) -> tuple[str, ...]:
-    """The number of facts by what they are from, the most common first."""
-    facts = ([note["sources"][fact] for note in player["notes"]] for fact in FACTS)
-    breaths = [breath["source"] for breath in player["breaths"] if BREATH_KINDS[breath["kind"]].draws_air]
-    counts = (Counter(sources).most_common() for sources in (*facts, breaths))
-    return player["name"], *(", ".join(f"{source} {count}" for source, count in found) or "-" for found in counts)
-
-
-def _fingerings(labels: list[str]) -> str:
-    """Labels of several words are distinguished by a comma, and are fewer."""
-    if not any(" " in label for label in labels):
-        return " ".join(labels)
-    return ", ".join(labels[:FIRST_WORDS])

@@ -1,16 +1,16 @@
-"""Parsers of command line values: numbers, frame rates, players."""
+"""Options that several sub-commands share: the values they take, and the project that they name."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Final, TypeVar
 
 import msgspec
 
-from app.cli.assigning import assign_message, part_names, unassigned_parts
+from app.cli.assigning import assign_message, unassigned_parts, with_instruments, with_pitches
 from app.cli.terminal import warn
 from app.encoding import is_encoding, shown
 from app.errors import FileError, Message, UsageError
@@ -21,17 +21,12 @@ from app.project.casting import ConductorPlace, conductor_place
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
-from app.project.importing import ImportRow, cleaning, import_project, score_of_rows, usual_rows
+from app.project.importing import cleaning, import_project, usual_rows
 from app.project.model import Project, map_choices, preroll_of_new, with_settings
-from app.project.names import unique_names
-from app.project.parameters import parameter_names, parse_settings, select_players
+from app.project.parameters import parameter_names, parse_settings
 from app.project.storage import is_project_file, load
 from app.rig.characters.character_library import characters
-from app.score.assignments import PERCUSSION
-from app.score.choose import require_map
-from app.score.contents import PieceContents
 from app.score.read import read_contents
-from app.score.track_channel import TrackChannel
 from instrument_maps.library import library
 from instrument_maps.model import InstrumentMap
 from metadata.library import metadata_library
@@ -346,13 +341,13 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
     if is_project_file(arguments.file):
         return _saved_project(arguments), None
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())
-    rows = _assigned(contents.channels, usual_rows(contents, maps), arguments.assign, list(maps))
+    rows = with_instruments(contents.channels, usual_rows(contents, maps), arguments.assign, list(maps))
     if arguments.clean_takes is not None:
         rows = cleaning(rows, arguments.clean_takes)
     unassigned = unassigned_parts(contents.channels, rows, choices)
     for names, written in ((arguments.written, True), (arguments.sounding, False)):
         if names:
-            rows = _with_pitches(contents, rows, names, written, maps)
+            rows = with_pitches(contents, rows, names, written, maps)
     seed = getattr(arguments, "seed", None) or 0
     source = str(arguments.file.absolute())
     project = import_project(contents, rows, maps, source, encoding=arguments.encoding, seed=seed)
@@ -360,45 +355,3 @@ def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) ->
         return project, assign_message(arguments, unassigned)
     others = () if project.performers else unassigned_parts(contents.channels, rows, choices, of_others=True)
     return project, assign_message(arguments, others, "assign.others") if others else None
-
-
-def _with_pitches(
-    contents: PieceContents,
-    rows: Sequence[ImportRow],
-    names: Sequence[str],
-    written: bool,
-    maps: Mapping[str, InstrumentMap],
-) -> Sequence[ImportRow]:
-    """The rows with the pitches of the players of these names taken for written or for sounding ones."""
-    parts = score_of_rows(contents, rows, maps).parts
-    places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
-    return [
-        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=written))
-        if contents.channels[row.assignment.channels[0]].place in places
-        else row
-        for row in rows
-    ]
-
-
-def _assigned(
-    channels: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
-) -> Sequence[ImportRow]:
-    """The rows with the instruments that are assigned to parts as ``PART=INSTRUMENT``; a row is called like its first
-    stream.
-
-    Raises
-    ------
-    UsageError
-        ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
-    """
-    names = part_names(channels, rows) if texts else ()
-    assigned = list(rows)
-    for text in texts:
-        part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
-        if not (part and equals and map_id):
-            raise UsageError("assign.malformed", assignment=text)
-        require_map(map_id, [*maps, PERCUSSION])
-        for index in select_players([part], names):
-            asked = msgspec.structs.replace(rows[index].assignment, map_id=map_id)
-            assigned[index] = msgspec.structs.replace(rows[index], assignment=asked, requested=True)
-    return assigned

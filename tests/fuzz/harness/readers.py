@@ -157,7 +157,8 @@ def piece_metadata(path: Path, folder: Path) -> None:
 
 def inspected(path: Path, folder: Path) -> None:
     """The whole report of a MIDI file, contacts included."""
-    from app.cli.inspect import inspection, tables
+    from app.cli.inspect import inspection
+    from app.cli.inspect_tables import tables
     from app.performance.ensemble import Performance
     from app.project.model import map_choices, project_from_score
     from app.score.read import read_midi

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from app.cli.inspect import inspection, tables
+from app.cli.inspect import inspection
+from app.cli.inspect_tables import tables
 from app.performance.ensemble import Performance
 from app.performance.fact_sources import FACTS
 from app.plan.by_hand.corrections import PinFingering
