@@ -302,12 +302,10 @@ class RegionLane(Lane):
         chosen = (self._table.by_key.get(key) for key in self.session.selection.events)
         amounts = {round(one.amount, 2) for one in chosen if one is not None and not (one.removed or one.steady)}
         amount = region.amount if len(amounts) < 2 else None
-        self.number.open(self.box(region), amount, 2, self._set_amounts, self.tr("region_lane.how_much"))
+        name = self.tr("region_lane.how_much")
+        self.number.open(self.box(region), amount, 2, lambda to: self._change_amounts(lambda _: to), name)
 
-    def _set_amounts(self, amount: float) -> None:
-        self._change_amounts(lambda _: amount)
-
-    def _change_amounts(self, change: Callable[[Region], float], token: object | None = None) -> None:
+    def _change_amounts(self, change: Callable[[Region], float]) -> None:
         """Give all selected regions of the lane another amount."""
         requested: dict[str, dict[str, float]] = defaultdict(dict)
         for key in self.session.selection.events:
@@ -323,7 +321,7 @@ class RegionLane(Lane):
 
         if requested and plans:
             keys = [EventKey(player_id, event_id) for player_id, ids in requested.items() for event_id in ids]
-            self.session.attempt(edit_of_events(self.session, "edit.set_event_amounts", keys), edit, token)
+            self.session.attempt(edit_of_events(self.session, "edit.set_event_amounts", keys), edit)
 
     def key(self, event: QKeyEvent) -> bool:
         """Up and Down change the amount (with Shift finely), Enter types it, Alt and an arrow go to a neighbour."""
