@@ -41,7 +41,7 @@ ALLOWED = {
         "anchorClicked",
     },
     # Its format is set to plain.
-    "widgets/timeline/roll/drawn_notes.py": {"QStaticText", "setTextFormat"},
+    "widgets/timeline/roll/fingerings_on_notes.py": {"QStaticText", "setTextFormat"},
 }
 
 

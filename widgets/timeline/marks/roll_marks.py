@@ -20,7 +20,8 @@ from widgets.timeline.model.marks.placed_marks import MarkRoom, PlacedMarks, pla
 from widgets.timeline.model.marks.shown_marks import ShownMarks
 from widgets.timeline.plot.plot import LaneItem
 from widgets.timeline.plot.scrolled_picture import ScrolledPicture
-from widgets.timeline.roll.drawn_notes import INSIDE_PX, RollView
+from widgets.timeline.roll.drawn_notes import RollView
+from widgets.timeline.roll.fingerings_on_notes import INSIDE_PX
 
 AIR_ROWS = 3.0
 MENU = ("events.give_back", "edit.delete")

@@ -43,8 +43,9 @@ from widgets.timeline.model.roll.shown_notes import (
     zoomed_pitches,
 )
 from widgets.timeline.plot.drawing import rect
-from widgets.timeline.roll.drawn_notes import Hint, Labels, Lasso, Notes, OutOfSight, Rows
+from widgets.timeline.roll.drawn_notes import Hint, Lasso, Notes, OutOfSight, Rows
 from widgets.timeline.roll.entry_arrows import EntryArrows
+from widgets.timeline.roll.fingerings_on_notes import Labels
 from widgets.timeline.roll.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
