@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import partial
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import QPoint, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QHeaderView,
     QLineEdit,
     QTableWidget,
-    QWidget,
 )
 
-from app.editor.tokens import LEAST_TARGET_PX, Tokens
+from app.editor.tokens import Tokens
 from app.messages.pitches import pitch_name
 from app.project.importing import (
     ImportPreview,
@@ -35,8 +34,8 @@ from instrument_maps.model import InstrumentMap
 from instrument_maps.score_order import in_score_order
 from widgets.common.controls import Retranslated, named
 from widgets.common.instrument_name import character_name, instrument_name
-from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label
+from widgets.dialogs.import_cells import InstrumentCell, Tick, centred, option_box
 from widgets.dialogs.notes_preview import ROW_PX, NotesPreview
 
 _USE, _NAME, _PREVIEW, _NOTES, _SPLIT, _INSTRUMENT, _PITCHES, _CHARACTER, _CLEAN = range(9)
@@ -157,10 +156,10 @@ class ImportTable(Retranslated, QTableWidget):
             self._filling.stop()
 
     def _fill_row(self, place: int, row: ImportRow) -> None:
-        use = named(_Tick(), f"play_{place}")
+        use = named(Tick(), f"play_{place}")
         use.setChecked(row.requested)
         use.toggled.connect(lambda requested: self._request(place, requested))
-        self.setCellWidget(place, _USE, _centred(use))
+        self.setCellWidget(place, _USE, centred(use))
 
         name = named(QLineEdit(row.assignment.name or self.name_of(row)), f"name_{place}")
         name.setMinimumWidth(130)
@@ -192,10 +191,10 @@ class ImportTable(Retranslated, QTableWidget):
         instruments = [(usual, None), *self._instruments]
         if not self._rhythm.issuperset(assignment.channels):
             instruments.append((self.tr("import_dialog.percussion_for_dancers"), PERCUSSION))
-        instrument = _box(f"instrument_{place}", instruments, assignment.map_id)
+        instrument = option_box(f"instrument_{place}", instruments, assignment.map_id)
         instrument.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         instrument.setMinimumContentsLength(_INSTRUMENT_LETTERS)
-        self.setCellWidget(place, _INSTRUMENT, _InstrumentCell(instrument))
+        self.setCellWidget(place, _INSTRUMENT, InstrumentCell(instrument))
         instrument.currentIndexChanged.connect(lambda: self._choose(place, instrument.currentData()))
         instrument.currentTextChanged.connect(lambda text: instrument.setToolTip(self._tip(place) or text))
 
@@ -209,11 +208,11 @@ class ImportTable(Retranslated, QTableWidget):
         character.currentIndexChanged.connect(lambda: self._set(place, character_id=character.currentData()))
         reason = self._take_reason(row)
         if reason:
-            clean = named(_Tick(), f"clean_{place}")
+            clean = named(Tick(), f"clean_{place}")
             clean.setChecked(assignment.clean)
             clean.setToolTip(self.tr(_TAKES[reason]))
             clean.toggled.connect(lambda clean: self._assignment(place, clean=clean))
-            self.setCellWidget(place, _CLEAN, _centred(clean))
+            self.setCellWidget(place, _CLEAN, centred(clean))
         self._enable(place)
         self._show_instruments(place)
 
@@ -227,7 +226,7 @@ class ImportTable(Retranslated, QTableWidget):
         self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
     ) -> ComboBox:
         """A cell with options by their texts; the first where what is chosen is not among them."""
-        box = _box(f"{name}_{place}", options, chosen)
+        box = option_box(f"{name}_{place}", options, chosen)
         self.setCellWidget(place, column, box)
         return box
 
@@ -243,7 +242,7 @@ class ImportTable(Retranslated, QTableWidget):
         """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
         row = self.rows[place]
         cell, pitches = self.cellWidget(place, _INSTRUMENT), self.cellWidget(place, _PITCHES)
-        assert isinstance(cell, _InstrumentCell)
+        assert isinstance(cell, InstrumentCell)
         assert pitches is not None
         instrument = cell.whole
         self._show_players(place, cell)
@@ -267,7 +266,7 @@ class ImportTable(Retranslated, QTableWidget):
         transposes = any(table.transposition_semitones for table in self._played_on(row.assignment))
         pitches.setEnabled(row.requested and transposes)
 
-    def _show_players(self, place: int, cell: _InstrumentCell) -> None:
+    def _show_players(self, place: int, cell: InstrumentCell) -> None:
         """Offer an instrument for each of the players who share a row."""
         row = self.rows[place]
         assignment = row.assignment
@@ -282,7 +281,7 @@ class ImportTable(Retranslated, QTableWidget):
             boxes = []
             for voice in range(players):
                 options = [(self.tr("import_dialog.automatic"), None), *self._instruments]
-                box = _box(f"instrument_{place}_{voice}", options, own[voice])
+                box = option_box(f"instrument_{place}_{voice}", options, own[voice])
                 box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
                 box.setToolTip(self.tr("import_dialog.player_tip"))
                 box.currentIndexChanged.connect(partial(self._choose_for_player, place, voice, box))
@@ -330,7 +329,7 @@ class ImportTable(Retranslated, QTableWidget):
         """Have a row played, or not; what is percussion by choice is no longer."""
         self._set(place, requested=requested)
         cell = self.cellWidget(place, _INSTRUMENT)
-        if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(cell, _InstrumentCell):
+        if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(cell, InstrumentCell):
             cell.whole.setCurrentIndex(0)
 
     def _assignment(self, place: int, **changes: object) -> None:
@@ -349,59 +348,3 @@ class ImportTable(Retranslated, QTableWidget):
             if widget is not None:
                 # Where nothing says what the instrument is, it is asked for.
                 widget.setEnabled(row.requested or (column == _INSTRUMENT and self._can_choose(row)))
-
-
-class _InstrumentCell(QWidget):
-    """The instrument of a row, and of each of its players where several share it.
-
-    Attributes
-    ----------
-    whole : ComboBox
-        For all of them.
-    boxes : list of ComboBox
-        By voice.
-    """
-
-    def __init__(self, whole: ComboBox) -> None:
-        super().__init__()
-        self.whole = whole
-        self.boxes: list[ComboBox] = []
-        self._rows: list[QWidget] = []
-        self._column = in_column(whole, of=self, margins=0, spacing=2)
-
-    def show_players(self, boxes: Sequence[tuple[str, ComboBox]]) -> None:
-        """Show these boxes with their captions below the row's own."""
-        for row in self._rows:
-            self._column.removeWidget(row)
-            row.deleteLater()
-        self._rows = []
-        for text, box in boxes:
-            caption = Label(text)
-            caption.setContentsMargins(12, 0, 0, 0)
-            self._rows.append(panel(in_row(caption, (box, 1), margins=0)))
-            self._column.addWidget(self._rows[-1])
-        self.boxes = [box for _, box in boxes]
-
-
-class _Tick(QCheckBox):
-    """A box without a word: all of it can be clicked, not the small square alone."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.setMinimumSize(LEAST_TARGET_PX, LEAST_TARGET_PX)
-
-    def hitButton(self, pos: QPoint) -> bool:
-        return self.rect().contains(pos)
-
-
-def _box(name: str, options: Iterable[tuple[str, object]], chosen: object) -> ComboBox:
-    """A list of options by their texts; the first where what is chosen is not among them."""
-    box = named(ComboBox(), name)
-    for text, value in options:
-        box.addItem(text, value)
-    box.setCurrentIndex(max(box.findData(chosen), 0))
-    return box
-
-
-def _centred(widget: QWidget) -> QWidget:
-    return panel(in_row((widget, 0, Qt.AlignmentFlag.AlignCenter), margins=(8, 0, 8, 0)))
