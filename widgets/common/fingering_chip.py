@@ -13,6 +13,7 @@ from instrument_maps.key_chart import key_chart
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.chip import Chip
 from widgets.common.fingering_picture import ChartColours, ChartPlace, chart_sides, draw_chart
+from widgets.common.fingering_tags import words_of_tags
 from widgets.common.instrument_name import language
 
 HOLE_PX = 10.0
@@ -40,7 +41,23 @@ class FingeringChip(Chip):
         super().__init__(session, words, note, parent)
         self.setObjectName(f"chip_{fingering.label}")
         self._chart = key_chart(instrument) if says_words(instrument.controls) else None
-        self._values = fingering.controls
+        self._fingering, self._values = fingering, fingering.controls
+
+    def tip(self, generated: bool) -> str:
+        """Describe the fingering: its rank, the reasons to take it, its tuning, and if the generator chose it."""
+        one = self._fingering
+        lines = [] if self._chart is None else [self.text()]
+        lines.append(
+            self.tr("note_section.first_choice")
+            if one.rank == 1
+            else self.tr("note_section.choice_no").format(rank=one.rank)
+        )
+        lines += words_of_tags(one.tags)
+        if round(one.cents):
+            lines.append(self.tr("note_section.cents_when_simply_blown").format(cents=f"{one.cents:+.0f}"))
+        if generated:
+            lines.append(self.tr("note_section.what_generator_chose"))
+        return "\n".join(lines)
 
     def face_px(self) -> QSizeF:
         if self._chart is None:

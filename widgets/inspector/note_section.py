@@ -23,7 +23,6 @@ from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.fingering_chip import FingeringChip
 from widgets.common.fingering_diagram import FingeringDiagram
-from widgets.common.fingering_tags import words_of_tags
 from widgets.common.flow import FlowLayout
 from widgets.common.instrument_name import language
 from widgets.common.layouts import in_column, panel
@@ -230,24 +229,9 @@ class NoteSection(Retranslated, QWidget):
             chip = self._chip_of[fingering.label]
             words = fingering_words(instrument, fingering.label, language())
             chip.show_text(words, _cents_text(fingering.cents))
-            chip.show_state(
-                chosen, chosen and event.corrected, outlined=made is not None and fingering.label == made.label
-            )
-            chip.setToolTip(self._chip_tip(instrument, fingering, made))
-
-    def _chip_tip(self, instrument: InstrumentMap, fingering: Fingering, made: FingeringEvent | None) -> str:
-        lines = [
-            *([fingering_words(instrument, fingering.label, language())] if says_words(instrument.controls) else []),
-            self.tr("note_section.first_choice")
-            if fingering.rank == 1
-            else self.tr("note_section.choice_no").format(rank=fingering.rank),
-        ]
-        lines += words_of_tags(fingering.tags)
-        if round(fingering.cents):
-            lines.append(self.tr("note_section.cents_when_simply_blown").format(cents=f"{fingering.cents:+.0f}"))
-        if made is not None and made.label == fingering.label:
-            lines.append(self.tr("note_section.what_generator_chose"))
-        return "\n".join(lines)
+            generated = made is not None and fingering.label == made.label
+            chip.show_state(chosen, chosen and event.corrected, outlined=generated)
+            chip.setToolTip(chip.tip(generated))
 
     def _show_lips(self, shown: SelectedNotes, plan: PlayerPlan, bare: PlayerPlan | None) -> None:
         ids = frozenset(shown.own_ids)
