@@ -6,8 +6,8 @@ from typing import Annotated, NamedTuple, TypeAlias
 
 import msgspec
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QScrollBar, QToolButton, QWidget
+from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
@@ -26,6 +26,7 @@ from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
 from widgets.timeline.model.roll.shown_notes import kept_pitches
+from widgets.timeline.playhead import Playhead
 from widgets.timeline.roll.piano_roll import ZOOM_A_KEY, PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
@@ -33,17 +34,11 @@ from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
 from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
 from widgets.timeline.tool_bar import ToolBar
-from widgets.timeline.zoom_and_scroll import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis, TimeBar
 
 ZOOM_A_CLICK = 1.5
 FIRST_BARS, MOST_FIRST_BARS = 16, 24
 """Bars that are shown of a newly opened piece, and the longest piece that is shown whole."""
-PAGE_AT = 0.94
-"""While playing, the page turns when the playhead is so far across it ..."""
-PAGE_TO = 0.06
-"""... and then stands here."""
-SCROLL_A_S = 1000
-"""Steps of the scroll bar in a second."""
 SELECTION_AIR = 0.08
 
 
@@ -57,22 +52,6 @@ class VisibleRange(NamedTuple):
     end_s: _Bounded
     lowest: _Bounded
     highest: _Bounded
-
-
-class Playhead(QWidget):
-    """A thin line over all lanes: it moves, they are not drawn again but where it was."""
-
-    def __init__(self, session: Session, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.setObjectName("playhead")
-        self._session = session
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-
-    # Qt overrides
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).fillRect(event.rect(), QColor(self._session.tokens.accent))
 
 
 class TimelinePanel(Retranslated, QWidget):
@@ -94,7 +73,6 @@ class TimelinePanel(Retranslated, QWidget):
         self.setObjectName("timeline")
         self.session = session
         self.axis = TimeAxis(self)
-        self._scrolling = False
         self._fitted = False
 
         self.roll = PianoRoll(session, self.axis)
@@ -116,7 +94,7 @@ class TimelinePanel(Retranslated, QWidget):
             lane.sought.connect(self.sought)
             lane.header.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
             lane.header.customContextMenuRequested.connect(self._header_menu)
-        self.playhead = Playhead(session, self)
+        self.playhead = Playhead(session, self.axis, self.stack, self)
         self.lane_layout = LaneLayout(self.lanes, self.stack, self.roll, self.players, self)
         self.lane_layout.changed.connect(self.arranged)
 
@@ -127,7 +105,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.quantise = QuantisePopover(session, self)
 
         for lane in self.lanes.values():
-            lane.fold_changed.connect(self._place_playhead)
+            lane.fold_changed.connect(self.playhead.place)
         self.flags.sought.connect(self.sought)
         self.ruler.sought.connect(self.sought)
         # The playback is notified there: a playhead that is set is sought.
@@ -136,7 +114,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.players.made.connect(self._stack_made)
         self.players.changed.connect(lambda: self.tool_bar.ghosts_button.setEnabled(not self.stacking))
         self._front = FrontLanes(session, self.lanes, self.roll, self.stack, keyboard)
-        self.axis.changed.connect(self._axis_changed)
+        self.axis.changed.connect(self.playhead.place)
         session.changed.connect(self._session_changed)
         session.performance_changed.connect(self._set_limits)
         session.playhead_changed.connect(self._playhead_moved)
@@ -155,8 +133,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.lanes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.lanes_button.setFixedSize(QSize(GUTTER_PX - 4, 24))
         self.lanes_button.setMenu(self.lane_layout.menu)
-        self.time_bar = named(QScrollBar(Qt.Orientation.Horizontal, self), "time_bar")
-        self.time_bar.valueChanged.connect(self._scrolled)
+        self.time_bar = named(TimeBar(self.axis, self), "time_bar")
         zooms = (
             ("zoom_out", "timeline_panel.zoom_out_ctrl_wheel", self.zoom_out),
             ("zoom_in", "timeline_panel.zoom_in_ctrl_wheel", self.zoom_in),
@@ -370,44 +347,15 @@ class TimelinePanel(Retranslated, QWidget):
             self._show_beginning()
             self._fitted = False
 
-    def _axis_changed(self) -> None:
-        low, high = self.axis.limits_s
-        span = self.axis.span_s
-        self._scrolling = True
-        self.time_bar.setRange(0, max(round((high - low - span) * SCROLL_A_S), 0))
-        self.time_bar.setPageStep(max(round(span * SCROLL_A_S), 1))
-        self.time_bar.setSingleStep(max(round(span * SCROLL_A_S / 10), 1))
-        self.time_bar.setValue(round((self.axis.start_s - low) * SCROLL_A_S))
-        self._scrolling = False
-        self._place_playhead()
-
-    def _scrolled(self, value: int) -> None:
-        if not self._scrolling:
-            start_s = self.axis.limits_s[0] + value / SCROLL_A_S
-            self.axis.show(start_s, start_s + self.axis.span_s)
-
     def _playhead_moved(self, playhead_s: float) -> None:
-        axis, session = self.axis, self.session
-        if session.playing and session.follow and not self._is_dragged():
-            share = (playhead_s - axis.start_s) / axis.span_s
-            if not 0 <= share <= PAGE_AT:
-                start_s = playhead_s - PAGE_TO * axis.span_s
-                axis.show(start_s, start_s + axis.span_s)
-                for roll in self.rolls:
-                    roll.follow()
-        self._place_playhead()
+        session = self.session
+        if session.playing and session.follow and not self._is_dragged() and self.playhead.turn_page(playhead_s):
+            for roll in self.rolls:
+                roll.follow()
+        self.playhead.place()
 
     def _is_dragged(self) -> bool:
         return self.players.dragging or any(lane.dragging for lane in self.lanes.values())
-
-    def _place_playhead(self) -> None:
-        x = self.axis.x_px(self.session.playhead_s)
-        inside = 0 <= x <= self.axis.width_px
-        self.playhead.setVisible(inside)
-        if inside:
-            top, height = self.stack.y(), self.stack.height()
-            self.playhead.setGeometry(int(GUTTER_PX + x), top, 1, height)
-            self.playhead.raise_()
 
     def _theme_set(self) -> None:
         self.lanes_button.setIcon(icon("layout", self.session.tokens))
@@ -417,7 +365,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        self._place_playhead()
+        self.playhead.place()
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -427,7 +375,7 @@ class TimelinePanel(Retranslated, QWidget):
             self._fitted = True
             self._show_beginning()
             self.roll.show_legibly()
-        self._place_playhead()
+        self.playhead.place()
 
     def hideEvent(self, event: QHideEvent) -> None:
         super().hideEvent(event)

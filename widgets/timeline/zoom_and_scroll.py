@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import overload
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtWidgets import QScrollBar, QWidget
 
 from app.arrays import FloatArray
 from app.project.grid import Grid
@@ -15,6 +16,9 @@ from widgets.timeline.model.visible_time import TimeView
 ZOOM_A_NOTCH = 1.2
 PAN_A_NOTCH = 0.12
 """Share of the visible span per notch of the wheel."""
+
+SCROLL_A_S = 1000
+"""Steps of the scroll bar in a second."""
 
 
 class TimeAxis(QObject):
@@ -124,3 +128,29 @@ class TimeAxis(QObject):
         if view != self._view:
             self._view = view
             self.changed.emit()
+
+
+class TimeBar(QScrollBar):
+    """The scroll bar of a time axis."""
+
+    def __init__(self, axis: TimeAxis, parent: QWidget | None = None) -> None:
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self._axis = axis
+        self._showing = False
+        axis.changed.connect(self._show_axis)
+        self.valueChanged.connect(self._scroll)
+
+    def _show_axis(self) -> None:
+        low, high = self._axis.limits_s
+        span = self._axis.span_s
+        self._showing = True
+        self.setRange(0, max(round((high - low - span) * SCROLL_A_S), 0))
+        self.setPageStep(max(round(span * SCROLL_A_S), 1))
+        self.setSingleStep(max(round(span * SCROLL_A_S / 10), 1))
+        self.setValue(round((self._axis.start_s - low) * SCROLL_A_S))
+        self._showing = False
+
+    def _scroll(self, value: int) -> None:
+        if not self._showing:
+            start_s = self._axis.limits_s[0] + value / SCROLL_A_S
+            self._axis.show(start_s, start_s + self._axis.span_s)
