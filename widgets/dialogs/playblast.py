@@ -100,7 +100,11 @@ class PlayblastDialog(WorkingDialog):
         # One picture in each turn of the event loop: the window stays alive.
         self._timer = QTimer(self, interval=0)
         self._timer.timeout.connect(self._draw)
+        self._build()
+        self.texted(self, title="playblast_dialog.playblast")
+        self.retranslate()
 
+    def _build(self) -> None:
         file = in_row((self._file, 1), self._choose)
         form = in_form(
             {
@@ -125,8 +129,6 @@ class PlayblastDialog(WorkingDialog):
         )
         buttons = self._box("playblast_dialog.make_film", self.start, self._show_folder)
         in_column(form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
-        self.texted(self, title="playblast_dialog.playblast")
-        self.retranslate()
 
     def start(self) -> None:
         """Begin the film."""
