@@ -21,7 +21,7 @@ from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
 from widgets.common.paths import PathEdit, url_of
 from widgets.dialogs.choreography import learn as learn_dialog
-from widgets.dialogs.choreography import learn_pair
+from widgets.dialogs.choreography import learn_pair, learn_work
 from widgets.dialogs.choreography.learn import LearnDialog
 from widgets.dialogs.choreography.learn_draft import PairDraft, with_files
 
@@ -216,7 +216,7 @@ def test_cancelled_it_leaves_the_file_as_it_was(
         dialog._stop.wait(60.0)
         return learn(*args, **options)
 
-    monkeypatch.setattr(learn_dialog, "learn", slow)
+    monkeypatch.setattr(learn_work, "learn", slow)
     press(dialog, "learn_start")
     assert not start.isEnabled()
     assert not dialog.form.isEnabled()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -15,13 +14,11 @@ from PySide6.QtWidgets import QPushButton, QSpinBox, QWidget
 from app.audio.output import open_output
 from app.audio.playback import Playback
 from app.choreography.cuts_by_hand import Cuts
-from app.choreography.learn import analyse, learn, summary
-from app.choreography.model import ChoreographyModel
-from app.choreography.model_file import write_model
-from app.choreography.read_pair import CREDITS_SUFFIX, read_pair
+from app.choreography.learn import summary
+from app.choreography.read_pair import CREDITS_SUFFIX
 from app.editor.session import Session
 from app.encoding import shown
-from app.errors import AppError, Cancelled, Message, Progress, StopRequested
+from app.errors import AppError, Message
 from app.project.choreography_files import SUFFIX
 from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from app.score.suffixes import MUSIC
@@ -41,9 +38,9 @@ from widgets.dialogs.choreography.learn_rows import (
     PairRead,
     PairRow,
     missing_text,
-    training_pair,
 )
-from widgets.dialogs.working import WorkingDialog, stopping
+from widgets.dialogs.choreography.learn_work import LearnedChoreography, learning, reading
+from widgets.dialogs.working import WorkingDialog
 
 MOST_STATES: Final = 1000
 MOST_SEED: Final = 2**31 - 1
@@ -51,13 +48,6 @@ _POLL_MS: Final = 100
 _FORM_PX: Final = 420
 _SIZE: Final = QSize(1180, 840)
 _LEAST_PX: Final = 900
-
-
-@dataclass(frozen=True, eq=False)
-class _Learned:
-    path: Path
-    model: ChoreographyModel
-    rows: tuple[PairRow, ...]
 
 
 class LearnDialog(WorkingDialog):
@@ -88,7 +78,7 @@ class LearnDialog(WorkingDialog):
         self._readings = 0
         self._share: list[float] = [0.0]
         """Share of the learning that is done; written by its thread."""
-        self._result: _Learned | None = None
+        self._result: LearnedChoreography | None = None
         self._failure: Message | None = None
         self._unknown: tuple[Path, ...] = ()
 
@@ -231,18 +221,8 @@ class LearnDialog(WorkingDialog):
         if draft.motion is None or draft.music is None:
             return
         row.reading = number
-        motion, music = draft.motion, draft.music
-
-        def work(progress: Progress, stop_requested: StopRequested) -> PairRead:
-            try:
-                read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
-                return PairRead(number, PairContents(read, analyse(read.pair)))
-            except Cancelled:
-                raise
-            except AppError as error:
-                return PairRead(number, PairContents(error=error.message))
-
-        self._session.tasks.run(Message("work.read_motion", {"file": motion.name}), work, self._was_read)
+        work = reading(number, draft.motion, draft.music, draft)
+        self._session.tasks.run(Message("work.read_motion", {"file": draft.motion.name}), work, self._was_read)
 
     def _was_read(self, result: PairRead) -> None:
         for row in self._rows:
@@ -266,30 +246,12 @@ class LearnDialog(WorkingDialog):
         path = self._target
         if self._running or path is None or self._missing():
             return
-        pairs = [pair for row in self._rows if (pair := training_pair(row)) is not None]
-        rows = tuple(self._rows)
-        states, seed = self._states.value, self._seed.value()
         self._result, self._failure = None, None
         self._set_running(True)
         # The thread gets what it needs, not the dialog.
-        self._share = written = [0.0]
-        stop = self._stop
-
-        def work(progress: Progress, stop_requested: StopRequested) -> _Learned:
-            asked = stopping(stop, stop_requested)
-
-            def went(share: float, label: str) -> None:
-                if asked():
-                    raise Cancelled("work.stopped")
-                written[0] = share
-                progress(share)
-
-            whole = None if states is None else round(states)
-            model = learn(pairs, states=whole, seed=seed, name=shown(path.stem), progress=went)
-            went(1.0, "")
-            write_model(path, model)
-            return _Learned(path, model, rows)
-
+        self._share = [0.0]
+        states = None if self._states.value is None else round(self._states.value)
+        work = learning(path, tuple(self._rows), states, self._seed.value(), self._stop, self._share)
         self._timer.start()
         self._session.tasks.run(
             Message("work.learn", {"file": path.name}), work, self._done, self._failed, ended=self._ended
@@ -301,7 +263,7 @@ class LearnDialog(WorkingDialog):
             self._failure = Message("work.stopped")
         self._set_running(False)
 
-    def _done(self, result: _Learned) -> None:
+    def _done(self, result: LearnedChoreography) -> None:
         self._result = result
         for at, row in enumerate(result.rows):
             row.states = len({one.state for one in result.model.segments if one.clip == at})

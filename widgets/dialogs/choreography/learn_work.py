@@ -1,0 +1,73 @@
+"""Work of the dialog that learns a choreography, done by threads that know nothing of it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.choreography.learn import analyse, learn
+from app.choreography.model import ChoreographyModel
+from app.choreography.model_file import write_model
+from app.choreography.read_pair import read_pair
+from app.encoding import shown
+from app.errors import AppError, Cancelled, Progress, StopRequested
+from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
+from widgets.dialogs.choreography.learn_rows import PairRead, PairRow, training_pair
+from widgets.dialogs.working import stopping
+
+
+@dataclass(frozen=True, eq=False)
+class LearnedChoreography:
+    """A choreography that was learned and written, and the pairs it is of."""
+
+    path: Path
+    model: ChoreographyModel
+    rows: tuple[PairRow, ...]
+
+
+def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callable[[Progress, StopRequested], PairRead]:
+    """Prepare the reading of a pair's files; what is wrong with them is part of its result."""
+
+    def work(progress: Progress, stop_requested: StopRequested) -> PairRead:
+        try:
+            read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
+            return PairRead(number, PairContents(read, analyse(read.pair)))
+        except Cancelled:
+            raise
+        except AppError as error:
+            return PairRead(number, PairContents(error=error.message))
+
+    return work
+
+
+def learning(
+    path: Path, rows: tuple[PairRow, ...], states: int | None, seed: int, stop: threading.Event, share: list[float]
+) -> Callable[[Progress, StopRequested], LearnedChoreography]:
+    """Prepare the learning from pairs as they are filled in now, and the writing of what is learned.
+
+    Parameters
+    ----------
+    states : int or None
+        Number of basic motions; None: as many as fit.
+    share : list of float
+        Its one number becomes the share that is done, 0..1.
+    """
+    pairs = [pair for row in rows if (pair := training_pair(row)) is not None]
+
+    def work(progress: Progress, stop_requested: StopRequested) -> LearnedChoreography:
+        asked = stopping(stop, stop_requested)
+
+        def went(done: float, label: str) -> None:
+            if asked():
+                raise Cancelled("work.stopped")
+            share[0] = done
+            progress(done)
+
+        model = learn(pairs, states=states, seed=seed, name=shown(path.stem), progress=went)
+        went(1.0, "")
+        write_model(path, model)
+        return LearnedChoreography(path, model, rows)
+
+    return work
