@@ -26,9 +26,10 @@ from tests.support.windows import child
 from widgets.common.chip import Chip
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.curves import CurvesLane
-from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane, slide_places
+from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.problems import ProblemsLane
 from widgets.timeline.lanes.recording.waveform import WaveformLane
+from widgets.timeline.model.fingerings import slide_places
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.panel import TimelinePanel
 

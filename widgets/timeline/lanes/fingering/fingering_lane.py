@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
@@ -26,7 +24,7 @@ from widgets.timeline.lanes.fingering.alternates import Alternates
 from widgets.timeline.lanes.fingering.charts import FingeringCharts, ShownFingerings
 from widgets.timeline.lanes.problems import ProblemMarks
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.model.geometry import TimeSpans
+from widgets.timeline.model.fingerings import Fingerings, fingerings, slide_places
 from widgets.timeline.plot.drawing import draw_mark, draw_path, draw_rects, draw_text, shade, small_font
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
@@ -40,43 +38,6 @@ SMALL_BAR_PX = 13.0
 CHIPS_DELAY_PX = 3.0
 NEAR_PX = 7.0
 """A press this far beside a note is one on it."""
-
-
-@dataclass(frozen=True)
-class Fingerings:
-    """A plan's fingerings as arrays (N,): what is pressed (by control) and where slides are.
-
-    ``pressed`` has a row for every pressable control, ``slides`` for every slide, both with values 0..1.
-    """
-
-    events: tuple[FingeringEvent, ...]
-    start_s: FloatArray
-    end_s: FloatArray
-    pressed: FloatArray
-    slides: FloatArray
-    spans: TimeSpans
-
-
-def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[Control, ...]) -> Fingerings:
-    """A plan's fingerings for drawing."""
-    events = plan.grips
-    start_s = np.array([event.start_s for event in events], np.float64)
-    end_s = np.array([event.end_s for event in events], np.float64)
-
-    def values(controls: tuple[Control, ...]) -> FloatArray:
-        rows = [[event.controls.get(control.name, control.rest_value) for event in events] for control in controls]
-        return np.array(rows, np.float64).reshape(len(controls), len(events))
-
-    return Fingerings(events, start_s, end_s, values(pressable), values(slides), TimeSpans(start_s, end_s))
-
-
-def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
-    """Mean position of each named place of a slide, over the fingerings that the slide alone makes."""
-    found: dict[str, list[float]] = {}
-    for fingering in instrument.fingerings:
-        if set(fingering.controls) <= {slide.name}:
-            found.setdefault(fingering.label, []).append(fingering.controls.get(slide.name, slide.rest_value))
-    return tuple(sorted((sum(values) / len(values), label) for label, values in found.items()))
 
 
 class _Bars(LaneItem["FingeringLane"]):
