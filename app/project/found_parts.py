@@ -181,14 +181,16 @@ def _found_part(
     """
     was = held_by_file(project, before)
     read = project.read_notes.get(before.id) or {note.id: note for note in was}
-    pairs = _same_notes([index for index, note in enumerate(was) if note.id in read], was, part.notes, scale)
-    if pairs is None:
+    same = _same_notes([index for index, note in enumerate(was) if note.id in read], was, part.notes, scale)
+    if same is None:
         lines = zip((was, part.notes), quarters, strict=True)
         pairs = [(int(one), int(new)) for one, new in align(*(AlignmentPart.of(*line) for line in lines))]
+    else:
+        pairs = same
     kept = {new: was[one].id for one, new in pairs}
     ids = [kept[number] if number in kept else next(note_ids) for number in range(len(part.notes))]
     renamed = _renamed(part, before.id, ids)
-    merged = _merged(before, was, renamed, pairs, scale)
+    merged = _merged(before, was, renamed, pairs, scale, as_a_whole=same is not None)
     known = {note.id: note for note in before.notes}
     places = [(known[note.id].onset_tick, note.onset_tick) for note in merged.part.notes if note.id in known]
     drawn = _drawn(before, frozenset(kept.values()), place_map(places, scale), scale, merged.part)
@@ -253,7 +255,13 @@ class _Merged:
 
 
 def _merged(
-    before: Part, was: Sequence[Note], part: Part, pairs: Sequence[tuple[int, int]], scale: Fraction
+    before: Part,
+    was: Sequence[Note],
+    part: Part,
+    pairs: Sequence[tuple[int, int]],
+    scale: Fraction,
+    *,
+    as_a_whole: bool,
 ) -> _Merged:
     """Three-way merge of each note: the user's where the file did not change it, else the file's.
 
@@ -267,6 +275,8 @@ def _merged(
         As the file has it, with the ids of the project.
     pairs : sequence of (int, int)
         Which of ``was`` is which of the part's notes.
+    as_a_whole : bool
+        The line is the same as before, or begins earlier or later: no note has moved by itself.
     """
     here = {note.id: note for note in before.notes}
     distances = [part.notes[new].onset_tick - round(was[one].onset_tick * scale) for one, new in pairs]
@@ -278,7 +288,7 @@ def _merged(
         if mine == read:
             continue
         beside = distances[max(place - 1, 0) : place] + distances[place + 1 : place + 2]
-        still = distances[place] in beside or distances[place] == 0
+        still = as_a_whole or distances[place] in beside or distances[place] == 0
         if not still or (now.duration_tick, now.pitch, now.velocity) != (
             max(round(read.duration_tick * scale), 1),
             read.pitch,

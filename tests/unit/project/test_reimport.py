@@ -418,6 +418,21 @@ def test_what_a_hand_did_to_notes_stays_where_the_file_did_not_touch_them() -> N
     assert again.project is result.project
 
 
+def test_an_edit_of_the_only_note_of_a_line_moves_with_it() -> None:
+    """A second player may have the one chord in a line; no note beside it says that the file moved the line."""
+    project = small_project()
+    score = with_notes(project.score, 1, [project.score.parts[1].notes[0]])
+    only = score.parts[1].notes[0]
+    held = {part.id: {note.id: note for note in part.notes} for part in score.parts}
+    edited = by_hand(replace(project, score=score, read_notes=held), 1, {0: {"velocity": 9}})
+    result = reimport(edited, file_with(replace(project, score=score), 1, {}, BAR), MAPS)
+    assert result.conflicts == ()
+    assert notes_of(result.project, 1)[only.id] == msgspec.structs.replace(only, onset_tick=BAR, velocity=9)
+    # Another pitch is a change.
+    changed = file_with(replace(project, score=score), 1, {0: {"pitch": only.pitch + 1}}, BAR)
+    assert [conflict.note_id for conflict in reimport(edited, changed, MAPS).conflicts] == [only.id]
+
+
 def test_where_both_changed_a_note_the_files_version_is_taken_and_reported() -> None:
     project = read(LUTKIN)
     first = project.score.parts[0].notes
