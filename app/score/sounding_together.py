@@ -13,7 +13,8 @@ from app.score.tempo import TempoMap
 
 # How long two notes of one player may sound together as they are played. Pianists overlap legato notes the longer, the
 # longer the notes are (Repp 1995, J. Acoust. Soc. Am. 97, 3862; Bresin and Battel 2000, J. New Music Res. 29, 211-224).
-# The figures are our own: 80 ms where notes are short, a quarter of a longer note, never half of one: that is a chord.
+# The figures are our own: 80 ms where notes are short, a quarter of a longer note, never over half of one: that is a
+# chord.
 LEGATO_LEAST_S: Final = 0.080
 _LEGATO_SHARE: Final = 0.25
 _LEGATO_MOST_S: Final = 0.200
@@ -29,6 +30,10 @@ _SEVERAL_DOUBLED: Final = 8
 """The same for octaves and unisons: editions give a bass an octave to choose from for a cadence."""
 _MUCH: Final = 0.25
 """Share of the track's notes that sound together from which another player is there, however short the track is."""
+
+_ROUNDING_S: Final = 1e-9
+"""Below the shortest note, above the rounding of seconds of any piece: a note that begins just where the one before is
+released does so at every place and tempo."""
 
 
 class VoiceSpans(NamedTuple):
@@ -53,7 +58,7 @@ def spans_of(notes: Sequence[Note], tempo_map: TempoMap) -> VoiceSpans:
     onset_ticks = np.array([note.onset_tick for note in notes], np.float64)
     end_ticks = onset_ticks + np.array([note.duration_tick for note in notes], np.float64)
     onsets, ends = tempo_map.seconds(onset_ticks), tempo_map.seconds(end_ticks)
-    return VoiceSpans(onsets, ends, ends - legato_s(ends - onsets))
+    return VoiceSpans(onsets, ends, ends - legato_s(ends - onsets) - _ROUNDING_S)
 
 
 def legato_s(lengths_s: FloatArray) -> FloatArray:

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from app.score.model import Note
-from app.score.tempo import TempoMap
+from app.score.sounding_together import LEGATO_LEAST_S, spans_of
+from app.score.tempo import TempoChange, TempoMap
 from app.score.voices import LEGATO_OVERLAP_S, split_voices
 
 TEMPO = TempoMap(1000)  # 120 beats per minute: a tick is half a millisecond
@@ -54,6 +55,17 @@ def test_one_overlap_in_many_notes_is_a_slur(overlap_s: float) -> None:
 def test_legato_throughout_is_one_player(overlap_s: float, length: float) -> None:
     rows = [(onset, lasts + 2 * min(overlap_s, 0.3 * lasts), pitch) for onset, lasts, pitch in scale(40, length)]
     assert len(split_voices(notes(*rows), TEMPO).voices) == 1
+
+
+@pytest.mark.parametrize("beats_per_minute", [60, 90, 100, 120, 133, 140, 152])
+@pytest.mark.parametrize(("length", "overlap"), [(480, 120), (120, 60)])
+def test_a_legato_of_just_the_longest_is_one(beats_per_minute: float, length: int, overlap: int) -> None:
+    """A quarter of longer notes, half of short ones: whatever rounding seconds does at their ticks."""
+    tempo = TempoMap.of_changes(480, [TempoChange(0, round(60_000_000 / beats_per_minute))])
+    longest_s = min(max(length / 4, tempo.ticks(LEGATO_LEAST_S)), length / 2, tempo.ticks(0.2))
+    line = [Note(f"1:{index}", index * (length - overlap), length, 60 + index % 7, 80) for index in range(200)]
+    depths = spans_of(line, tempo).depths()
+    assert set(depths[1:].tolist()) == {1 if overlap <= longest_s else 2}
 
 
 @pytest.mark.parametrize(("chords", "players"), [(1, 1), (3, 1), (4, 2), (12, 2)])
