@@ -35,7 +35,8 @@ class PlayerSection(NamedTuple):
         return f"players_section_{self.family or 'others'}"
 
 
-_SECTIONS: IdentityCache[tuple[PlayerSection, ...]] = IdentityCache(4)
+_SECTIONS: IdentityCache[tuple[PlayerSection, ...]] = IdentityCache(1)
+"""A single entry, for the piece that is open: the players of one that is closed are let go of."""
 
 
 def sections(project: Project) -> tuple[PlayerSection, ...]:
