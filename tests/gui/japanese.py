@@ -27,6 +27,8 @@ from app.shell.language import ROOMS, TextTranslator
 _FIELD = re.compile(r"{[^}|]*}")
 """Fields of a text; plurals ({count:note|notes}) are English."""
 _PARTS = re.compile(r"({[^}]*})")
+GUIDES = {"help_contents", "help_hits"}
+"""Lists of headings and passages of the guides, which are in English where they are not translated."""
 ENGLISH = {english for room in ROOMS for english, japanese in room.values() if english != japanese}
 
 
@@ -77,9 +79,9 @@ def texts_of(widget: QWidget) -> set[str]:
             found.add(one.title())
         if isinstance(one, QSpinBox | QDoubleSpinBox):
             found |= {one.prefix().strip(), one.suffix().strip()}
-        if isinstance(one, QListWidget):
+        if isinstance(one, QListWidget) and one.objectName() not in GUIDES:
             found |= {one.item(row).text() for row in range(one.count())}
-        if isinstance(one, QTreeWidget):
+        if isinstance(one, QTreeWidget) and one.objectName() not in GUIDES:
             items = [one.headerItem(), *(one.topLevelItem(row) for row in range(one.topLevelItemCount()))]
             found |= {item.text(column) for item in items if item is not None for column in range(one.columnCount())}
         if one.isWindow():

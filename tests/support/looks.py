@@ -1,8 +1,9 @@
 """Draws the whole editor at some scales, in both languages, and prints what does not fit; run as a program.
 
 ``python -m tests.support.looks SCALE:THEME:WIDTH:HEIGHT[:live] ... [FOLDER]``: a line for each scale and each fault at
-it, and with a folder a picture of each state. With ``live`` the language is switched in every state: nothing may
-be cut, nor left in the other language. The scale belongs to the process: each has a fork of this one, in which all
+it, and with a folder a picture of each state. With ``live`` the states are shown once, each in the language
+that the one before was switched to, and the language is switched in every state: nothing may be cut, nor left in the
+other language. The scale belongs to the process: each has a fork of this one, in which all
 modules and the piece are loaded.
 """
 
@@ -69,7 +70,6 @@ ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "proble
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 _TRIES = 5
-_GUIDES = "help"
 _SAME_IN_BOTH = {"日本語", "End", "L"}
 """The name of a language, and keys."""
 QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
@@ -87,9 +87,7 @@ def faults(application: QApplication) -> Iterator[str]:
 
 def left_over(application: QApplication, language: str) -> list[str]:
     """Visible texts that are not in the language that is shown."""
-    windows = [window for window in application.topLevelWidgets() if window.isVisible()]
-    # The guides are written in English.
-    texts = {text for window in windows if window.objectName() != _GUIDES for text in texts_of(window)}
+    texts = {text for window in application.topLevelWidgets() if window.isVisible() for text in texts_of(window)}
     japanese = {text for text in texts if _JAPANESE.search(text)}
     return sorted((japanese if language == "en" else english_in(texts - japanese)) - _SAME_IN_BOTH)
 
@@ -197,22 +195,19 @@ class Look:
         """Go on in a language."""
         self.language = language
         self.program.editor.speak(language)
-        self.settle()
 
     def settle(self, seconds: float = 0.08) -> None:
         """Let the editor lay itself out."""
         pause(round(1000 * seconds))
 
     def at(self, state: str) -> None:
-        """Judge a state, in the other language too where it is switched."""
+        """Judge a state; where the language is switched, in the other language too, which stays."""
         self._judge(state)
         if self.switches:
-            before = self.language
-            for language in ("ja", "en") if before == "en" else ("en", "ja"):
-                self.speak(language)
-                self._judge(f"{state}_switched")
-                for text in left_over(self.application, language):
-                    self.found.setdefault(f"{text!r} is left in the other language", f"{state}_{language}")
+            self.speak("en" if self.language == "ja" else "ja")
+            self._judge(f"{state}_switched")
+            for text in left_over(self.application, self.language):
+                self.found.setdefault(f"{text!r} is left in the other language", f"{state}_{self.language}")
 
     def _judge(self, state: str) -> None:
         self.settle()
@@ -254,7 +249,7 @@ class Look:
 
     def both(self, state: str) -> None:
         """Judge a state in both languages."""
-        for language in ("ja", "en"):
+        for language in ("ja",) if self.switches else ("ja", "en"):
             self.speak(language)
             self.at(state)
 
@@ -396,7 +391,7 @@ def look_at(screen: str, pictures: Path | None) -> None:
 def load() -> None:
     """What is the same at every scale: modules, the piece's plans, and its figures."""
     for package in (widgets.dialogs, app.shell):
-        for module in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             importlib.import_module(module.name)
     contents = read_contents(LUTKIN)
     project = import_project(contents, usual_rows(contents, bundled_maps()), bundled_maps(), str(LUTKIN))
