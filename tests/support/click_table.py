@@ -50,7 +50,7 @@ stream.toggle = streaming
 # Notes and events
 edit.undo = project + selection players
 edit.redo ? project + selection
-edit.delete, notes.cut = project + selection copied
+edit.delete, notes.cut = project + selection copied players view playhead
 notes.copy = copied
 notes.duplicate = project selection
 notes.paste, notes.join ? project selection
@@ -142,9 +142,9 @@ timeline.ghosts, timeline.selected, timeline.all, timeline.alone, ghosts_mode > 
 timeline.marks = lanes
 lanes.*, lanes_menu > *, lane header > * ? lanes
 front_player ? players
-lane breath > * ? project + selection
-lane fingering > *, lane acting > takers > *, lane acting > givers > * ? project + selection players
-lane acting > * ? project + selection
+lane breath > * ? project + selection players view playhead
+lane fingering > *, lane acting > takers > *, lane acting > givers > * ? project + selection players view playhead
+lane acting > * ? project + selection players view playhead
 ruler > Select Bar = selection
 ruler > * ? typing
 slider > Copy Value = copied
