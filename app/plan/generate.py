@@ -230,7 +230,7 @@ class EnsemblePlanning:
         return self._made.plans[player_id]
 
     def finished(self) -> EnsemblePlan:
-        """Plan who is left, and return it all. Raises Cancelled."""
+        """Plan the remaining players, and return the plan of all. Raises Cancelled."""
         plans = {player_id: self.plan(player_id) for player_id in self._numbers}
         self._made.close()
         return self._made._replace(plans=plans)

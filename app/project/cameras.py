@@ -30,7 +30,7 @@ class CameraBookmark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     view : str
         One of `VIEWS`; close-ups follow their player.
     player_id : str
-        The player or dancer in front; empty: nobody. One that is no longer there leaves a camera that stands still.
+        The player or dancer in front; empty: none. Where that performer is missing, the camera stands still.
     target_m : (float, float, float)
         Point in the middle of the picture when the camera was kept.
     yaw_rad, pitch_rad : float

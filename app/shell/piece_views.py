@@ -57,7 +57,7 @@ class PieceViews(QObject):
     Parameters
     ----------
     files : Files
-        Tells when a piece is left and opened.
+        Signals when a piece is closed and opened.
     """
 
     def __init__(

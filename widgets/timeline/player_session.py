@@ -1,4 +1,4 @@
-"""A session as a lane of a player who is behind sees it: this player is in front."""
+"""A session for the lanes of one stacked player, in which this player is in front."""
 
 from __future__ import annotations
 

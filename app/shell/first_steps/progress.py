@@ -73,7 +73,7 @@ STOPS: Final[Mapping[str, Callable[[TourFacts, TourFacts], bool]]] = {
     "amplitude": _has_other_amplitude,
     "export": lambda then, now: now.is_exporting,
 }
-"""The stops in their order, with what tells from the facts at the arrival and those of now that the stop is done."""
+"""The stops in their order; each compares the facts of now with those at the arrival to find that it is done."""
 _NAMES: Final = tuple(STOPS)
 
 

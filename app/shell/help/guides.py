@@ -167,17 +167,17 @@ EXCERPT: Final = 90
 def search(words: str, language: str) -> tuple[SearchHit, ...]:
     """Return the sections of all guides in which every word occurs: first those with the words in their heading, then
     those that have them most often."""
-    wanted = words.casefold().split()
-    if not wanted:
+    searched = words.casefold().split()
+    if not searched:
         return ()
     found: list[tuple[tuple[int, int], SearchHit]] = []
     for name in names():
         for number, section in enumerate(guide(name, language).sections):
             heading, text = section.heading.casefold(), section.text.casefold()
-            if all(word in heading or word in text for word in wanted):
-                headed = sum(word in heading for word in wanted)
-                count = sum(text.count(word) for word in wanted)
-                hit = SearchHit(name, number, section.heading, _excerpt(section.text, wanted))
+            if all(word in heading or word in text for word in searched):
+                headed = sum(word in heading for word in searched)
+                count = sum(text.count(word) for word in searched)
+                hit = SearchHit(name, number, section.heading, _excerpt(section.text, searched))
                 found.append(((-headed, -count), hit))
     return tuple(hit for _, hit in sorted(found, key=lambda entry: entry[0]))
 

@@ -36,7 +36,7 @@ def _press(program: Program, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Key
 
 
 def _near(one: Camera, other: Camera) -> bool:
-    """Whether two cameras look alike; a close-up's target moves with the player."""
+    """Return whether two cameras look alike; a close-up's target moves with the player."""
     directions = one.yaw_rad, one.pitch_rad, one.distance_m
     return directions == pytest.approx((other.yaw_rad, other.pitch_rad, other.distance_m), abs=1e-6)
 

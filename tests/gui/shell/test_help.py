@@ -307,7 +307,7 @@ def test_larger_letters_keep_the_place(program: Program) -> None:
 
 @pytest.mark.drawn
 def test_every_dialog_has_a_button_that_opens_its_guide(studio: Studio) -> None:
-    """Without closing the dialog; also while it waits for an answer, when the window of the guides takes clicks."""
+    """The dialog stays open, and the guides take clicks while it waits for an answer."""
     program = studio.program
     program.editor.files.open(QUARTET, ask=False)
     window = HelpWindow(program.session, program.editor.language, program.window)

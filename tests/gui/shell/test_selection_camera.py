@@ -91,7 +91,7 @@ def test_a_correction_without_a_selection_is_shown_and_undo_is_not(program: Prog
 
 
 def test_an_edit_of_a_player_who_is_not_selected_moves_nothing(program: Program) -> None:
-    """As a cue that the conductor is to give, edited from the lane of one who takes it."""
+    """A cue of the conductor is edited from the lane of a player who takes it."""
     session = program.session
     session.viewport.set(camera_follows="always")
     front, other = session.players, session.project.players[1]

@@ -30,7 +30,7 @@ from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.panel import TimelinePanel
 
 LOW_E, D_4, C_5, B_FLAT_5 = 50, 60, 70, 80
-"""As they sound: the clarinet in B flat reads them a whole tone higher."""
+"""Sounding pitches: the clarinet in B flat reads them a whole tone higher."""
 
 
 @pytest.fixture

@@ -62,7 +62,7 @@ def test_plans_are_the_same_in_any_order(project: Callable[[], Project], seed: i
 
 
 def test_a_unison_has_breaths_that_depend_on_who_is_before() -> None:
-    """What the test above compares is not trivial."""
+    """Players of a unison breathe at times of their own, so that comparing their plans proves something."""
     breaths = {tuple(event.start_s for event in plan.breaths) for plan in Performance(unison()).plans.values()}
     assert len(breaths) > 1
 
