@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
 from app.editor.selection import Selection
@@ -76,7 +77,41 @@ def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None
         session.set_playhead(at_s)
     session.viewport.set_view(view_of(problem))
     session.reveal(at_s)
+    session.set_problem((performer_id, problem))
     session.notice(problem.message, Severity.WARNING)
+
+
+def forget_problems(session: Session) -> None:
+    """Let go of the problem that the user went to, from now on, once it is gone or something else is selected."""
+
+    def leave() -> None:
+        session.set_problem(None)
+
+    def look() -> None:
+        shown = session.problem
+        if shown is None or session.performance.project is not session.project:
+            return
+        performer_id, problem = shown
+        found = session.problems(performer_id)
+        if problem not in found:
+            kind = problem.message.id, problem.note_id
+            same = next((one for one in found if one.note_id and (one.message.id, one.note_id) == kind), None)
+            session.set_problem(None if same is None else (performer_id, same))
+
+    for signal in (session.selection_changed, session.players_changed, session.dancer_changed):
+        signal.connect(leave)
+    for signal in (session.performance_changed, session.problems_changed):
+        signal.connect(look)
+
+
+def show_mended(session: Session, performer_id: str, problems: Sequence[Problem]) -> None:
+    """Select the notes of problems that were mended, and bring them into view: near the one gone to, else the first."""
+    gone_to = session.problem[1] if session.problem is not None else None
+    start_s = (gone_to if gone_to is not None and gone_to in problems else problems[0]).start_s
+    if performer_id in {player.id for player in session.project.players} and performer_id not in session.players:
+        session.set_players((performer_id,))
+    session.select(Selection(notes=frozenset(one.note_id for one in problems if one.note_id is not None)))
+    session.reveal(start_s)
 
 
 def follow_selection(session: Session) -> None:

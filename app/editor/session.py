@@ -71,6 +71,8 @@ class Session(QObject):
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
     grid_changed(), theme_changed(), time_display_changed(), follow_changed(), language_changed()
         The value of that name is another one.
+    problem_changed()
+        Another problem is gone to, or none any more.
     dancer_changed()
         Another dancer is selected, in the same project.
     folded_changed(), groups_players_changed()
@@ -102,6 +104,7 @@ class Session(QObject):
     changed = Signal(object)
     performance_changed = Signal()
     problems_changed = Signal()
+    problem_changed = Signal()
     selection_changed = Signal()
     players_changed = Signal()
     dancer_changed = Signal()
@@ -346,6 +349,11 @@ class Session(QObject):
     tokens = Watched("theme_changed", DARK)
     """The theme."""
     set_tokens = tokens.setter
+
+    problem = Watched[tuple[str, Problem] | None]("problem_changed", None)
+    """The problem that the user went to, with its performer's id; None once it is mended or something else is looked
+    at."""
+    set_problem = problem.setter
 
     time_display = Watched[TimeDisplay]("time_display_changed", "bars")
     """Format of times."""

@@ -50,9 +50,13 @@ def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
     """Problems of a player, those of one kind together, by the first of each kind."""
     kinds: dict[tuple[object, ...], list[Problem]] = {}
     for problem in problems:
-        parts = (problem.message.arguments.get(name) for name in PARTS)
-        kinds.setdefault((problem.message.id, *parts), []).append(problem)
+        kinds.setdefault(problem_kind(problem), []).append(problem)
     return list(kinds.values())
+
+
+def problem_kind(problem: Problem) -> tuple[object, ...]:
+    """The kind of a problem: equal for problems of a player that stand in one line."""
+    return (problem.message.id, *(problem.message.arguments.get(name) for name in PARTS))
 
 
 def note_place(score: Score, note: Note) -> Message:

@@ -19,7 +19,7 @@ from app.editor.files import Files
 from app.editor.generator import Generator
 from app.editor.library_watch import watch_characters, watch_instruments, watch_metadata
 from app.editor.memory import share_memory
-from app.editor.problems import follow_selection
+from app.editor.problems import follow_selection, forget_problems
 from app.editor.questions import Questions
 from app.editor.recorder import Recorder
 from app.editor.session import Session, Severity
@@ -147,6 +147,7 @@ class Program(QObject):
         sound = EditorSound(self.session, playback, audible)
         video = ReferenceVideo(self.session)
         follow_selection(self.session)
+        forget_problems(self.session)
         watch_instruments(self.session)
         watch_characters(self.session)
         watch_metadata(self.session)

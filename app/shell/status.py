@@ -89,6 +89,7 @@ class StatusLine(Retranslated, QStatusBar):
             self.addPermanentWidget(widget)
         self._details = NoticeList(session, self)
         self._had_piece = False
+        self._gone_to = session.problem
         self._fade, self._poll, self._age = QTimer(self), QTimer(self), QTimer(self)
         self._fade.setSingleShot(True)
         self._fade.timeout.connect(self._fade_away)
@@ -103,6 +104,7 @@ class StatusLine(Retranslated, QStatusBar):
     def _listen(self) -> None:
         session, files = self._session, self._files
         session.noticed.connect(self.report)
+        session.problem_changed.connect(self._follow_problem)
         session.performance_changed.connect(self._report_problems)
         session.problems_changed.connect(self._report_problems)
         session.instruments_changed.connect(self._report_instruments)
@@ -199,6 +201,16 @@ class StatusLine(Retranslated, QStatusBar):
     def notice_text(self) -> str:
         """The notice that is shown; empty: none."""
         return "" if self._notice.isHidden() else message_text(self._log[-1][0], self._session)
+
+    def _follow_problem(self) -> None:
+        """Take the notice of a problem away with the problem, or say what it is by now."""
+        before, self._gone_to = self._gone_to, self._session.problem
+        if before is None or self._notice.isHidden() or self._log[-1] != (before[1].message, Severity.WARNING):
+            return
+        if self._gone_to is None:
+            self.dismiss()
+        elif self._gone_to[1].message != before[1].message:
+            self.report(self._gone_to[1].message, Severity.WARNING)
 
     def _forget_device(self, port: str, is_open: bool) -> None:
         """Take a warning about a device away once another one is chosen, or none, or that one works."""

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from operator import is_
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtCore import QEvent, QItemSelectionModel, QPoint, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
 
 from app.editor.problem_fixes import ProblemFix, fixed, fixes_of
-from app.editor.problems import go_to_problem
+from app.editor.problems import go_to_problem, show_mended
 from app.editor.session import Session
 from app.errors import Message
 from app.messages import filled
 from app.plan.model import Problem
-from app.plan.problem_lines import problems_by_kind
+from app.plan.problem_lines import problem_kind, problems_by_kind
 from app.project.edit.ignored_problems import ignore, unignore
 from app.project.performers import Dancer, Player
 from app.score.model import Score
@@ -27,6 +27,8 @@ from widgets.common.plain import Label
 from widgets.common.text import sentence
 from widgets.inspector.rows import LineList, ListRow
 
+RowKey: TypeAlias = tuple[str, tuple[Problem, ...]]
+"""Key of a row: the performer's id, and the problems."""
 EVERYONE, SELECTED, ALL = "everyone", "selected", "all"
 _KINDS = {
     "fingering": "fingering",
@@ -85,6 +87,7 @@ class ProblemList(Retranslated, QWidget):
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         filters = in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4)
         self._gone_to: tuple[object, int] | None = None
+        self._is_opening = False
         self._fix, self._ignore = named(QPushButton(), "fix_problems"), named(QPushButton(), "ignore_problems")
         self._ignored = named(QCheckBox(), "show_ignored_problems")
         for button, run in ((self._fix, self._fix_first), (self._ignore, self._ignore_chosen)):
@@ -101,6 +104,7 @@ class ProblemList(Retranslated, QWidget):
         self._kind.chosen.connect(lambda _: self.show_problems())
         session.performance_changed.connect(self.show_problems)
         session.problems_changed.connect(self.show_problems)
+        session.problem_changed.connect(self._select_gone_to)
         session.players_changed.connect(self._players_changed)
         session.theme_changed.connect(self._say_anew)
         session.pitch_display.changed.connect(self._say_anew)
@@ -143,7 +147,7 @@ class ProblemList(Retranslated, QWidget):
                 known = (sources, self._line(group, colour, score))
             self._known[id(group.problems[0])] = known
             lines.append(known[1])
-        self.list.lines.show_lines(lines)
+        self._show_lines(lines)
         self.list.setVisible(bool(lines))
         more = len(requested) - len(lines)
         self._empty.setVisible(not lines or more > 0)
@@ -156,6 +160,33 @@ class ProblemList(Retranslated, QWidget):
                 else self.tr("problem_list.none_of_these_choose_other")
             )
         self._show_buttons()
+
+    def _show_lines(self, lines: list[ListRow]) -> None:
+        """Show rows; those that are selected stay so where their player still has problems of the kind."""
+        chosen = {(player_id, problem_kind(problems[0])) for player_id, problems in self._chosen()}
+        self.list.lines.show_lines(lines)
+        if chosen and not self._chosen():
+            rows = [row for row, (id, problems) in enumerate(self._keys()) if (id, problem_kind(problems[0])) in chosen]
+            for row in rows:
+                self.list.selectionModel().select(self.list.lines.index(row), QItemSelectionModel.SelectionFlag.Select)
+
+    def _select_gone_to(self) -> None:
+        """Select the row of the problem that the user went to by other means than this list."""
+        gone_to = self._session.problem
+        if gone_to is None or self._is_opening:
+            return
+        row = next((row for row, key in enumerate(self._keys()) if key[0] == gone_to[0] and gone_to[1] in key[1]), None)
+        if row is None:
+            self.list.clearSelection()
+            return
+        key, index = self._keys()[row], self.list.lines.index(row)
+        self._gone_to = key, key[1].index(gone_to[1])
+        self.list.selectionModel().setCurrentIndex(index, QItemSelectionModel.SelectionFlag.ClearAndSelect)
+        self.list.scrollTo(index)
+
+    def _keys(self) -> list[RowKey]:
+        """The player and the problems of each row."""
+        return [line.key for line in self.list.lines.lines if isinstance(line.key, tuple)]
 
     def _requested(
         self, by_player: list[tuple[Player | Dancer, tuple[Problem, ...]]], is_ignored: bool
@@ -195,11 +226,15 @@ class ProblemList(Retranslated, QWidget):
         player_id, problems = key
         step = self._gone_to[1] + 1 if self._gone_to is not None and self._gone_to[0] == key else 0
         self._gone_to = key, step % len(problems)
-        go_to_problem(self._session, player_id, problems[self._gone_to[1]])
+        self._is_opening = True
+        try:
+            go_to_problem(self._session, player_id, problems[self._gone_to[1]])
+        finally:
+            self._is_opening = False
 
     # What is done about them
 
-    def _chosen(self) -> list[tuple[str, tuple[Problem, ...]]]:
+    def _chosen(self) -> list[RowKey]:
         """The selected rows: the player and the problems of each."""
         return [key for key in self.list.selected_keys() if isinstance(key, tuple)]
 
@@ -207,17 +242,27 @@ class ProblemList(Retranslated, QWidget):
         chosen = self._chosen()
         fixes = self._fixes(chosen[0]) if len(chosen) == 1 else ()
         self._fix.setEnabled(bool(fixes))
+        self._fix.setToolTip(self.tr(self._fix_tip(chosen, bool(fixes))))
         self._fix.setText(self._fix_text(fixes[0], chosen[0][1]) if fixes else self.tr("problem_list.fix"))
         self._ignore.setEnabled(bool(chosen))
         self._ignore.setText(self.tr(self._ignore_text(chosen)))
 
-    def _ignore_text(self, rows: list[tuple[str, tuple[Problem, ...]]]) -> str:
+    def _fix_tip(self, chosen: list[RowKey], has_fix: bool) -> str:
+        """The text of what the button does, or of why it does nothing."""
+        if has_fix:
+            return "problem_list.mend_selected"
+        if len(chosen) != 1:
+            return "problem_list.fix_needs_a_row"
+        is_planned = self._session.performance.project is self._session.project
+        return "problem_list.has_no_fix" if is_planned else "problem_list.fix_waits"
+
+    def _ignore_text(self, rows: list[RowKey]) -> str:
         return "problem_list.count_again" if rows and self._are_ignored(rows) else "problem_list.ignore"
 
-    def _are_ignored(self, rows: list[tuple[str, tuple[Problem, ...]]]) -> bool:
+    def _are_ignored(self, rows: list[RowKey]) -> bool:
         return all(problems[0] in self._session.ignored_problems(player_id) for player_id, problems in rows)
 
-    def _fixes(self, row: tuple[str, tuple[Problem, ...]]) -> tuple[ProblemFix, ...]:
+    def _fixes(self, row: RowKey) -> tuple[ProblemFix, ...]:
         project = self._session.project
         # Old problems of a project that is being planned name notes that may be other ones by now.
         return fixes_of(project, *row) if self._session.performance.project is project else ()
@@ -231,14 +276,16 @@ class ProblemList(Retranslated, QWidget):
         if fixes:
             self._mend(fixes[0], chosen)
 
-    def _mend(self, fix: ProblemFix, rows: list[tuple[str, tuple[Problem, ...]]]) -> None:
+    def _mend(self, fix: ProblemFix, rows: list[RowKey]) -> None:
         count = sum(len(problems) for _, problems in rows)
-        self._session.attempt(Message("edit.fix_problems", {"count": count}), lambda project: fixed(project, fix, rows))
+        name = Message("edit.fix_problems", {"count": count})
+        if self._session.attempt(name, lambda project: fixed(project, fix, rows)):
+            show_mended(self._session, *rows[0])
 
     def _ignore_chosen(self) -> None:
         self._set_ignored(self._chosen())
 
-    def _set_ignored(self, rows: list[tuple[str, tuple[Problem, ...]]]) -> None:
+    def _set_ignored(self, rows: list[RowKey]) -> None:
         """Ignore rows, or count them again where all of them are ignored."""
         if not rows:
             return
@@ -286,6 +333,7 @@ class ProblemList(Retranslated, QWidget):
 
     def showEvent(self, event: QEvent) -> None:
         self.show_problems()
+        self._select_gone_to()
 
 
 def _kind(problem: Problem) -> str:

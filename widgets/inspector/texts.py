@@ -220,6 +220,18 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "Shorten {count} Overlapping {count:Note|Notes}",
         "重なる音符を短くする（{count} 個）",
     ),
+    "problem_list.fix_needs_a_row": (
+        "Select a row of the list to fix its problems",
+        "一覧の行を 1 つ選ぶと、その問題を解決できます",
+    ),
+    "problem_list.fix_waits": (
+        "Available as soon as the performance is up to date",
+        "演奏の更新が終わると使えます",
+    ),
+    "problem_list.has_no_fix": (
+        "No automatic fix for this kind of problem. Correct it in the timeline, or ignore it.",
+        "この種類の問題は自動では解決できません。タイムラインで修正するか、無視してください。",
+    ),
     "problem_list.fix": ("Fix", "解決"),
     "problem_list.go_to": ("Go to Problem", "問題の場所へ移動"),
     "problem_list.ignore": ("Ignore", "無視"),

@@ -25,7 +25,7 @@ from widgets.timeline.lanes import LANES
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.takes.takes_lane import TakesLane
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
-from widgets.timeline.model.roll.shown_notes import kept_pitches
+from widgets.timeline.model.roll.shown_notes import kept_pitches, moved_notes
 from widgets.timeline.playhead import Playhead
 from widgets.timeline.roll.piano_roll import ZOOM_A_KEY, PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
@@ -346,6 +346,10 @@ class TimelinePanel(Retranslated, QWidget):
             self.set_tool(Tool.SELECT)
             self._show_beginning()
             self._fitted = False
+        elif change.before.score is not change.after.score and not self._is_dragged():
+            # The user looks for notes that an edit or its undo takes out of sight.
+            for roll in self.rolls:
+                roll.bring_notes_into_view(moved_notes(change.before.score, change.after.score))
 
     def _playhead_moved(self, playhead_s: float) -> None:
         session = self.session

@@ -205,14 +205,19 @@ class PianoRoll(Lane):
         self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px))
 
     def bring_notes_into_view(self, note_ids: Iterable[str]) -> None:
-        """Scroll to the pitches of notes of the player in front, if none of them is in view."""
+        """Scroll to the pitches of notes of the player in front, if most of them are out of view."""
         front = self.model.front()
         places = [front[0].index[id] for id in note_ids if id in front[0].index] if front is not None else []
         if front is None or not places:
             return
-        pitches = front[0].pitch[places]
+        seen = front[0].visible(self.axis.start_s, self.axis.end_s)
+        here = [place for place in places if seen.start <= place < seen.stop]
+        self._bring_into_view(front[0].pitch[here or places])
+
+    def _bring_into_view(self, pitches: IntArray) -> None:
+        """Scroll to the middle of pitches, if most of them are out of view."""
         bottom, top = self.y_range
-        if not np.any((pitches >= bottom) & (pitches + 1 <= top)):
+        if len(pitches) and np.mean((pitches >= bottom) & (pitches + 1 <= top)) < 0.5:
             middle = float(np.median(pitches)) + 0.5
             self._show_pitches(*kept_pitches(middle - (top - bottom) / 2, top - bottom))
 
@@ -221,10 +226,7 @@ class PianoRoll(Lane):
         front = self.model.front()
         if front is None:
             return
-        here = front[0].pitch[front[0].visible(self.axis.start_s, self.axis.end_s)]
-        bottom, top = self.y_range
-        if len(here) and np.mean((here >= bottom) & (here + 1 <= top)) < 0.5:
-            self._show_pitches(*kept_pitches(float(np.median(here)) + 0.5 - (top - bottom) / 2, top - bottom))
+        self._bring_into_view(front[0].pitch[front[0].visible(self.axis.start_s, self.axis.end_s)])
 
     def fit_pitch(self) -> None:
         """Show all notes of the player in front, with some air."""

@@ -103,6 +103,17 @@ def visible(table: TimedNotes, start_s: float, end_s: float, pitches: tuple[floa
     return rows
 
 
+def moved_notes(before: Score, after: Score) -> list[str]:
+    """Ids of the notes that have another pitch in another score."""
+    parts = {part.id: part for part in before.parts}
+    changed = [(parts[part.id], part) for part in after.parts if part.id in parts and part is not parts[part.id]]
+    moved = []
+    for old, new in changed:
+        pitches = {note.id: note.pitch for note in old.notes}
+        moved += [note.id for note in new.notes if pitches.get(note.id, note.pitch) != note.pitch]
+    return moved
+
+
 def boxes(
     table: TimedNotes, rows: IntArray, scale: Scale, highest: float, row_px: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
