@@ -6,6 +6,7 @@ from contextlib import suppress
 
 import msgspec
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QScrollArea, QSplitter, QTabWidget, QWidget
 
 from app.editor.session import Session
@@ -29,11 +30,15 @@ MOST_COUNTED = 999
 LISTS_SHARE = 0.55
 WHOLE = 1000
 """Sizes of the splitter in shares of its height."""
+TAB_EDGE_PX = 2
+LEAST_LISTS_PX = 60
+"""Of the lists with their tabs: fewer than some of them would like."""
 
 
 class _State(msgspec.Struct, frozen=True):
     lists_share: float
     tab: int
+    by_hand: bool = False
 
 
 class InspectorPanel(Retranslated, QWidget):
@@ -83,33 +88,61 @@ class InspectorPanel(Retranslated, QWidget):
             self._tabs.addTab(named(page, f"{name}_tab"), "")
         self._tabs.setDocumentMode(True)
         self._tabs.setUsesScrollButtons(True)
+        self._tabs.setMinimumHeight(LEAST_LISTS_PX)
+        self._tabs.currentChanged.connect(self._fit_lists)
+        self._problems.listed.connect(self._fit_lists)
         self._splitter = QSplitter(Qt.Orientation.Vertical)
         self._splitter.addWidget(scroll)
         self._splitter.addWidget(self._tabs)
         self._splitter.setChildrenCollapsible(False)
+        self._splitter.splitterMoved.connect(self._divided_by_hand)
         self.divide(LISTS_SHARE)
         in_column(self._splitter, of=self, margins=0)
 
-    def divide(self, lists_share: float, tab: int = 0) -> None:
-        """Give the lists a share of the height, and show one of them."""
-        share = min(max(lists_share, 0.0), 1.0)
-        lists = round(share * WHOLE)
+    def divide(self, lists_share: float, tab: int = 0, by_hand: bool = False) -> None:
+        """Give the lists a share of the height, and show one of them.
+
+        Parameters
+        ----------
+        lists_share : float
+            The most they get, 0..1; less where all problems are in sight in less.
+        tab : int
+        by_hand : bool
+            Whether the user chose the share: it is kept then, however few problems there are.
+        """
+        self._lists_share, self._by_hand = min(max(lists_share, 0.0), 1.0), by_hand
+        lists = round(self._lists_share * WHOLE)
         self._splitter.setStretchFactor(0, WHOLE - lists)
         self._splitter.setStretchFactor(1, lists)
         self._splitter.setSizes([WHOLE - lists, lists])
         self._tabs.setCurrentIndex(tab)
+        self._fit_lists()
+
+    def _divided_by_hand(self) -> None:
+        above, below = self._splitter.sizes()
+        self._lists_share, self._by_hand = below / max(above + below, 1), True
+
+    def _fit_lists(self) -> None:
+        """Leave the room that a short list of problems does not need to what is selected."""
+        if self._by_hand or not self.isVisible():
+            return
+        whole_px = sum(self._splitter.sizes())
+        lists_px = round(self._lists_share * whole_px)
+        if self._tabs.currentWidget() is self._problems:
+            lists_px = min(lists_px, self._problems.contents_px + self._tabs.tabBar().sizeHint().height() + TAB_EDGE_PX)
+        if lists_px != self._splitter.sizes()[1]:
+            self._splitter.setSizes([whole_px - lists_px, lists_px])
 
     def save_state(self) -> str:
         """The lists' share of the height, and which of them is shown, as text."""
-        above, below = self._splitter.sizes()
-        state = _State(below / max(above + below, 1), self._tabs.currentIndex())
+        state = _State(self._lists_share, self._tabs.currentIndex(), self._by_hand)
         return msgspec.json.encode(state).decode()
 
     def restore_state(self, state: str) -> None:
         """Take what `save_state` gave; anything else leaves all as it is."""
         with suppress(FileError):
             saved = decode_json(state.encode("utf-8", "replace"), _State, "")
-            self.divide(saved.lists_share, saved.tab)
+            self.divide(saved.lists_share, saved.tab, saved.by_hand)
 
     def show_selection(self) -> None:
         """Show the selected notes and events, or the selected take."""
@@ -157,6 +190,12 @@ class InspectorPanel(Retranslated, QWidget):
     def retranslate(self) -> None:
         self._show_tab_texts()
         self.show_selection()
+
+    # Qt's own names
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit_lists()
 
 
 def _short(count: int) -> str:

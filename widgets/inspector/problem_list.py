@@ -21,7 +21,7 @@ from app.score.model import Score
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo
 from widgets.common.controls import Retranslated, named, wrapped
-from widgets.common.layouts import in_column, in_row
+from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.menus import passing_menu
 from widgets.common.plain import Label
 from widgets.common.text import sentence
@@ -69,9 +69,12 @@ class ProblemList(Retranslated, QWidget):
     -------
     counted(int)
         So many problems there are in all.
+    listed()
+        Other rows are shown: `contents_px` may be another.
     """
 
     counted = Signal(int)
+    listed = Signal()
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -85,7 +88,7 @@ class ProblemList(Retranslated, QWidget):
         self._empty = wrapped(Label())
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
-        filters = in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4)
+        self._filters = panel(in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4))
         self._gone_to: tuple[object, int] | None = None
         self._is_opening = False
         self._fix, self._ignore = named(QPushButton(), "fix_problems"), named(QPushButton(), "ignore_problems")
@@ -93,9 +96,9 @@ class ProblemList(Retranslated, QWidget):
         for button, run in ((self._fix, self._fix_first), (self._ignore, self._ignore_chosen)):
             on_click(button, run)
         on_switch(self._ignored, lambda _: self.show_problems())
-        deeds = in_row((self._fix, 1), self._ignore, margins=(6, 4, 6, 6), spacing=4)
+        self._deeds = panel(in_row((self._fix, 1), self._ignore, margins=(6, 4, 6, 6), spacing=4))
         shown = in_row(self._ignored, margins=(6, 4, 6, 0))
-        in_column(filters, (self.list, 1), (self._empty, 1), shown, deeds, of=self, margins=0, spacing=0)
+        in_column(self._filters, (self.list, 1), (self._empty, 1), shown, self._deeds, of=self, margins=0, spacing=0)
         self.list.opened.connect(self._open)
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.list.customContextMenuRequested.connect(self._offer)
@@ -130,6 +133,8 @@ class ProblemList(Retranslated, QWidget):
         self._ignored.setVisible(bool(left))
         self._ignored.setText(self.tr("problem_list.show_ignored").format(count=left))
         shows_ignored = self._ignored.isChecked() and bool(left)
+        for controls in (self._filters, self._deeds):
+            controls.setVisible(bool(found) or shows_ignored)
         requested = self._requested(by_player, False) + (self._requested(ignored, True) if shows_ignored else [])
         requested.sort(key=lambda group: group.problems[0].start_s)
         current = {one.id: one for one in session.project.performers}
@@ -160,6 +165,17 @@ class ProblemList(Retranslated, QWidget):
                 else self.tr("problem_list.none_of_these_choose_other")
             )
         self._show_buttons()
+        self.listed.emit()
+
+    @property
+    def contents_px(self) -> int:
+        """Height at which all rows are in sight."""
+        layout = self.layout()
+        layout.invalidate()
+        width_px = self.width()
+        has_wrapped = layout.hasHeightForWidth()
+        whole_px = layout.totalHeightForWidth(width_px) if has_wrapped else layout.totalSizeHint().height()
+        return whole_px if self.list.isHidden() else whole_px - self.list.sizeHint().height() + self.list.contents_px
 
     def _show_lines(self, lines: list[ListRow]) -> None:
         """Show rows; those that are selected stay so where their player still has problems of the kind."""

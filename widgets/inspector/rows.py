@@ -186,6 +186,12 @@ class LineList(QListView):
         numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
         return tuple(self.lines.lines[number].key for number in numbers)
 
+    @property
+    def contents_px(self) -> int:
+        """Height at which every line is in sight."""
+        lines_px = self.lines.rowCount() * self.sizeHintForRow(0)
+        return max(lines_px + 2 * self.frameWidth(), self.minimumHeight())
+
     def _open(self, index: QModelIndex) -> None:
         if index.isValid():
             self.opened.emit(self.lines.lines[index.row()].key)
