@@ -98,7 +98,9 @@ class ProblemList(Retranslated, QWidget):
         on_switch(self._ignored, lambda _: self.show_problems())
         self._deeds = panel(in_row((self._fix, 1), self._ignore, margins=(6, 4, 6, 6), spacing=4))
         shown = in_row(self._ignored, margins=(6, 4, 6, 0))
-        in_column(self._filters, (self.list, 1), (self._empty, 1), shown, self._deeds, of=self, margins=0, spacing=0)
+        self._column = in_column(
+            self._filters, (self.list, 1), (self._empty, 1), shown, self._deeds, of=self, margins=0, spacing=0
+        )
         self.list.opened.connect(self._open)
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.list.customContextMenuRequested.connect(self._offer)
@@ -170,7 +172,7 @@ class ProblemList(Retranslated, QWidget):
     @property
     def contents_px(self) -> int:
         """Height at which all rows are in sight."""
-        layout = self.layout()
+        layout = self._column
         layout.invalidate()
         width_px = self.width()
         has_wrapped = layout.hasHeightForWidth()

@@ -12,32 +12,25 @@ from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 
 from app.editor.selection import Selection
 from app.errors import Message
-from app.project.edit.ignored_problems import ignore
 from app.project.edit.notes import move
 from app.shell.app import Program
 from tests.support.windows import child, wait_until
 from widgets.inspector.panel import InspectorPanel
 
 
-def _without_problems(program: Program) -> None:
-    """The first player plays a saxophone, and no problem of the piece counts."""
+def _saxophone_alone(program: Program) -> None:
+    """Let a saxophone alone play the first part, which it can."""
     session = program.session
     first = msgspec.structs.replace(session.project.players[0], instrument_id="sax_alto_Eb")
-    session.apply(
-        Message("edit.ignore_problems", {"count": 1}),
-        replace(session.project, players=(first, *session.project.players[1:])),
-    )
-    project = session.project
-    for one in project.players:
-        project = ignore(project, one.id, session.problems(one.id))
-    session.apply(Message("edit.ignore_problems", {"count": 1}), project)
+    session.apply(Message("edit.remove_players", {"count": 3}), replace(session.project, players=(first,)))
+    assert not session.problems(first.id)
 
 
 def test_the_chart_of_a_note_is_in_sight_until_the_divider_is_dragged(program: Program) -> None:
     program.window.resize(1600, 1000)
     program.window.reset_workspace()
     session = program.session
-    _without_problems(program)
+    _saxophone_alone(program)
     notes = session.project.part(session.project.players[0]).notes
     session.select(Selection(frozenset({notes[3].id})))
     chart, fix = child(program.window, QWidget, "fingering_diagram"), child(program.window, QPushButton, "fix_problems")

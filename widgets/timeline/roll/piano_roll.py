@@ -214,7 +214,7 @@ class PianoRoll(Lane):
         here = [place for place in places if seen.start <= place < seen.stop]
         self._bring_into_view(front[0].pitch[here or places])
 
-    def _bring_into_view(self, pitches: IntArray) -> None:
+    def _bring_into_view(self, pitches: FloatArray) -> None:
         """Scroll to the middle of pitches, if most of them are out of view."""
         bottom, top = self.y_range
         if len(pitches) and np.mean((pitches >= bottom) & (pitches + 1 <= top)) < 0.5:
