@@ -57,6 +57,8 @@ class Workspace:
         Whether a side has the whole height, beside the timeline, or ends above it; perhaps by the window's height.
     lists_share : float
         Of the inspector's height: problems, corrections and history.
+    keeps_lists : bool
+        Whether a short list of problems keeps that share.
     lanes : LaneState
     """
 
@@ -70,6 +72,7 @@ class Workspace:
     left_whole: Whole
     right_whole: Whole
     lists_share: float
+    keeps_lists: bool = False
     lanes: LaneState = field(default_factory=LaneState)
 
 
@@ -124,6 +127,7 @@ WORKSPACES: Final = (
         left_whole="never",
         right_whole="always",
         lists_share=0.62,
+        keeps_lists=True,
         lanes=LaneState(
             order=(
                 *("problems", "roll", "dynamics", "takes", "fingering", "breath", "acting", "additive", "curves"),
@@ -261,7 +265,7 @@ class Workspaces(QObject):
                 self._docks[name].show()
         self._size(workspace)
         self._timeline.restore_state(workspace.lanes)
-        self._inspector.divide(workspace.lists_share)
+        self._inspector.divide(workspace.lists_share, kept=workspace.keeps_lists)
         self._players.divide()
         self._setting = False
 

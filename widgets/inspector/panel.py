@@ -32,13 +32,13 @@ WHOLE = 1000
 """Sizes of the splitter in shares of its height."""
 TAB_EDGE_PX = 2
 LEAST_LISTS_PX = 60
-"""Of the lists with their tabs: fewer than some of them would like."""
+"""Least height of the lists with their tabs."""
 
 
 class _State(msgspec.Struct, frozen=True):
     lists_share: float
     tab: int
-    by_hand: bool = False
+    kept: bool = False
 
 
 class InspectorPanel(Retranslated, QWidget):
@@ -99,7 +99,7 @@ class InspectorPanel(Retranslated, QWidget):
         self.divide(LISTS_SHARE)
         in_column(self._splitter, of=self, margins=0)
 
-    def divide(self, lists_share: float, tab: int = 0, by_hand: bool = False) -> None:
+    def divide(self, lists_share: float, tab: int = 0, kept: bool = False) -> None:
         """Give the lists a share of the height, and show one of them.
 
         Parameters
@@ -107,10 +107,10 @@ class InspectorPanel(Retranslated, QWidget):
         lists_share : float
             The most they get, 0..1; less where all problems are in sight in less.
         tab : int
-        by_hand : bool
-            Whether the user chose the share: it is kept then, however few problems there are.
+        kept : bool
+            Whether they keep it however few problems there are, as after the user dragged the divider.
         """
-        self._lists_share, self._by_hand = min(max(lists_share, 0.0), 1.0), by_hand
+        self._lists_share, self._kept = min(max(lists_share, 0.0), 1.0), kept
         lists = round(self._lists_share * WHOLE)
         self._splitter.setStretchFactor(0, WHOLE - lists)
         self._splitter.setStretchFactor(1, lists)
@@ -120,11 +120,11 @@ class InspectorPanel(Retranslated, QWidget):
 
     def _divided_by_hand(self) -> None:
         above, below = self._splitter.sizes()
-        self._lists_share, self._by_hand = below / max(above + below, 1), True
+        self._lists_share, self._kept = below / max(above + below, 1), True
 
     def _fit_lists(self) -> None:
         """Leave the room that a short list of problems does not need to what is selected."""
-        if self._by_hand or not self.isVisible():
+        if self._kept or not self.isVisible():
             return
         whole_px = sum(self._splitter.sizes())
         lists_px = round(self._lists_share * whole_px)
@@ -135,14 +135,14 @@ class InspectorPanel(Retranslated, QWidget):
 
     def save_state(self) -> str:
         """The lists' share of the height, and which of them is shown, as text."""
-        state = _State(self._lists_share, self._tabs.currentIndex(), self._by_hand)
+        state = _State(self._lists_share, self._tabs.currentIndex(), self._kept)
         return msgspec.json.encode(state).decode()
 
     def restore_state(self, state: str) -> None:
         """Take what `save_state` gave; anything else leaves all as it is."""
         with suppress(FileError):
             saved = decode_json(state.encode("utf-8", "replace"), _State, "")
-            self.divide(saved.lists_share, saved.tab, saved.by_hand)
+            self.divide(saved.lists_share, saved.tab, saved.kept)
 
     def show_selection(self) -> None:
         """Show the selected notes and events, or the selected take."""
