@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QSize, QTimer, Signal
+from PySide6.QtGui import QStandardItemModel
 from PySide6.QtWidgets import QWidget
 
 from app.arrays import SingleArray
@@ -39,7 +40,7 @@ Sound = Callable[[float, float, int], SingleArray]
 """Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
-_WHOLE, _LOOP, _SELECTION = "whole", "loop", "selection"
+_WHOLE, _LOOP, _SELECTION = "whole_piece", "loop", "selection"
 _AHEAD = 8
 """Pictures drawn before the encoder has taken them."""
 
@@ -77,12 +78,13 @@ class PlayblastDialog(WorkingDialog):
         for rate in sorted({*USUAL_RATES, session.project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, USUAL_FILM_RATE))))
-        ranges = {_WHOLE: "playblast_dialog.whole_piece"}
-        if session.loop_s is not None:
-            ranges[_LOOP] = "playblast_dialog.loop"
-        if session.selection.span is not None:
-            ranges[_SELECTION] = "playblast_dialog.selection"
+        ranges = {each: f"playblast_dialog.{each}" for each in (_WHOLE, _LOOP, _SELECTION)}
         self._range = self.texted(named(ComboBox(), "playblast_range"), options=ranges)
+        self._offered: dict[str, tuple[float, float] | None] = {}
+        """Spans of the loop and of the selection, seconds, as they were offered last."""
+        self._offer_ranges()
+        session.loop_changed.connect(self._offer_ranges)
+        session.selection_changed.connect(self._offer_ranges)
         views = {str(view): f"playblast_dialog.{view}" for view in VIEWS}
         views = {"": "playblast_dialog.as_viewport_shows_it", **views}
         self._view = self.texted(named(ComboBox(), "playblast_view"), options=views)
@@ -209,14 +211,29 @@ class PlayblastDialog(WorkingDialog):
         if self._trouble is not None:
             self._failed(self._trouble)
 
+    def _offer_ranges(self) -> None:
+        """Offer the loop and the selected range where there are any, and choose the one that was made last."""
+        selected, clock = self._session.selection.span, self._session.project.score.tempo_map
+        before, rows = self._offered, self._range.model()
+        self._offered = {
+            _LOOP: self._session.loop_s,
+            _SELECTION: None if selected is None else (clock.seconds(selected[0]), clock.seconds(selected[1])),
+        }
+        if self._running:
+            return
+        assert isinstance(rows, QStandardItemModel)
+        for name, span_s in self._offered.items():
+            row = self._range.findData(name)
+            rows.item(row).setEnabled(span_s is not None)
+            if span_s is not None and span_s != before.get(name):
+                self._range.setCurrentIndex(row)
+        if self._offered.get(self._range.currentData(), ()) is None:
+            self._range.setCurrentIndex(self._range.findData(_WHOLE))
+
     def _requested_span(self) -> FrameSpan:
         frame, fps = self._performance.time_frame, Fraction(self._rate.currentData())
-        span, clock = self._session.selection.span, self._session.project.score.tempo_map
-        if self._range.currentData() == _LOOP and self._session.loop_s is not None:
-            return cut_span(frame, fps, *self._session.loop_s)
-        if self._range.currentData() == _SELECTION and span is not None:
-            return cut_span(frame, fps, clock.seconds(float(span[0])), clock.seconds(float(span[1])))
-        return whole_span(frame, fps)
+        span_s = self._offered.get(self._range.currentData())
+        return whole_span(frame, fps) if span_s is None else cut_span(frame, fps, *span_s)
 
     def _choose_file(self) -> None:
         proposal = self._file.path or Path("film.mp4")

@@ -17,8 +17,12 @@ from app.editor.tasks import ThreadTasks
 from app.errors import AppError
 from app.project.cameras import View
 from tests.gui.conftest import quartet_project
+from tests.gui.timeline.hand import SHIFT, Hand
 from tests.support.windows import child, pause
 from widgets.dialogs.playblast import PlayblastDialog
+from widgets.timeline.lane import GUTTER_PX
+from widgets.timeline.ruler.time_ruler import MARKS_PX, Ruler
+from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 @pytest.fixture
@@ -51,7 +55,6 @@ def film(session: Session, path: Path, times: list[float], fails_at_s: float = 1
 
     dialog = PlayblastDialog(session, shoot, sound, path)
     dialog.show()
-    QTest.keyClick(child(dialog, QComboBox, "playblast_range"), Qt.Key.Key_Down)
     return dialog
 
 
@@ -93,3 +96,40 @@ def test_a_picture_that_cannot_be_drawn_ends_it_and_is_reported(
     qtbot.waitUntil(button.isEnabled)
     assert "of the test" in state.text()
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_range_made_last_is_offered_and_chosen(threaded: Session, tmp_path: Path) -> None:
+    threaded.set_loop(None)
+    dialog = film(threaded, tmp_path / "film.mp4", [])
+    ranges = child(dialog, QComboBox, "playblast_range")
+    assert ranges.currentText() == "Whole piece"
+    QTest.keyClick(ranges, Qt.Key.Key_Down)
+    assert ranges.currentText() == "Whole piece"
+    # Shift and a drag on the ruler, beside the open dialog.
+    axis = TimeAxis()
+    axis.show(0.0, 20.0)
+    ruler = Ruler(threaded, axis)
+    ruler.resize(1200, ruler.height())
+    ruler.show()
+    clock, hand = threaded.project.score.tempo_map, Hand(ruler)
+    places = [(GUTTER_PX + axis.x_px(time_s), MARKS_PX + 8.0) for time_s in (4.0, 9.0)]
+    hand.drag(*places, SHIFT)
+    assert threaded.selection.span is not None
+    assert ranges.currentText() == "Selection"
+    start_s, end_s = (clock.seconds(float(tick)) for tick in threaded.selection.span)
+    span = dialog._requested_span()
+    assert (span.first_frame_s, span.end_s) == pytest.approx((start_s, end_s), abs=1 / 30)
+    again = film(threaded, tmp_path / "film.mp4", [])
+    assert child(again, QComboBox, "playblast_range").currentText() == "Selection"
+    threaded.set_loop((2.0, 2.5))
+    assert ranges.currentText() == "Loop"
+    # Another choice stays until another range is made.
+    QTest.keyClick(ranges, Qt.Key.Key_Up)
+    assert ranges.currentText() == "Whole piece"
+    assert dialog._requested_span().count > 1000
+    hand.click(places[0])
+    assert ranges.currentText() == "Whole piece"
+    threaded.set_loop((2.0, 3.0))
+    assert ranges.currentText() == "Loop"
+    threaded.set_loop(None)
+    assert ranges.currentText() == "Whole piece"
