@@ -152,7 +152,9 @@ def _report(
         for player in (performer.player for performer in musician.performers):
             own = map(wording, musician.checked.messages) if player is musician.player else ()
             found = players[musician.player.id].problems[player.id]
-            lines, left = reported_lines(request.performance, player, found, wording, request.with_ignored)
+            lines, left = reported_lines(
+                request.performance, player, found, wording, request.with_ignored, request.bars
+            )
             warnings += [f"{player.name}: {line}" for line in (*own, *lines)]
             ignored += left
     rate = span.fps

@@ -20,7 +20,7 @@ from app.performance.ensemble import Performance
 from app.performance.motion import CHUNK, playing_of
 from app.performance.span import whole_span
 from app.plan.model import Problem
-from app.plan.problem_lines import Wording, problem_lines
+from app.plan.problem_lines import Wording, problem_lines, problems_in_bars
 from app.project.ignored_problems import split_by_ignored
 from app.project.performers import Player
 
@@ -150,6 +150,7 @@ def reported_lines(
     problems: tuple[Problem, ...],
     wording: Wording,
     with_ignored: bool = False,
+    bars: tuple[int, int] | None = None,
 ) -> tuple[list[str], int]:
     """Lines of a report for a player's problems, and the number of those left out because the project ignores them.
 
@@ -159,8 +160,12 @@ def reported_lines(
         All of the player, as `judged_problems` finds them.
     with_ignored : bool
         Leave none out.
+    bars : (int, int) or None
+        First and last bar that the report is about; None: the whole piece.
     """
     project = performance.project
+    if bars is not None:
+        problems = problems_in_bars(problems, project.score, player.part_id, bars)
     ignored = () if with_ignored else project.ignored_problems.get(player.id, ())
     counted, left = split_by_ignored(problems, ignored, project.score.tempo_map)
     lines = problem_lines(counted, project.score, wording, player.part_id, performance.instrument(player))

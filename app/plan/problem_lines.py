@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from typing import Final, TypeAlias
 
@@ -57,6 +58,32 @@ def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
 def problem_kind(problem: Problem) -> tuple[object, ...]:
     """The kind of a problem: equal for problems of a player that stand in one line."""
     return (problem.message.id, *(problem.message.arguments.get(name) for name in PARTS))
+
+
+def problems_in_bars(
+    problems: Iterable[Problem], score: Score, part_id: str | None, bars: tuple[int, int]
+) -> tuple[Problem, ...]:
+    """Problems in some bars, the first and the last included: their notes sound there, and those without a note last
+    there.
+
+    Parameters
+    ----------
+    part_id : str or None
+        As of `problem_lines`.
+    """
+    first_tick, stop_tick = score.metre_map.tick_of_bar(bars[0]), score.metre_map.tick_of_bar(bars[1] + 1)
+    # What lasts longer than the music belongs to the last bar.
+    last_tick = math.inf if stop_tick >= score.end_tick else stop_tick
+    clock, found = score.tempo_map, list[Problem]()
+    for problem in problems:
+        note = note_of(score, problem.note_id, part_id) if problem.note_id is not None else None
+        if note is not None:
+            start, end = float(note.onset_tick), float(note.end_tick)
+        else:
+            start, end = clock.ticks(problem.start_s), clock.ticks(problem.end_s)
+        if start < last_tick and (end > first_tick or start >= first_tick):
+            found.append(problem)
+    return tuple(found)
 
 
 def note_place(score: Score, note: Note) -> Message:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.errors import Message
 from app.messages import text
 from app.plan.model import Problem
-from app.plan.problem_lines import problem_lines
+from app.plan.problem_lines import problem_lines, problems_in_bars
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 
@@ -60,3 +60,17 @@ def test_the_places_listed_are_limited() -> None:
     (line,) = problem_lines([early(index) for index in range(60)], SCORE, text)
     assert "59 more times" in line
     assert line.endswith(", 11.1.000, ...")
+
+
+def test_problems_of_other_bars_are_left_out() -> None:
+    found = [early(index) for index in range(60)]
+    inside = problems_in_bars(found, SCORE, PART.id, (5, 8))
+    assert [problem.note_id for problem in inside] == [NOTES[index].id for index in range(16, 32)]
+    slip = Problem(Message("contact.lips_off", {"gap_mm": 3}), None, 4.25, 5.0)
+    assert problems_in_bars([slip], SCORE, PART.id, (3, 3)) == (slip,)
+    assert problems_in_bars([slip], SCORE, PART.id, (4, 9)) == ()
+    lasting = Problem(Message("character.no_lips", {}), None, -2.0, 60.0)
+    assert problems_in_bars([lasting], SCORE, PART.id, (9, 9)) == (lasting,)
+    # The last bar has what follows the last note.
+    late = Problem(Message("contact.lips_off", {"gap_mm": 3}), None, 31.0, 31.5)
+    assert problems_in_bars([late], SCORE, PART.id, (15, 15)) == (late,)
