@@ -7,6 +7,7 @@ from typing import Final
 WORDINGS: Final[dict[str, tuple[str, str]]] = {
     "camera.no_name": ("a camera needs a name", "カメラには名前が必要です"),
     "camera.name_taken": ("another camera is called {name}", "別のカメラが「{name}」という名前を使用しています"),
+    "camera.kept": ("camera “{name}” was saved", "カメラ「{name}」を保存しました"),
     "camera.unknown": (
         "there is no camera {name!r} in this piece; known: {known}",
         "この曲にカメラ {name!r} はありません。あるカメラ: {known}",

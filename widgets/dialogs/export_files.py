@@ -362,7 +362,7 @@ class ExportDialog(WorkingDialog):
             seen = foresee_folder(place, performance, ids, formats.formats, source, formats.sound, formats.stage)
         lines = []
         if seen.project is not None:
-            engine = self.tr("export_dialog.version_unknown") if seen.project.version is None else seen.project.engine
+            engine = "" if seen.project.version is None else f" {seen.project.engine}"
             lines.append(self.tr("export_dialog.unreal_engine").format(name=seen.project.name, engine=engine))
         lines.append(self.tr("export_dialog.files_that_will_be_written").format(count=seen.count))
         if seen.replaced:

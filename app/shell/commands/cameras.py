@@ -51,7 +51,7 @@ def _keep_as(session: Session, name: str) -> None:
     edit = partial(keep_camera, camera=eye.bookmark(name))
     if session.attempt(Message("edit.keep_camera", {"name": name}), edit):
         session.viewport.use_bookmark(name)
-        session.notice(Message("edit.keep_camera", {"name": name}))
+        session.notice(Message("camera.kept", {"name": name}))
 
 
 def _rename(session: Session) -> None:

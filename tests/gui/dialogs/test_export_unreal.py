@@ -103,6 +103,13 @@ def test_a_dancer_goes_into_the_project_alone(
     assert "SK_Ana.fbx" in outcome(dialog)
 
 
+def test_a_project_without_a_version_is_named_without_one(dialog: ExportDialog, game: Path) -> None:
+    (game / "Game.uproject").write_text(json.dumps({"FileVersion": 3}))
+    into_unreal(dialog)
+    place(dialog, str(game))
+    assert "Game (Unreal Engine)" in outcome(dialog)
+
+
 def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
     box = child(dialog, QCheckBox, "export_fbx")
     assert box.isVisible()

@@ -61,8 +61,7 @@ TEXTS: Final[dict[str, tuple[str, str]]] = {
         "ファイル形式を 1 つ以上選んでください。",
     ),
     "export_dialog.tick_at_least_one_player": ("Select at least one player.", "奏者を 1 人以上選んでください。"),
-    "export_dialog.unreal_engine": ("{name} (Unreal Engine {engine})", "{name}（Unreal Engine {engine}）"),
-    "export_dialog.version_unknown": ("unknown version", "バージョン不明"),
+    "export_dialog.unreal_engine": ("{name} (Unreal Engine{engine})", "{name}（Unreal Engine{engine}）"),
     "format_chooser.body_motion": ("{format} (body motion)", "{format}（体の動き）"),
     "format_chooser.characters_and_instruments": (
         "{format} (characters and instruments)",
