@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QBrush, QColor, QKeySequence, QShortcut
-from PySide6.QtWidgets import QTreeWidgetItem, QWidget
+from PySide6.QtGui import QBrush, QColor, QKeySequence, QShortcut, QShowEvent
+from PySide6.QtWidgets import QHeaderView, QStyle, QTreeWidgetItem, QWidget
 
 from app.editor.selection import Selection
 from app.editor.session import Session
@@ -29,6 +29,8 @@ from widgets.common.text import player_pitch
 _ALL = "all"
 _SIDE = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _COUNTS = slice(2, 6)
+MARGIN_PX = 16
+"""Beside a text of the first column, both sides together."""
 
 
 class _Row:
@@ -97,10 +99,10 @@ class ReimportChanges(Retranslated, QWidget):
         self._tree.currentItemChanged.connect(lambda item: self._show(item))
         self.setFocusProxy(self._tree)
         self._tree.addTopLevelItems([row.item for row in self._rows])
+        # The names decide on the width, not only the rows in sight.
+        self._tree.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Interactive)
         self._apply_filter(_ALL)
-        first = next((row for row in self._rows if row.shown), None)
-        if first is not None:
-            first.item.setExpanded(True)
+        self._begun = False
 
     def _rows_of(self, outcome: Reimport) -> list[_Row]:
         """The parts of the file, each with its player, count and check."""
@@ -190,6 +192,23 @@ class ReimportChanges(Retranslated, QWidget):
             return
         row = self._row_of(item)
         item.addChildren([QTreeWidgetItem(list(self._texts(row, change))) for change in row.shown])
+        self._widen([item.child(place).text(0) for place in range(item.childCount())])
+
+    def _widen(self, texts: Sequence[str]) -> None:
+        """Make the first column as wide as texts behind a check box need; it does not shrink."""
+        style, metrics = self._tree.style(), self._tree.fontMetrics()
+        box_px = style.pixelMetric(QStyle.PixelMetric.PM_IndicatorWidth, None, self._tree)
+        text_px = max(map(metrics.horizontalAdvance, texts), default=0)
+        needed = 2 * self._tree.indentation() + box_px + text_px + MARGIN_PX
+        self._tree.setColumnWidth(0, max(self._tree.columnWidth(0), needed))
+
+    def _begin(self) -> None:
+        """Open the first player with changes, if its rows leave the other players in sight."""
+        first = next((row for row in self._rows if row.shown), None)
+        if first is not None:
+            row_px = max(self._tree.visualItemRect(first.item).height(), 1)
+            if row_px * (len(self._rows) + len(first.shown)) <= self._tree.viewport().height():
+                first.item.setExpanded(True)
 
     def _step(self, step: int) -> Callable[[], None]:
         """Return what goes to the next change (1) or the one before (-1), through all players."""
@@ -285,6 +304,13 @@ class ReimportChanges(Retranslated, QWidget):
         if before.velocity != now.velocity:
             parts.append(tr("reimport_dialog.velocity_changed").format(before=before.velocity, now=now.velocity))
         return tr("reimport_dialog.and").join(parts)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        self._widen([row.name for row in self._rows])
+        if not self._begun:
+            self._begun = True
+            self._begin()
 
     def retranslate(self) -> None:
         """Word the rows again."""

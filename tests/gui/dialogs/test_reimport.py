@@ -243,3 +243,34 @@ def test_the_same_notes_elsewhere_only_change_which_file_is_used(
     dialog = dialog_of(session, qtbot, project, other)
     assert any("from now on" in label.text() for label in dialog.findChildren(QLabel))
     assert dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok).isEnabled()
+
+
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_names_are_whole_and_many_changes_leave_the_other_players_in_sight(
+    session: Session, qtbot: QtBot, language: str
+) -> None:
+    project = quartet_project()
+    changes: dict[int, dict[str, int] | None] = {
+        place: {"velocity": 9} for place in range(len(project.score.parts[0].notes))
+    }
+    session.document.open(project)
+    spoken = Language()
+    spoken.set(language)
+    try:
+        dialog = shown_dialog(session, reimport(project, file_with(project, 0, changes), bundled_maps()))
+        qtbot.addWidget(dialog)
+        dialog.show()
+        tree = child(dialog, QTreeWidget, "reimport_parts")
+        rows = [tree.topLevelItem(row) for row in range(tree.topLevelItemCount())]
+        room = tree.viewport().rect()
+        assert [room.contains(tree.visualItemRect(row)) for row in rows] == [True] * 4
+        needed = [tree.sizeHintForIndex(tree.indexFromItem(row)).width() + tree.indentation() for row in rows]
+        assert max(needed) <= tree.columnWidth(0)
+        # Opened by a key, it shows whole places too.
+        tree.setCurrentItem(rows[0])
+        QTest.keyClick(tree, Qt.Key.Key_Right)
+        assert rows[0].childCount() > 50
+        last = tree.indexFromItem(rows[0].child(rows[0].childCount() - 1))
+        assert tree.sizeHintForIndex(last).width() + 2 * tree.indentation() <= tree.columnWidth(0)
+    finally:
+        spoken.set("en")
