@@ -62,6 +62,8 @@ class FrontLanes(QObject):
         self._keyboard.take()
         self._players.request(stacked)
         self._pass_keyboard()
+        if self._players.active:
+            self._stack.bring_into_view(self._roll, at_top=True)
 
     def _show(self) -> None:
         """Bring the notes of the player in front into view, unless the mouse is at work in a lane of the player."""

@@ -13,7 +13,7 @@ from app.editor.tokens import SPLITTER_PX
 from widgets.common.icons import draw_grip
 from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.timeline.lane import FOLDED_PX, Lane
-from widgets.timeline.stacked_players import StackedPlayers
+from widgets.timeline.stacked_players import CAPTION_PX, StackedPlayers
 
 LINE_PX = 1
 """Below a lane that has only one height."""
@@ -199,8 +199,14 @@ class LaneStack(QScrollArea):
         most = max(int(ELASTIC_SHARE * self.viewport().height()), lane.least_height_px)
         return min(lane.needed_height_px, most)
 
-    def bring_into_view(self, lane: Lane) -> None:
-        """Scroll to a lane; one that is taller than what is in sight shows its beginning."""
+    def bring_into_view(self, lane: Lane, at_top: bool = False) -> None:
+        """Scroll to a lane; one that is taller than what is in sight shows its beginning.
+
+        Parameters
+        ----------
+        at_top : bool
+            Bring it to the top, under its player's name where there is one, as far as there are lanes below.
+        """
         # The lane may have been shown or unfolded just now.
         self.arrange()
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
@@ -211,6 +217,9 @@ class LaneStack(QScrollArea):
             return
         top = shown.mapTo(self._contents, QPoint(0, 0)).y()
         bottom = top + shown.height()
+        if at_top:
+            bar.setValue(top - CAPTION_PX if lane.isHidden() else top)
+            return
         bar.setValue(min(max(bar.value(), bottom - self.viewport().height()), top))
 
     def _bring_sender_into_view(self) -> None:

@@ -31,8 +31,10 @@ STACKED_IDS: Final = tuple(kind.id for kind in KINDS)
 MOST_STACKED: Final = 8
 """Players whose lanes are shown at once."""
 CAPTION_PX: Final = 26
-HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 96, FingeringLane.id: 48, BreathLane.id: 34}
-"""Heights by the lane's id, while the user set no other."""
+HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 80, FingeringLane.id: 32, BreathLane.id: 26}
+"""Heights by the lane's id, while the user set no other: lanes of two players are in sight at once."""
+LEAST_ROW_PX: Final = 3.5
+"""Height of a pitch in a low roll: two octaves rather than notes that are cut off."""
 MOST_ROLL_PX: Final = 260
 """Rolls grow to this height where there is room."""
 MOST_PX: Final = 600
@@ -124,6 +126,7 @@ class PlayerLanes(QObject):
             lane.plot.installEventFilter(self)
             lane.ask_height(HEIGHTS_PX[kind.id], HEIGHTS_PX[kind.id] // 2)
         self.roll.set_ghosts(Ghosts.ALONE)
+        self.roll.legible_row_px = LEAST_ROW_PX
 
     @property
     def roll(self) -> PianoRoll:

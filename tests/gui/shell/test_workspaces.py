@@ -78,6 +78,7 @@ def test_in_a_new_window_players_are_large_and_parameters_many(start: Start) -> 
         for id in ("roll", "fingering"):
             assert seen_wholly(timeline.lanes[id].header, timeline.stack.viewport()), id
         assert roll.height() >= 220
+        assert seen_wholly(timeline.lanes["breath"], timeline.stack.viewport())
         for player in program.session.project.players:
             program.session.set_players((player.id,))
             settle()
@@ -252,3 +253,25 @@ def test_states_that_are_none_are_passed_over(start: Start, settings: Settings, 
     settle()
     assert program.window.workspaces.current == "animate"
     assert shown(program) == SHOWN["animate"]
+
+
+def test_lanes_of_two_players_are_in_sight_when_they_are_stacked(start: Start) -> None:
+    program = at_size(start, 1600, 1000)
+    timeline, session = program.window.timeline, program.session
+    session.set_players(tuple(player.id for player in session.project.players[:2]))
+    trigger(program, "lanes.stacked")
+    settle()
+    assert timeline.stacking
+    room = timeline.stack.viewport()
+    first, second = timeline.players.shown
+    for place in (first, second):
+        for id, lane in place.lanes.items():
+            assert seen_wholly(lane, room), (place.session.player_id, id)
+        front = place.roll.model.front()
+        assert front is not None
+        table = front[0]
+        pitches = table.pitch[table.visible(timeline.axis.start_s, timeline.axis.end_s)]
+        bottom, top = place.roll.y_range
+        assert bottom <= pitches.min()
+        assert pitches.max() + 1 <= top
+    assert first.caption.mapTo(room, QPoint()).y() == 0

@@ -49,7 +49,7 @@ from widgets.timeline.roll.fingerings_on_notes import Labels
 from widgets.timeline.roll.keyboard import KEYBOARD_PX, Keyboard
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
-NEEDED_PX = 225
+NEEDED_PX = 221
 """Two octaves of notes that are 8 pixels high."""
 ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18
@@ -86,6 +86,8 @@ class PianoRoll(Lane):
         self._gesture: MouseGesture | None = None
         self._tool = Tool.SELECT
         self._velocity = FIRST_VELOCITY
+        self.legible_row_px = LEGIBLE_ROW_PX
+        """Height of a pitch at least, until the user scrolled or zoomed."""
         self._pitches_chosen = False
         """True once the user scrolled or zoomed the pitches; until then they suit the height of the lane."""
         super().__init__(session, axis, parent)
@@ -200,9 +202,9 @@ class PianoRoll(Lane):
         here = table.pitch[table.visible(self.axis.start_s, self.axis.end_s)]
         pitches = here if len(here) else table.pitch
         room_px = self.plot_rect.height()
-        if np.ptp(table.pitch) + 1 + self.marks.air_rows <= room_px / LEGIBLE_ROW_PX:
+        if np.ptp(table.pitch) + 1 + self.marks.air_rows <= room_px / self.legible_row_px:
             pitches = table.pitch
-        self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px))
+        self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px, self.legible_row_px))
 
     def bring_notes_into_view(self, note_ids: Iterable[str]) -> None:
         """Scroll to the pitches of notes of the player in front, if most of them are out of view."""
