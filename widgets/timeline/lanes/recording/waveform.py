@@ -28,7 +28,7 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 DRAG_PX = 3.0
 FINE = 0.1
 """Factor with Shift from the mouse's way to the offset's."""
-EMPTY_PX, LEAST_PX, PREFERRED_PX = 28, 32, 48
+EMPTY_PX, LEAST_PX, PREFERRED_PX = 26, 32, 48
 DECIMALS = 3
 
 
