@@ -31,7 +31,7 @@ STACKED_IDS: Final = tuple(kind.id for kind in KINDS)
 MOST_STACKED: Final = 8
 """Players whose lanes are shown at once."""
 CAPTION_PX: Final = 26
-HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 80, FingeringLane.id: 32, BreathLane.id: 26}
+HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 70, FingeringLane.id: 46, BreathLane.id: 26}
 """Heights by the lane's id, while the user set no other: lanes of two players are in sight at once."""
 LEAST_ROW_PX: Final = 3.5
 """Height of a pitch in a low roll: two octaves rather than notes that are cut off."""
