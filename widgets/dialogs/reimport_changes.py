@@ -191,8 +191,9 @@ class ReimportChanges(Retranslated, QWidget):
         if item.childCount():
             return
         row = self._row_of(item)
-        item.addChildren([QTreeWidgetItem(list(self._texts(row, change))) for change in row.shown])
-        self._widen([item.child(place).text(0) for place in range(item.childCount())])
+        texts = [self._texts(row, change) for change in row.shown]
+        item.addChildren([QTreeWidgetItem(list(both)) for both in texts])
+        self._widen([place for place, _ in texts])
 
     def _widen(self, texts: Sequence[str]) -> None:
         """Make the first column as wide as texts behind a check box need; it does not shrink."""
