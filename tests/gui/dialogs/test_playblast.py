@@ -113,7 +113,7 @@ def test_the_range_made_last_is_offered_and_chosen(threaded: Session, tmp_path: 
     ruler.show()
     clock, hand = threaded.project.score.tempo_map, Hand(ruler)
     places = [(GUTTER_PX + axis.x_px(time_s), MARKS_PX + 8.0) for time_s in (4.0, 9.0)]
-    hand.drag(*places, SHIFT)
+    hand.drag(places[0], places[1], SHIFT)
     assert threaded.selection.span is not None
     assert ranges.currentText() == "Selection"
     start_s, end_s = (clock.seconds(float(tick)) for tick in threaded.selection.span)
