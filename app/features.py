@@ -38,10 +38,9 @@ class Feature:
 
     Attributes
     ----------
-    messages, texts : str
-        The modules of its ``WORDINGS`` and, for the window, ``TEXTS``; empty, as all others: it has none.
     actions, actions_after : str
-        The module of its ``ACTIONS``, and the id of the action behind which they stand.
+        The module of its ``ACTIONS`` (empty, as all others: it has none), and the id of the action behind which they
+        stand.
     lanes, lanes_after : str
         The module of its ``LANES``, and the id of the lane below which they stand.
     players_section : str
@@ -53,8 +52,6 @@ class Feature:
     """
 
     id: str
-    messages: str = ""
-    texts: str = ""
     actions: str = ""
     actions_after: str = ""
     lanes: str = ""
@@ -67,8 +64,6 @@ class Feature:
 FEATURES: Final[tuple[Feature, ...]] = (
     Feature(
         id="evaluation",
-        messages="app.evaluation.messages",
-        texts="app.shell.evaluation.texts",
         actions="app.shell.evaluation.actions",
         actions_after="file.export_midi",
         sub_commands={
@@ -87,8 +82,6 @@ FEATURES: Final[tuple[Feature, ...]] = (
     ),
     Feature(
         id="choreography",
-        messages="app.choreography.messages",
-        texts="app.shell.choreography.texts",
         actions="app.shell.choreography.actions",
         actions_after="players.reset",
         lanes="widgets.timeline.lanes.choreography.dance_lane",

@@ -1,6 +1,6 @@
-"""Every message of the program: id -> templates in English and Japanese, filled with the message's arguments.
+"""Messages in words: the templates of an id (`app.messages.wordings`), filled with a message's arguments.
 
-The command line prints the English ones. One module per subject.
+The command line prints the English ones.
 """
 
 from __future__ import annotations
@@ -12,49 +12,11 @@ from typing import Final
 
 from app.encoding import shown
 from app.errors import AppError, Message
-from app.features import modules
-from app.messages import (
-    acting,
-    audio,
-    body,
-    capture,
-    corrections,
-    edit,
-    files,
-    formats,
-    marks,
-    midi_files,
-    notation,
-    notes,
-    parameters,
-    picture,
-    plan,
-    project,
-    record,
-    request,
-    score,
-    skeletons,
-    stream,
-    tables,
-    takes,
-    unreal,
-    work,
-)
-from app.messages.body import touch_name
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
-
-LANGUAGES: Final = {"en": "English", "ja": "日本語"}
-"""By code: the name in the language itself; the wordings are in this order."""
-_MODULES: Final = (
-    *(acting, audio, body, capture, corrections, edit, files, formats, marks, midi_files, notation, notes),
-    *(parameters, picture, plan, project, record, request, score, skeletons, stream, tables, takes, unreal, work),
-    *(module for _, module in modules("messages")),
-)
-WORDINGS: Final[dict[str, tuple[str, str]]] = {
-    id: wordings for module in _MODULES for id, wordings in module.WORDINGS.items()
-}
-
+from app.messages.wordings import CORRECTION, wording
+from app.messages.wordings import LANGUAGES as LANGUAGES
+from app.messages.wordings import WORDINGS as WORDINGS
 
 PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "note.pitch_outside": ("pitch", "low", "high"),
@@ -163,21 +125,31 @@ def filled(template: str, arguments: Mapping[str, object]) -> str:
 
 def text(message: Message, language: str = "en") -> str:
     """The message as a sentence, English unless another of `LANGUAGES` is asked for."""
-    place = list(LANGUAGES).index(language)
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = pitch_name(float(arguments[name]))
     for name in DETAILS & arguments.keys():
         arguments[name] = detail_text(str(arguments[name]), language)
-    if (kind := f"{corrections.PREFIX}{arguments.get('kind')}") in WORDINGS:
-        arguments["kind"] = WORDINGS[kind][place]
+    if (kind := f"{CORRECTION}{arguments.get('kind')}") in WORDINGS:
+        arguments["kind"] = wording(kind, language)
     if "touch" in arguments:
         arguments["touch"] = touch_name(str(arguments["touch"]), language)
     if "why" in arguments:
-        arguments["why"] = filled(WORDINGS[str(arguments["why"])][place], arguments)
-    for name in TEXTS & arguments.keys():
-        arguments[name] = WORDINGS.get(str(arguments[name]), (arguments[name],) * len(LANGUAGES))[place]
-    return filled(WORDINGS[message.id][place], arguments)
+        arguments["why"] = filled(wording(str(arguments["why"]), language), arguments)
+    for name in (name for name in TEXTS & arguments.keys() if arguments[name] in WORDINGS):
+        arguments[name] = wording(str(arguments[name]), language)
+    return filled(wording(message.id, language), arguments)
+
+
+def touch_name(part: str, language: str) -> str:
+    """The words for a part of a hand such as ``left.index.side``, as maps name it; what is unknown stays as it is."""
+    side, _, rest = part.partition(".")
+    name, _, place = rest.partition(".")
+    ids = f"touch_side.{side}", f"touch_part.{name}", f"touch_place.{place or 'pad'}"
+    if not WORDINGS.keys() >= set(ids):
+        return part
+    side, name, place = (wording(id, language) for id in ids)
+    return place.format(f"{side}の{name}" if language == "ja" else f"{side} {name}")
 
 
 def error_text(error: AppError) -> str:

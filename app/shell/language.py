@@ -3,35 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QObject, QTranslator, Signal
 
 from app.editor.translated import system_language
-from app.features import modules
 from app.messages import LANGUAGES, WORDINGS
-from app.shell.commands.texts import TEXTS as COMMANDS
-from app.shell.help.texts import TEXTS as HELP
-from app.shell.texts import TEXTS as SHELL
-from widgets.common.texts import TEXTS as COMMON
-from widgets.dialogs.texts import TEXTS as DIALOGS
-from widgets.inspector.texts import TEXTS as INSPECTOR
-from widgets.players.texts import TEXTS as PLAYERS
-from widgets.recording.texts import TEXTS as RECORDING
-from widgets.timeline.texts import TEXTS as TIMELINE
-from widgets.transport.texts import TEXTS as TRANSPORT
-from widgets.viewport.texts import TEXTS as VIEWPORT
+from app.messages.wordings import Wording, read_tables
+from app.plan.kinds import COMMAND_TEXTS, EVENT_TEXTS
 
-ROOMS: Final[tuple[Mapping[str, tuple[str, str]], ...]] = (
-    *(WORDINGS, COMMANDS, SHELL, HELP, COMMON, DIALOGS, INSPECTOR, PLAYERS, RECORDING, TIMELINE, TRANSPORT, VIEWPORT),
-    *(module.TEXTS for _, module in modules("texts")),
-)
-"""All texts: id -> one for each of `LANGUAGES`, in their order."""
-
-
-def english_text(text_id: str) -> str:
-    """The English text of an id, whatever language is shown."""
-    return next(room[text_id][0] for room in ROOMS if text_id in room)
+_SHELL: Final = Path(__file__).parent
+TEXTS: Final[Mapping[str, Wording]] = {
+    **WORDINGS,
+    **EVENT_TEXTS,
+    **COMMAND_TEXTS,
+    **read_tables(_SHELL, "texts"),
+    **read_tables(_SHELL.parents[1] / "widgets", "texts"),
+}
+"""All texts by id."""
 
 
 class Language(QObject):
@@ -109,7 +99,7 @@ class TextTranslator(QTranslator):
     def __init__(self, code: str) -> None:
         super().__init__()
         place = list(LANGUAGES).index(code)
-        self._texts = {id: wording[place] for room in ROOMS for id, wording in room.items()}
+        self._texts = {id: wording[place] for id, wording in TEXTS.items()}
         self._of_qt = _LACKING_IN_QT.get(code, {})
 
     def isEmpty(self) -> bool:

@@ -21,7 +21,7 @@ from app.editor.session import Session
 from app.shell.action import without_dots
 from app.shell.actions import ActionTable, sequences
 from app.shell.fuzzy import fitness
-from app.shell.language import english_text
+from app.shell.language import TEXTS
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.layouts import in_column
 
@@ -111,7 +111,7 @@ class Palette(Retranslated, QFrame):
                 recent = self._ran.index(action_id) if action_id in self._ran else len(self._ran)
                 scored.append((False, not action.isEnabled(), float(recent), order, action_id))
                 continue
-            menu, english = row.menu.replace("/", " "), without_dots(english_text(f"action.{action_id}"))
+            menu, english = row.menu.replace("/", " "), without_dots(TEXTS[f"action.{action_id}"][0])
             names = (without_dots(action.text()), english, f"{row.place} {action.text()}", menu)
             values = [fitness(query, name) for name in (*names[:3], f"{menu} {english}")]
             fits = [value - 0.5 * (place > 1) for place, value in enumerate(values) if value is not None]

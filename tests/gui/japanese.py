@@ -22,14 +22,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.shell.language import ROOMS, TextTranslator
+from app.shell.language import TEXTS, TextTranslator
 
 _FIELD = re.compile(r"{[^}|]*}")
 """Fields of a text; plurals ({count:note|notes}) are English."""
 _PARTS = re.compile(r"({[^}]*})")
 GUIDES = {"help_contents", "help_hits"}
 """Lists of headings and passages of the guides, which are in English where they are not translated."""
-ENGLISH = {english for room in ROOMS for english, japanese in room.values() if english != japanese}
+ENGLISH = {english for english, japanese in TEXTS.values() if english != japanese}
 
 
 @contextmanager

@@ -44,10 +44,9 @@ from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.storage import load, save
 from app.shell.commands.events import ACTIONS
-from app.shell.language import ROOMS
+from app.shell.language import TEXTS as texts
 from widgets.timeline.model.regions.acting_regions import GROUPS, STRIPS, Names, gesture_region
 
-texts = {id: wording for room in ROOMS for id, wording in room.items()}
 project = open_project(parser().parse_args(["inspect", "piece.mid"]))
 save(project, "piece.suisou")
 player = project.players[0].id
@@ -95,9 +94,8 @@ from app.project.document import Document
 from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.storage import load, save
-from app.shell.language import ROOMS
+from app.shell.language import TEXTS as texts
 
-texts = {id: wording for room in ROOMS for id, wording in room.items()}
 project = open_project(parser().parse_args(["inspect", "piece.mid"]))
 player = project.players[0].id
 def sniffs(project):

@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 
 from app.errors import Message
-from app.messages import LANGUAGES, WORDINGS, filled, text
-from app.messages.body import touch_name
+from app.messages import LANGUAGES, WORDINGS, filled, text, touch_name
 from instrument_maps.model import PARTS
 
 ROOT = Path(__file__).parents[2]
@@ -64,11 +63,11 @@ def found() -> list[tuple[str, ast.Call, str, set[str] | None]]:
 
 
 def strings(*folders: str) -> set[str]:
-    """Every text constant of the program but those of the templates themselves."""
+    """Every text constant of the program."""
     return {
         node.value
         for path in SOURCES
-        if path.parent.name != "messages" and path.relative_to(ROOT).parts[0] in folders
+        if path.relative_to(ROOT).parts[0] in folders
         for node in nodes(path)
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }

@@ -31,7 +31,7 @@ FIELDS: Final = {
     "weight": "field_name.weight",
     "channel": "additive_lane.channel",
     "seed": "parameter.seed",
-    "label": "correction.pin_fingering",
+    "label": "correction_kind.pin_fingering",
     **dict.fromkeys(("name", "title"), "import_dialog.name"),
     "pitch": "note_section.pitch",
     "velocity": "note_section.velocity",

@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.errors import Argument, Message
-from app.messages import DETAILS, PITCHES, WORDINGS, corrections, filled
+from app.messages import DETAILS, PITCHES, WORDINGS, filled
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
+from app.messages.wordings import CORRECTION, CORRECTIONS
 from app.plan.by_hand.additive_curve import CHANNELS
 from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.performers import Player
@@ -156,7 +157,7 @@ def parameter_text(text_id: str) -> str:
 
 
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
-    "kind": lambda: {id.removeprefix(corrections.PREFIX): tr(id) for id in corrections.WORDINGS},
+    "kind": lambda: {tag: tr(f"{CORRECTION}{tag}") for tag in CORRECTIONS},
     "target": _targets,
     "side": lambda: {"left": tr("word.left"), "right": tr("word.right")},
     "touch": _touches,

@@ -20,7 +20,7 @@ from app.evaluation.request import EvaluationRequest
 from app.messages import WORDINGS
 from app.performance.ensemble import Performance
 from app.project.model import Project
-from app.shell.language import ROOMS
+from app.shell.language import TEXTS
 from tests.gui.conftest import quartet_project
 from tests.support.windows import child
 from tests.unit.evaluation.test_keyframes import export_bvh
@@ -155,7 +155,7 @@ def test_bars_and_motion_from_elsewhere_are_asked_for(threaded: Session, tmp_pat
 
 def test_errors_name_controls_that_there_are() -> None:
     """In both languages, those of the results too, and no options."""
-    labels = {place: {text[place] for texts in ROOMS for text in texts.values()} for place in (0, 1)}
+    labels = {place: {text[place] for text in TEXTS.values()} for place in (0, 1)}
     for id, wordings in WORDINGS.items():
         if not id.startswith(("evaluate.", "results.")) or not id.endswith("_here"):
             continue

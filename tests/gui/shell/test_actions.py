@@ -15,7 +15,7 @@ from app.project.edit.piece import set_title
 from app.shell.action import without_dots, without_key
 from app.shell.actions import CONTEXTS, ActionTable, sequences
 from app.shell.app import Program
-from app.shell.language import ROOMS
+from app.shell.language import TEXTS
 from app.shell.menus import menu_with_keys
 from app.shell.rows import rows
 from app.shell.window import Window
@@ -23,8 +23,6 @@ from tests.gui.shell.conftest import trigger
 from tests.support.windows import show_in_front
 from widgets.common.actions import actions
 from widgets.players.choreography.dancers import MENU, DancersSection
-
-TEXTS = {id: text for room in ROOMS for id, text in room.items()}
 
 
 def test_the_table_is_sound() -> None:

@@ -14,8 +14,8 @@ from app.editor.translated import tr
 from app.editor.video_state import PLACEMENTS
 from app.editor.viewport_state import FOLLOWS
 from app.shell.app import Program
+from app.shell.language import TEXTS
 from app.shell.preferences import show_preferences
-from app.shell.texts import TEXTS
 from tests.gui.conftest import quartet_project
 from tests.support.tasks import ImmediateTasks
 

@@ -26,7 +26,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.settings import Settings
 from app.project.choreography_files import bundled_choreographies
 from app.shell.app import Program
-from app.shell.language import ROOMS
+from app.shell.language import TEXTS
 from app.shell.preferences import show_preferences
 from tests.gui.shell.conftest import trigger
 from widgets.common.actions import actions
@@ -156,7 +156,7 @@ def test_every_japanese_sign_can_be_drawn(program: Program) -> None:
     assert family is not None, "no Japanese font is installed"
     font = QRawFont.fromFont(QFont(family))
     signs: dict[str, str] = {}
-    for _, text in (wording for room in ROOMS for wording in room.values()):
+    for _, text in TEXTS.values():
         signs |= {sign: text for sign in text if ord(sign) > 0x7F}
     own = QRawFont.fromFont(program.window.font())
     undrawn = {

@@ -6,8 +6,8 @@ import pytest
 
 from app.editor.session import PitchDisplay
 from app.messages.pitches import pitch_name
+from app.shell.language import TEXTS
 from widgets.common.pitch import pitch_text
-from widgets.common.texts import TEXTS
 
 
 @pytest.mark.parametrize(

@@ -8,13 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from app.messages import LANGUAGES, WORDINGS
+from app.messages import LANGUAGES
 from app.shell.action import without_dots, without_key
-from app.shell.language import ROOMS
+from app.shell.language import TEXTS
 from app.shell.menus import BAR
 from app.shell.rows import rows
 
-TEXTS = {id: text for room in ROOMS for id, text in room.items()}
 ROOT = Path(__file__).parents[3]
 SHOWN = 40
 """So much of a path that is wrong is shown."""
@@ -60,7 +59,7 @@ def test_guides_name_menus_as_they_are(guide: Path) -> None:
 
 @pytest.mark.parametrize("place", [0, 1], ids=list(LANGUAGES))
 def test_messages_and_texts_name_menus_as_they_are(place: int) -> None:
-    texts = {id: wording[place] for room in (WORDINGS, *ROOMS) for id, wording in room.items()}
+    texts = {id: wording[place] for id, wording in TEXTS.items()}
     assert {id: found for id, text in texts.items() if (found := wrong(text, place))} == {}
 
 

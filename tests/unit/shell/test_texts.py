@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import string
+import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,12 +14,15 @@ from typing import get_args
 from app.messages import LANGUAGES, WORDINGS
 from app.plan.by_hand.corrections import REMOVABLE
 from app.plan.by_hand.events import PoseTarget
-from app.shell.language import ROOMS
+from app.plan.kinds import COMMAND_TEXTS, EVENT_TEXTS
+from app.shell.language import TEXTS
 from app.shell.rows import rows
 from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]
-TEXTS = {id: wording for room in ROOMS for id, wording in room.items()}
+FILES = [path for room in ("app", "widgets") for path in sorted((ROOT / room).rglob("*.toml"))]
+"""Tables of texts; Japanese details have another form."""
+TABLES = {path: tomllib.loads(path.read_text("utf-8")) for path in FILES if path.name != "japanese.toml"}
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
 )
@@ -39,16 +43,14 @@ def fields(text: str) -> set[tuple[str, str]]:
 
 
 def sources() -> Iterator[ast.AST]:
-    """Every node of the program but for the tables of texts."""
+    """Every node of the program."""
     for folder in ("app", "widgets"):
         for path in sorted((ROOT / folder).rglob("*.py")):
-            if path.name != "texts.py" and path.parent.name != "messages":
-                yield from ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+            yield from ast.walk(ast.parse(path.read_text(encoding="utf-8")))
 
 
 def test_every_text_is_there_in_both_languages_with_its_arguments() -> None:
     for id, wording in TEXTS.items():
-        assert len(wording) == len(LANGUAGES), id
         english, japanese = wording
         assert english.strip(), id
         assert japanese.strip(), id
@@ -56,18 +58,24 @@ def test_every_text_is_there_in_both_languages_with_its_arguments() -> None:
         assert ("&" in japanese) == ("&" in english), f"{id}: the mark of a key: {english!r} -> {japanese!r}"
 
 
-def test_no_id_is_given_twice() -> None:
-    counted = Counter(id for room in ROOMS for id in room)
+def test_every_id_stands_in_one_table() -> None:
+    """An id stands in one table, and each table where it is read, with a text in each language and nothing else."""
+    counted = Counter(id for table in TABLES.values() for id in table)
     assert [id for id, count in counted.items() if count > 1] == []
+    of_kinds = EVENT_TEXTS.keys() | COMMAND_TEXTS.keys()
+    assert counted.keys() == TEXTS.keys() - of_kinds
+    wordings = {id: wording for table in TABLES.values() for id, wording in table.items()}
+    assert [id for id, wording in wordings.items() if list(wording) != list(LANGUAGES)] == []
 
 
 def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
-    used, named, begun = set[str](), set[str](), set[str]()
+    used, named, around = set[str](), set[str](), set[tuple[str, str]]()
     for node in sources():
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             named.add(node.value)
         if isinstance(node, ast.JoinedStr) and node.values and isinstance(node.values[0], ast.Constant):
-            begun.add(str(node.values[0].value))
+            last = node.values[-1]
+            around.add((str(node.values[0].value), str(last.value) if isinstance(last, ast.Constant) else ""))
         if not isinstance(node, ast.Call) or not node.args:
             continue
         name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
@@ -83,8 +91,19 @@ def test_what_is_used_is_there_and_what_is_there_is_used() -> None:
     actions |= {f"menu.{part}" for row in rows() for part in row.menu.split("/") if part}
     actions.add("menu.open_recent")  # the window fills it
     assert used | actions <= TEXTS.keys()
-    composed = {id for id in TEXTS for start in begun if id.startswith(start) and id[len(start) :] in named}
+    composed = {
+        id
+        for id in TEXTS
+        for start, end in around
+        if id.startswith(start) and id.endswith(end) and id[len(start) :].removesuffix(end) in named
+    }
     assert TEXTS.keys() - WORDINGS.keys() <= named | composed | actions | {f"event.{kind}" for kind in KINDS} | NAMES
+
+
+def test_every_table_is_packed() -> None:
+    patterns = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["setuptools"]["package-data"]
+    packed = {path for room in ("app", "widgets") for pattern in patterns[room] for path in (ROOT / room).glob(pattern)}
+    assert packed >= set(FILES)
 
 
 def test_every_kind_and_bundled_name_is_called_something() -> None:

@@ -1,0 +1,62 @@
+"""Details of messages in words: faults of files, tables and projects, and reasons of the system (`japanese.toml`).
+
+The words of a library that the table lacks stay as they are.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import tomllib
+from collections.abc import Callable
+from functools import cache, partial
+from pathlib import Path
+from typing import Final, TypeAlias
+
+from app.messages.wordings import CORRECTION, CORRECTIONS, wording
+
+_NAME: Final = r"""('.*?'|".*?")"""
+_KIND: Final = "|".join(CORRECTIONS)
+_WHERE: Final = re.compile(
+    rf"(.*) \((?:(player|dancer) {_NAME})?(?:, )?(?:bar (-?\d+))?(?:, )?(?:\b({_KIND})(?: {_NAME})?)?\)"
+)
+Label: TypeAlias = Callable[[str, str], str]
+
+
+@cache
+def _japanese() -> tuple[dict[str, str], tuple[tuple[re.Pattern[str], str], ...]]:
+    """Read reasons of the system by its own words, and patterns of details, with their Japanese."""
+    table = tomllib.loads(Path(__file__).with_name("japanese.toml").read_text(encoding="utf-8"))
+    reasons = {os.strerror(getattr(errno, name, -1)): words for name, words in table["system"].items()}
+    return reasons, tuple((re.compile(pattern), words) for pattern, words in table["patterns"].items())
+
+
+def detail_text(detail: str, language: str, label: Label = lambda kind, name: name) -> str:
+    """The detail of a message in a language.
+
+    Parameters
+    ----------
+    label : callable
+        The name of a correction as the user knows it, by its kind and its name in the file.
+    """
+    place = _WHERE.fullmatch(detail)
+    if place is not None and any(place.groups()[1:]):
+        what, who, name, bar, kind, correction = place.groups()
+        said = [wording(f"detail.{who}", language).format(value=name)] if who else []
+        said += [wording("detail.bar", language).format(value=bar)] if bar else []
+        if kind:
+            word = wording(f"{CORRECTION}{kind}", language)
+            said.append(f"{word} {_labelled(correction, partial(label, kind))}" if correction else word)
+        where = wording("detail.comma", language).join(said)
+        return wording("detail.at", language).format(what=detail_text(what, language), where=where)
+    if language != "ja":
+        return detail
+    reasons, patterns = _japanese()
+    found = ((pattern.fullmatch(detail), words) for pattern, words in patterns)
+    return reasons.get(detail) or next((match.expand(words) for match, words in found if match), detail)
+
+
+def _labelled(quoted: str, label: Callable[[str], str]) -> str:
+    """A quoted name with what the user knows it by, in the same quotes."""
+    return f"{quoted[0]}{label(quoted[1:-1])}{quoted[-1]}"
