@@ -37,7 +37,7 @@ from metadata.load import load_expressions
 from metadata.model import Expression
 from metadata.rules import Rule
 
-__all__ = ["EnsemblePlan", "EnsemblePlanning", "MonophonicPart", "Piece", "make_plans", "plan_ensemble", "time_frame"]
+__all__ = ["EnsemblePlan", "EnsemblePlanning", "MonophonicPart", "Piece", "frame_around"]
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -50,25 +50,6 @@ AFTER_LAST_S = 6.0
 """Time to hold still, lower the instrument, look up and bow."""
 
 
-def time_frame(
-    lines: tuple[MonophonicPart, ...],
-    clock: TempoMap,
-    preroll_beats: float = PREROLL_BEATS,
-    beat_ticks: int | None = None,
-) -> TimeFrame:
-    """The performance's span: a pre-roll of some beats, at least 2 s, before the first note of all lines, to
-    `AFTER_LAST_S` after the last. Times before the first tick are negative. Without any note: around tick 0.
-
-    Parameters
-    ----------
-    beat_ticks : int or None
-        The felt beat; None is a quarter.
-    """
-    first = min((line.notes[0].onset_tick for line in lines if line.notes), default=0)
-    last = max((note.onset_tick + note.duration_tick for line in lines for note in line.notes), default=0)
-    return frame_around(first, last, clock, preroll_beats, beat_ticks)
-
-
 def frame_around(
     first_tick: int,
     last_tick: int,
@@ -76,7 +57,14 @@ def frame_around(
     preroll_beats: float = PREROLL_BEATS,
     beat_ticks: int | None = None,
 ) -> TimeFrame:
-    """The same of a piece that sounds from one tick to another."""
+    """The span of a performance that sounds from one tick to another: from a pre-roll of some beats, at least
+    `PREROLL_LEAST_S`, before the first to `AFTER_LAST_S` after the last. Times before the first tick are negative.
+
+    Parameters
+    ----------
+    beat_ticks : int or None
+        The felt beat; None is a quarter.
+    """
     beat = beat_ticks or clock.ticks_per_quarter
     first_s = clock.seconds(float(first_tick))
     # The start is given in the tempo that begins, whatever the one before it is.
@@ -121,43 +109,6 @@ class EnsemblePlan(NamedTuple):
             results.close()
 
 
-def make_plans(
-    piece: Piece,
-    lines: tuple[MonophonicPart, ...],
-    frame: TimeFrame,
-    seed: int = 0,
-    expressions: Mapping[str, Expression] | None = None,
-) -> dict[str, PlayerPlan]:
-    """Plan every line of the ensemble, in order; see `plan_ensemble`."""
-    return plan_ensemble(piece, lines, frame, seed, expressions=expressions).plans
-
-
-def plan_ensemble(
-    piece: Piece,
-    lines: tuple[MonophonicPart, ...],
-    frame: TimeFrame,
-    seed: int = 0,
-    *,
-    expressions: Mapping[str, Expression] | None = None,
-    rules: tuple[Rule, ...] | None = None,
-    gestures: Mapping[str, Gesture] | None = None,
-    places: Mapping[str, StagePlace] | None = None,
-    before: EnsemblePlan | None = None,
-) -> EnsemblePlan:
-    """Plan every line of the ensemble, in order; parameters are those of `EnsemblePlanning`."""
-    return EnsemblePlanning(
-        piece,
-        lines,
-        frame,
-        seed,
-        expressions=expressions,
-        rules=rules,
-        gestures=gestures,
-        places=places,
-        before=before,
-    ).finished()
-
-
 class EnsemblePlanning:
     """Plans of an ensemble in the making, one player after another in any order: the plans are the same in each.
 
@@ -166,7 +117,7 @@ class EnsemblePlanning:
     Parameters
     ----------
     frame : TimeFrame
-        From `time_frame` (or a longer one).
+        From `frame_around` (or a longer one).
     expressions, rules, gestures : optional
         What players show and do by rules, and what rules and the animator may name: the bundled ones by default.
     places : mapping of str to StagePlace, optional

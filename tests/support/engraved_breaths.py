@@ -10,13 +10,13 @@ from typing import Any
 
 import msgspec
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.music.piece import Piece, line_times
 from app.plan.parameters import PlayerParameters
 from app.score.felt_beat import felt_beats
 from app.score.metre_map import Metre, MetreMap
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainNote
+from tests.support.plan import PlainClock, PlainNote, make_plans, time_frame
 
 FILE = Path(__file__).parents[1] / "data" / "breaths" / "engraved.json"
 TICKS = 480

@@ -1,4 +1,4 @@
-"""Small ideal instruments, notes and clocks for the plan's tests: nothing here reads a file or knows the score.
+"""Small ideal instruments, notes, clocks and whole plans for the plan's tests: nothing here reads a file.
 
 The instruments are made from acoustics alone (harmonics of tubes), so that they are independent of the bundled maps.
 """
@@ -10,7 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from app.plan.music.piece import Piece
+from app.plan.generate import EnsemblePlanning, frame_around
+from app.plan.model import PlayerPlan, TimeFrame
+from app.plan.music.piece import MonophonicPart, Piece
 from app.score.metre_map import Metre, MetreMap
 from instrument_maps.hold import Carriage, Hold, LoweredPlace
 from instrument_maps.model import Control, ControlMotion, Fingering, InstrumentMap, InstrumentName, Range
@@ -157,3 +159,17 @@ def slide() -> InstrumentMap:
         id="slide", name=InstrumentName("Slide", "Slide"), short_name="slide", plays=(), transposition_semitones=0,
         range=Range(40, 70, 46, 65), controls=controls_, fingerings=tuple(fingerings), **FRAME,
     )  # fmt: skip
+
+
+def time_frame(lines: tuple[MonophonicPart, ...], clock: Any, *preroll_beats: float, **options: Any) -> TimeFrame:
+    """The performance's span around the notes of all lines; without any, around tick 0."""
+    first = min((line.notes[0].onset_tick for line in lines if line.notes), default=0)
+    last = max((note.onset_tick + note.duration_tick for line in lines for note in line.notes), default=0)
+    return frame_around(first, last, clock, *preroll_beats, **options)
+
+
+def make_plans(
+    piece: Piece, lines: tuple[MonophonicPart, ...], frame: TimeFrame, seed: int = 0, **options: Any
+) -> dict[str, PlayerPlan]:
+    """Plan every line of the ensemble, in order; options are those of `EnsemblePlanning`."""
+    return EnsemblePlanning(piece, lines, frame, seed, **options).finished().plans

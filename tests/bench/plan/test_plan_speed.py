@@ -8,11 +8,11 @@ import pytest
 
 from app.plan.fingering.costs import fingering_problem
 from app.plan.fingering.search import best_path
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.music.piece import line_times
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, even, piece_of
+from tests.support.plan import PlainClock, even, make_plans, piece_of, time_frame
 from tests.support.woodwinds import many_keys
 
 pytestmark = pytest.mark.bench

@@ -26,7 +26,7 @@ from app.plan.by_hand.corrections import (
     SetEmbouchure,
     Vary,
 )
-from app.plan.generate import plan_ensemble, time_frame
+from app.plan.generate import EnsemblePlanning
 from app.plan.music.piece import MonophonicPart, Piece
 from app.plan.parameters import PlayerParameters
 from app.project.model import Project
@@ -35,6 +35,7 @@ from app.score.model import ControllerCurve, Note
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
 from tests.property.performance.edits import QUARTER, piece
+from tests.support.plan import make_plans, time_frame
 
 KEPT = frozenset({"id", "kind", "target", "ticks_per_quarter", "schema_version", "map_id", "part_id", "read_notes"})
 """Ids, and what says which sort of thing it is: another one is another thing."""
@@ -193,7 +194,7 @@ def test_a_semitone_that_breaks_a_figure_moves_the_breaths_after_an_edit_too(ind
     notes[index] = msgspec.structs.replace(notes[index], pitch=notes[index].pitch + semitones)
     edited = msgspec.structs.replace(line, notes=tuple(notes))
     frame = time_frame((line,), clock)
-    before = plan_ensemble(whole, (line,), frame)
-    cold = plan_ensemble(whole, (edited,), frame).plans
-    assert plan_ensemble(whole, (edited,), frame, before=before).plans == cold
+    before = EnsemblePlanning(whole, (line,), frame).finished()
+    cold = make_plans(whole, (edited,), frame)
+    assert EnsemblePlanning(whole, (edited,), frame, before=before).finished().plans == cold
     assert before.plans["p"].breaths != cold["p"].breaths

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from app.plan.breath.catch_breath_lengths import CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_PLAYED_S
 from app.plan.breath.lungs import FULL_BREATH_S
-from app.plan.generate import MonophonicPart, Piece, make_plans, time_frame
+from app.plan.generate import MonophonicPart, Piece
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainNote, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, make_plans, piece_of, time_frame, valves
 
 TUPLES = ("fingerings", "breaths", "tongues", "embouchures", "cues", "gestures", "expressions")
 MAPS = (valves(), *bundled_maps().values())

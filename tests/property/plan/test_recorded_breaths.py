@@ -9,13 +9,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from app.performance.loudness import controller_input, note_loudness, sounding_curve
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.music.breath_controller import GASP_S
 from app.plan.parameters import PlayerParameters
 from app.score.model import ControllerCurve, Note, Part
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO
-from tests.support.plan import piece_of
+from tests.support.plan import make_plans, piece_of, time_frame
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 LEFT_OUT = {"breath.catch_dropped": 1, "breath.catch_dropped_two": 2}

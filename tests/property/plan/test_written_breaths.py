@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 
 from app.plan.breath.catch_breath_places import AIR_STEPS, BREAKING_COST, cheapest_chain
 from app.plan.breath.lungs import lungful_s
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.marks import Mark, Source
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, PlainNote, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock(((0, 100.0),))

@@ -7,12 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.plan.by_hand.corrections import PinFingering
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.score.marks import Mark
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
-from tests.support.plan import PlainClock, PlainNote, piece_of
+from tests.support.plan import PlainClock, PlainNote, make_plans, piece_of, time_frame
 
 MAPS = bundled_maps()
 CLOCK = PlainClock(((0, 120.0),))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from app.editor.selection import UNPLANNED, EventKey, Selection
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, line_of, piece_of, valves
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame, valves
 
 
 def selected(*ids: str) -> Selection:

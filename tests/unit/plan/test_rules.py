@@ -7,7 +7,7 @@ import pytest
 from msgspec.structs import replace
 
 from app.plan.by_hand.corrections import AddExpression, AddGesture, ChangeGesture, RemoveEvent
-from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.gestures.named_gestures import fitted
 from app.plan.model import PlayerPlan
 from app.plan.music.dynamics import dynamics_of
@@ -18,7 +18,7 @@ from metadata.gestures import AngleKey, AngleTrack, Gesture
 from metadata.library import _all_rules, bundled_gestures, bundled_rules
 from metadata.rules import Do, Rule, RuleSet, When, rule_faults
 from metadata.tables import Title
-from tests.support.plan import PlainClock, line_of, piece_of, valves
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()
@@ -38,10 +38,10 @@ NOD = Gesture(
 
 
 def plan(*rules: Rule, line: MonophonicPart = LINE, gesture: Gesture = NOD) -> PlayerPlan:
-    made = plan_ensemble(
+    made = make_plans(
         PIECE, (line,), time_frame((line,), CLOCK), rules=rules, gestures={gesture.name: gesture, "shrug": gesture}
     )
-    return made.plans["p"]
+    return made["p"]
 
 
 def found(when: When) -> list[int]:

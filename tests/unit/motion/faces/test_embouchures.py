@@ -12,7 +12,7 @@ import pytest
 
 from app.arrays import BoolArray, FloatArray
 from app.motion.model import Motion
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
@@ -31,7 +31,7 @@ from metadata.load import load_body
 from tests.support.deformed import deform
 from tests.support.models import bundled_instrument
 from tests.support.performed import perform
-from tests.support.plan import PlainClock, line_of, piece_of
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame
 
 KINDS = {
     # Kind, what is between the lips, how far the instrument hangs down.

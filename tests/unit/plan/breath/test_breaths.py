@@ -11,12 +11,12 @@ import pytest
 from app.messages import LANGUAGES, text
 from app.plan.breath.catch_breath_lengths import CATCH_MAX_S, CATCH_MIN_S, CATCH_NOTE_SHARE, LEAST_SOUNDING_S
 from app.plan.by_hand.corrections import RemoveEvent, SetBreath
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from instrument_maps.wind import Air
-from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, even, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 METRE = (Metre(0, 4, 4),)

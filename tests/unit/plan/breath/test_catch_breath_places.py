@@ -10,11 +10,11 @@ import pytest
 
 from app.plan.breath.catch_breath_places import cheapest_chain
 from app.plan.breath.lungs import FULL_BREATH_S
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from tests.support.engraved_breaths import marked_lines, share_at_phrase_ends
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 

@@ -8,13 +8,13 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.plan.music.notation import notated
 from app.plan.music.piece import MEZZOFORTE, line_times, marked_loudness
 from app.plan.music.rests import rest_ticks
 from app.plan.parameters import PlayerParameters
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 BPM = 66.0

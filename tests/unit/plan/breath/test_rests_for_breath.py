@@ -11,14 +11,14 @@ from hypothesis import strategies as st
 
 from app.messages import LANGUAGES, text
 from app.plan.breath.rests_for_breath import breathed_in, rest_needs
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.plan.music.piece import line_times
 from app.plan.music.rests import rest_ticks
 from app.plan.parameters import PlayerParameters
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 LUNG_S = 9.0

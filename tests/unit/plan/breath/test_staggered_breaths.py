@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 from app.plan.breath import staggered_breaths
 from app.plan.breath.staggered_breaths import Place, SharedLine, after_holds, caught_in_unison
 from app.plan.by_hand.corrections import Correction, PinFingering, RemoveEvent, SetBreath
-from app.plan.generate import MonophonicPart, make_plans, plan_ensemble, time_frame
+from app.plan.generate import EnsemblePlanning, MonophonicPart
 from app.plan.model import PlayerPlan
 from app.plan.music.fermatas import Fermata
 from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, line_of, piece_of, valves
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 METRES = (Metre(0, 4, 4),)
@@ -114,17 +114,17 @@ def test_what_others_keep_clear_of_is_found_again_only_for_who_breathes_elsewher
         for number, rows in enumerate(parts, 1)
     ]
     piece, frame = piece_of(clock, METRES), time_frame(tuple(lines), clock)
-    before = plan_ensemble(piece, tuple(lines), frame)
+    before = EnsemblePlanning(piece, tuple(lines), frame).finished()
     note = lines[0].notes[9]
     events = before.plans["p1"].fingerings
     other = next(event.label for event in events if event.label != events[9].label)
     ASKED.clear()
     monkeypatch.setattr(staggered_breaths, "caught_in_unison", counting)
     lines[0] = msgspec.structs.replace(lines[0], corrections=(PinFingering(note.id, other),))
-    after = plan_ensemble(piece, tuple(lines), frame, before=before)
+    after = EnsemblePlanning(piece, tuple(lines), frame, before=before).finished()
     assert not ASKED
     lines[2] = msgspec.structs.replace(lines[2], corrections=(SetBreath(lines[2].notes[9].id, -240),))
-    last = plan_ensemble(piece, tuple(lines), frame, before=after)
+    last = EnsemblePlanning(piece, tuple(lines), frame, before=after).finished()
     elsewhere = [n for n in range(5) if caught(last.plans[f"p{n + 1}"]) != caught(after.plans[f"p{n + 1}"])]
     assert elsewhere[0] == 2
     assert len(ASKED) == sum(4 - n for n in elsewhere) < 10

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.marks import Mark, Source
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock(((0, 120.0),))

@@ -17,10 +17,10 @@ from app.plan.by_hand.corrections import (
     SetCue,
     SetEmbouchure,
 )
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import pytest
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.score.metre_map import Metre
 from app.score.model import Note, sounding_spans
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
-from tests.support.plan import piece_of
+from tests.support.plan import make_plans, piece_of, time_frame
 
 Q = 480
 MAPS = bundled_maps()

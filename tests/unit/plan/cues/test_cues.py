@@ -6,12 +6,12 @@ import pytest
 
 from app.plan.cues.cues import plan_cues
 from app.plan.cues.entries import Entry
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import CueEvent
 from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, line_of, piece_of, slide, valves
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, slide, time_frame, valves
 
 Q = 480
 HIGH = MonophonicPart("high", line_of((0, 4 * Q, 72), (16 * Q, Q, 70), track=1), valves())

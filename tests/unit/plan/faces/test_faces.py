@@ -7,14 +7,14 @@ import pytest
 
 from app.chance import chance
 from app.plan.by_hand.corrections import ChangeExpression, RemoveEvent
-from app.plan.generate import AFTER_LAST_S, MonophonicPart, make_plans, time_frame
+from app.plan.generate import AFTER_LAST_S, MonophonicPart
 from app.plan.lips.tonguing import TONGUE_S
 from app.plan.model import ExpressionEvent, PlayerPlan
 from app.plan.music.piece import MEZZOFORTE, line_times
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, slide, valves
+from tests.support.plan import PlainClock, PlainNote, even, line_of, make_plans, piece_of, slide, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()

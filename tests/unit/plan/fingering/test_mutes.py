@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from app.messages import WORDINGS
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.score.metre_map import Metre
 from app.score.mutes import NAMED
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, even, piece_of
+from tests.support.plan import PlainClock, even, make_plans, piece_of, time_frame
 
 Q = 480
 BAR = 4 * Q

@@ -11,14 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import Message
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.gestures.gestures import ARCH, RELEASE, in_order
 from app.plan.gestures.lowered_instrument import LOWER_S, LOWERED_LEAST_S, RAISE_S
 from app.plan.gestures.sways import STIR_S
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, even, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()

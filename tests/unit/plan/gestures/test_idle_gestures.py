@@ -8,13 +8,13 @@ import pytest
 
 from app.plan.by_hand.corrections import AddGesture, ChangeGesture, Correction, RemoveEvent, SetCue
 from app.plan.faces.glances import StagePlace, bearing_rad
-from app.plan.generate import AFTER_LAST_S, COME_UP_S, plan_ensemble, time_frame, usual_preroll
+from app.plan.generate import AFTER_LAST_S, COME_UP_S, usual_preroll
 from app.plan.gestures.idle_gestures import LONG_REST_S
 from app.plan.gestures.lowered_instrument import LOWER_S, RAISE_S
 from app.plan.model import AUDIENCE, GestureEvent, PlayerPlan
 from app.plan.music.piece import MonophonicPart
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, line_of, piece_of, slide, valves
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, slide, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()
@@ -34,7 +34,7 @@ def lines(corrections: tuple[Correction, ...] = ()) -> tuple[MonophonicPart, ...
 def plans(corrections: tuple[Correction, ...] = (), seed: int = 0) -> dict[str, PlayerPlan]:
     played = lines(corrections)
     frame = time_frame(played, CLOCK, usual_preroll(0.5))
-    return plan_ensemble(PIECE, played, frame, seed, places=PLACES).plans
+    return make_plans(PIECE, played, frame, seed, places=PLACES)
 
 
 def of_kind(plan: PlayerPlan, kind: str) -> list[GestureEvent]:
@@ -127,7 +127,7 @@ def test_in_a_long_rest_they_look_about_and_count_while_the_instrument_is_down()
 
 def test_a_short_rest_leaves_no_time_for_it() -> None:
     line = MonophonicPart("p", line_of((0, Q, 65), (15 * Q, Q, 65)), valves())
-    plan = plan_ensemble(PIECE, (line,), time_frame((line,), CLOCK)).plans["p"]
+    plan = make_plans(PIECE, (line,), time_frame((line,), CLOCK))["p"]
     assert of_kind(plan, "lower_instrument")[0].end_s < 7.5
     assert not [event for event in plan.gestures if event.kind in ("count", "look_about", "settle_grip")]
 
@@ -167,5 +167,5 @@ def test_what_is_done_beside_playing_can_be_placed_moved_and_removed() -> None:
 def test_a_pre_roll_of_two_seconds_stays_as_it_was() -> None:
     assert COME_UP_S > 2.0
     played = lines()
-    made = plan_ensemble(PIECE, played, time_frame(played, CLOCK)).plans
+    made = make_plans(PIECE, played, time_frame(played, CLOCK))
     assert not [event for event in of_kind(made["high"], "lower_instrument") if event.start_s < 0.0]

@@ -7,14 +7,14 @@ import itertools
 import numpy as np
 import pytest
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.gestures.feet import FOOT_KINDS, lifted_s
 from app.plan.gestures.sways import BLOCK, pulse, swings_of
 from app.plan.model import ACCENT_AT, GestureEvent, PlayerPlan, TimeFrame
 from app.plan.music.dynamics import dynamics_of
 from app.plan.music.piece import Seeds
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, PlainNote, even, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, even, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.score.marks import Mark
 from app.score.metre_map import Metre
 from instrument_maps.load import bundled_maps
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame
 
 Q = 480
 COMMON = Metre(0, 4, 4)

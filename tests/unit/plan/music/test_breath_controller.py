@@ -11,7 +11,7 @@ from app.arrays import BoolArray
 from app.performance.loudness import controller_input, note_loudness
 from app.plan.breath.lungs import air_used_s
 from app.plan.by_hand.corrections import RemoveEvent, SetBreath
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import BreathEvent, PlayerPlan
 from app.plan.music.breath_controller import BLOWS_FROM, STOPS_AT, blown, find_gaps, silences
 from app.plan.music.piece import line_times
@@ -19,7 +19,7 @@ from app.plan.parameters import PlayerParameters
 from app.score.model import ControllerCurve, Part
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO, Blow, breath_curve, take, ticks
-from tests.support.plan import piece_of
+from tests.support.plan import make_plans, piece_of, time_frame
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 

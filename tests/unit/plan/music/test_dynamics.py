@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.motion.gestures.layers import LAYERS, Layers
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.gestures.gestures import ARCH, RELEASE
 from app.plan.model import PlayerPlan
 from app.plan.music.dynamics import amount_at_vigour, mean_around, vigour_of
 from app.plan.music.piece import ControllerInput, ControllerSteps
 from app.score.metre_map import Metre
 from metadata.load import load_body
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock()

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.plan.music.dynamics_within_notes import ATTACK_S, FALL_S, dynamics_within
 from app.plan.music.piece import line_times
 from app.plan.music.velocity_ladders import DYNAMICS, LEVELS
 from app.score.marks import Mark, Source
-from tests.support.plan import PlainClock, PlainNote, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, make_plans, piece_of, time_frame, valves
 
 Q = 480
 CLOCK = PlainClock(((0, 60.0),))

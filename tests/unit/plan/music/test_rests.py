@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.music.piece import line_times
 from app.plan.music.rests import rest_ticks
 from app.plan.parameters import PlayerParameters
 from app.score.felt_beat import felt_beat_ticks
 from app.score.metre_map import Metre
-from tests.support.plan import PlainClock, PlainNote, line_of, piece_of, valves
+from tests.support.plan import PlainClock, PlainNote, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
-from tests.support.plan import PlainClock, line_of, piece_of, valves
+from app.plan.generate import MonophonicPart
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
 

@@ -7,12 +7,12 @@ import pytest
 
 from app.contacts.controls import NoteFrames
 from app.motion.fingering.control_curves import control_curves
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.model import PlayerPlan
 from app.score.marks import Mark
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
-from tests.support.plan import PlainClock, PlainNote, piece_of
+from tests.support.plan import PlainClock, PlainNote, make_plans, piece_of, time_frame
 
 Q = 480
 CLOCK = PlainClock(((0, 60.0),))

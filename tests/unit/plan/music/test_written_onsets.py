@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.plan.generate import MonophonicPart, make_plans, time_frame
+from app.plan.generate import MonophonicPart
 from app.plan.music.notation import DIVISIONS, notated, simplest_places, written_onsets
 from app.plan.music.piece import line_times
-from tests.support.plan import PlainClock, line_of, piece_of, valves
+from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame, valves
 
 QUARTER = 480
 BARS = np.arange(0, 9600, 4 * QUARTER)
