@@ -11,6 +11,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.plan.music.velocity_ladders import (
+    COMMON,
     DEFAULTS,
     LADDERS,
     LEVELS,
@@ -18,6 +19,7 @@ from app.plan.music.velocity_ladders import (
     LILYPOND_RANGES,
     MARKS,
     MF,
+    SET_RANGES,
     SHARES,
     UNMARKED_STEP,
     articulated,
@@ -35,6 +37,9 @@ that grow or fade, or where they are so many velocities apart."""
 _OWN_RANGE: Final = 6.0
 """By so much (a logarithm of likelihood) another instrument's range must explain a part better than its own; that of no
 instrument a whole piece."""
+_SET_RANGE, _SET_LEVELS, _SET_SHARE = 12.0, 3, 0.6
+"""By so much a range that a score sets itself must explain it better; so many levels, and so many of their notes, must
+be its marks exactly."""
 _PASSED: Final = 0.1
 """Share of the notes that stand at the end of a hairpin which leads to no mark."""
 
@@ -75,7 +80,7 @@ def recognised(written: Sequence[tuple[IntArray, int | None]]) -> tuple[str, boo
         total = ladder_of(one, None).usual
         for found, program in levels:
             wrote = _written_as(one, found, program)
-            total += _gain(one, wrote, found) - (_OWN_RANGE if wrote != program else 0.0)
+            total += _gain(one, wrote, found) - _range_cost(wrote, program)
         if total > best:
             best, name, whole = total, one, False
     if any(program in LILYPOND_RANGES for _, program in levels):
@@ -92,17 +97,38 @@ def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
 
 
 def _written_as(name: str, levels: dict[int, int], program: int | None, whole_range: bool = False) -> int | None:
-    """The program in whose range LilyPond wrote a part: its own, or that of an instrument it was written for before."""
+    """The program in whose range LilyPond wrote a part: its own, that of an instrument it was written for before, or a
+    range that the score sets."""
     if name != LILYPOND:
         return program
     if whole_range:
         return None
-    own = _gain(name, program, levels) + _OWN_RANGE
-    other = max((None, *LILYPOND_RANGES), key=lambda one: _gain(name, one, levels))
-    return other if _gain(name, other, levels) > own else program
+    ranges = (program, None, *LILYPOND_RANGES, *(one for one in SET_RANGES if _may_be_set(one, levels, program)))
+    return max(ranges, key=lambda one: _gain(name, one, levels) - _range_cost(one, program))
+
+
+def _may_be_set(one: int, levels: dict[int, int], program: int | None) -> bool:
+    """Decide whether enough levels are the marks of a range exactly, and more than twice those of the usual ranges;
+    what hairpins and articulations reach always is some."""
+    marked = [count for at, count in levels.items() if count >= RUN and at in _marks_of(one)]
+    plain = max(sum(levels[at] for at in levels.keys() & _marks_of(own)) for own in (program, None))
+    return len(marked) >= _SET_LEVELS and sum(marked) >= max(_SET_SHARE * sum(levels.values()), 2.0 * plain)
 
 
 @lru_cache(maxsize=128)
+def _marks_of(program: int | None) -> frozenset[int]:
+    """Velocities of *pp* to *ff* in one of LilyPond's ranges."""
+    return frozenset(at for mark, at in ladder_of(LILYPOND, program).steps if mark in COMMON)
+
+
+def _range_cost(wrote: int | None, program: int | None) -> float:
+    """Return what speaks against a range other than that of the instrument."""
+    if wrote == program:
+        return 0.0
+    return _SET_RANGE if wrote in SET_RANGES else _OWN_RANGE
+
+
+@lru_cache(maxsize=256)
 def _gains(name: str, program: int | None) -> tuple[float, ...]:
     """(128,): logarithm of how much likelier each velocity is on a ladder than anywhere."""
     ladder = ladder_of(name, program)

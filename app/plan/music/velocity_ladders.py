@@ -13,6 +13,8 @@ DYNAMICS: Final = (
     ("ppp", 16), ("pp", 33), ("p", 49), ("mp", 64), ("mf", 80), ("f", 96), ("ff", 112), ("fff", 126)
 )  # fmt: skip
 """Dynamic marks and the velocities that stand for them here; they are MuseScore's."""
+COMMON: Final = ("pp", "p", "mp", "mf", "f", "ff")
+"""Marks that most music has."""
 MARKS: Final = {mark: index for index, (mark, _) in enumerate(DYNAMICS)}
 MF: Final = MARKS["mf"]
 MEZZOFORTE: Final = 0.63
@@ -65,6 +67,12 @@ LILYPOND_RANGES: Final = {
 }  # fmt: skip
 """LilyPond's ``instrument-equalizer-alist`` by General MIDI program (from 0): flute, oboe, clarinet, bassoon, French
 horn and trumpet; all others have the whole range."""
+SET_RANGES: Final = {
+    128 + index: (low / 10, high / 10)
+    for index, (low, high) in enumerate((low, high) for low in range(8) for high in range(low + 5, 11))
+    if (low / 10, high / 10) not in {(0.0, 1.0), *LILYPOND_RANGES.values()}
+}
+"""LilyPond's ranges that a score sets itself (``midiMinimumVolume``), as programs from 128 on."""
 _DEFAULT_VOLUME: Final = 90
 """Velocity of a voice that LilyPond makes out of no instrument's staff and that has no mark."""
 _UNTIL: Final = 0.225
@@ -74,7 +82,7 @@ _LILYPOND_ADDED: Final = (4, 6, 20, 24, 26, 40)
 
 
 def _lilypond(program: int | None) -> Ladder:
-    low, high = LILYPOND_RANGES.get(-1 if program is None else program, (0.0, 1.0))
+    low, high = {**LILYPOND_RANGES, **SET_RANGES}.get(-1 if program is None else program, (0.0, 1.0))
     # Floored, rounding errors and all, as LilyPond does it: a flute without a mark has 62.
     steps = [(mark, int(127 * (low + (high - low) * volume))) for mark, volume in _LILYPOND_VOLUMES]
     default = dict(steps)[UNMARKED_STEP]
@@ -84,7 +92,7 @@ def _lilypond(program: int | None) -> Ladder:
         int(127 * (low + (high - low) * (volume + off)))
         for mark, volume in _LILYPOND_VOLUMES
         for off in (-_UNTIL, _UNTIL)
-        if mark in ("pp", "p", "mp", "mf", "f", "ff") and volume + off <= 1.0
+        if mark in COMMON and volume + off <= 1.0
     }
     return Ladder(LILYPOND, tuple(steps), default, _LILYPOND_ADDED, passed=tuple(sorted(passed)))
 
@@ -114,7 +122,7 @@ SHARES: Final = {
 
 
 def ladder_of(name: str, program: int | None) -> Ladder:
-    """The ladder of a program, for the instrument of a General MIDI program (from 0)."""
+    """The ladder of a program, for the instrument of a General MIDI program (from 0) or one of `SET_RANGES`."""
     return _lilypond(program) if name == LILYPOND else _BY_NAME[name]
 
 

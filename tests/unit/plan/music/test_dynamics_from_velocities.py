@@ -167,6 +167,16 @@ def test_lilyponds_range_of_another_instrument_is_known() -> None:
     assert velocity_marks(velocities, 73) == ("p",) * 12 + ("f",) * 12 + ("ff",) * 12 + ("p",) * 8
 
 
+@pytest.mark.parametrize(("low", "high"), [(0.2, 0.8), (0.4, 0.9), (0.2, 0.9)])
+@pytest.mark.parametrize("program", [73, 60, 57])
+def test_a_range_that_a_score_sets_itself_is_known(program: int, low: float, high: float) -> None:
+    """``midiMinimumVolume`` and ``midiMaximumVolume``: LilyPond places its volumes of the marks between them."""
+    volumes = {"pp": 0.49, "p": 0.55, "mf": 0.68, "f": 0.75, "ff": 0.8}
+    truth = ["p", "f", "pp", "mf", "p", "ff"]
+    velocities = np.repeat([int(127 * (low + (high - low) * volumes[mark])) for mark in truth], 12)
+    assert velocity_marks(velocities, program) == tuple(mark for mark in truth for _ in range(12))
+
+
 def test_what_lilypond_wrote_for_no_instruments_keeps_its_marks_under_any_programs() -> None:
     """Four voices whose staves were given winds afterwards; *p* 69, and hairpins that lead to no mark end at 41, 98."""
     lines = [[69] * 40 + [55] * 8 + [41] * 30, [69] * 40 + [41] * 25 + [61, 60, 65], [69] * 30 + [98] * 6 + [69] * 12]
