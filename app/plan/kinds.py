@@ -115,7 +115,7 @@ GESTURES: Final = (
     GestureRow("lean", ("Lean", "前後の傾き"), "Lean", "lean", "phrase", True, look="curve"),
     GestureRow("accent", ("Accent", "アクセント"), "Accent", "accent", "phrase", True, look="strip"),
     GestureRow("step", ("Step", "踏み出し"), "Step", "feet", "footwork", True, "feet"),
-    GestureRow("tap", ("Toe tap", "つま先タップ"), "Toe Tap", "feet", "footwork", True, "feet"),
+    GestureRow("tap", ("Toe tap", "つま先で拍を取る"), "Toe Tap", "feet", "footwork", True, "feet"),
     GestureRow("heel", ("Heel lift", "かかと上げ"), "Heel Lift", "feet", "footwork", True, "feet"),
     GestureRow("nod", ("Nod", "うなずき"), "Nod", "nod", "cue", row="beside"),
     GestureRow("count", ("Counts the bars", "小節を数える"), "Count the Bars", "count", row="beside", idle=True),

@@ -28,7 +28,7 @@ BAR_3 = quartet_project().score.metre_map.span_of_bar(3)[0]
 CURVE = AdditiveCurve("a1", "bell.up", (CurveKey(0, 1.0), CurveKey(BAR_3, 5e9)))
 SAID = {
     "en": "Value: must be from -180 to 180 (player 'Trumpet 1', bar 3, body curve 'Bell: Up')",
-    "ja": "値: -180～180 の範囲にしてください（奏者 'Trumpet 1'、3 小節、体のカーブ 'ベル: 上'）",
+    "ja": "値: -180～180 の範囲にしてください（奏者 'Trumpet 1'、第 3 小節、体のカーブ 'ベル: 上'）",
 }
 
 

@@ -32,6 +32,25 @@ KINDS = {*REMOVABLE, "embouchure", "pose", "additive", "vary", "style"}
 NAMES = {f"expression_name.{name}" for name in load_expressions()} | {
     f"pose_name.{target}" for target in get_args(PoseTarget)
 }
+AVOIDED = {
+    **dict.fromkeys(("インストゥルメントマップ", "楽器定義"), "楽器マップ"),
+    "ビデオ": "動画",
+    "ピストン": "バルブ",
+    "ライブ配信": "モーション送信",
+    "ウインドコントローラー": "ウインドシンセサイザー",
+    "骨格": "スケルトン",
+    "負担": "力の入り具合",
+    **dict.fromkeys(("足拍子", "つま先タップ", "足でリズム"), "つま先で拍を取る"),
+    "ほお": "頬",
+    "あご": "顎",
+    "肘": "ひじ",
+    "膝": "ひざ",
+    "視聴者": "参加者",
+    "：": ": ",
+    "か?": "か？",
+    **{f"付点{number}分": f"付点{kanji}分" for number, kanji in ((2, "二"), (4, "四"), (8, "八"))},
+}
+"""Japanese words for which the program has another one: one word for one thing."""
 ID = re.compile(r"[a-z_]+\.\w+")
 """Names of objects have no dot."""
 
@@ -56,6 +75,12 @@ def test_every_text_is_there_in_both_languages_with_its_arguments() -> None:
         assert japanese.strip(), id
         assert fields(japanese) == fields(english), f"{id}: {english!r} -> {japanese!r}"
         assert ("&" in japanese) == ("&" in english), f"{id}: the mark of a key: {english!r} -> {japanese!r}"
+
+
+def test_one_japanese_word_for_one_thing() -> None:
+    tables = {path.name: path.read_text("utf-8") for path in (ROOT / "metadata").glob("[!b]*/*.toml")}
+    texts = {id: japanese for id, (_, japanese) in TEXTS.items()} | tables
+    assert {id: AVOIDED[word] for id, text in texts.items() for word in AVOIDED if word in text} == {}
 
 
 def test_every_id_stands_in_one_table() -> None:

@@ -179,4 +179,4 @@ def test_in_japanese(editor: Editor) -> None:
     japanese = Editor(editor.folder, "ja-JP")
     assert set(japanese.studio.commands) == {"演奏をインポート", "演奏を更新"}
     assert "インポートしました" in japanese.choose("演奏をインポート")
-    assert [mark.label for mark in japanese.sequence()._marks] == ["小節 1", "小節 2"]
+    assert [mark.label for mark in japanese.sequence()._marks] == ["第 1 小節", "第 2 小節"]

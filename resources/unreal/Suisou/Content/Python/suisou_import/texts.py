@@ -28,8 +28,8 @@ TEXTS = {
         "No performance has been imported yet. Choose Import Performance first.",
         "インポートした演奏がまだありません。先に「演奏をインポート」を選んでください。",
     ),
-    "ask_import": ('Import "{name}"?', "「{name}」をインポートしますか?"),
-    "ask_update": ('Update "{name}"?', "「{name}」を更新しますか?"),
+    "ask_import": ('Import "{name}"?', "「{name}」をインポートしますか？"),
+    "ask_update": ('Update "{name}"?', "「{name}」を更新しますか？"),
     "old_engine": (
         "This is Unreal Engine {version}, which lacks {names}. Unreal Engine 5.2 or newer is needed.",
         "Unreal Engine {version} には {names} がありません。Unreal Engine 5.2 以降が必要です。",
@@ -135,8 +135,8 @@ TEXTS = {
     "step_sound": ("Sound", "音声"),
     "step_sequence": ("Level sequence", "レベルシーケンス"),
     "step_save": ("Saving", "保存しています"),
-    "bar": ("Bar {number}", "小節 {number}"),
-    "marker": ("Bar {number}: {names}", "小節 {number}: {names}"),
+    "bar": ("Bar {number}", "第 {number} 小節"),
+    "marker": ("Bar {number}: {names}", "第 {number} 小節: {names}"),
     "sound_track": ("Sound", "音声"),
 }
 """English and Japanese, by name; filled with what is particular."""
