@@ -17,6 +17,7 @@ from scipy.ndimage import gaussian_filter1d
 from app.arrays import FloatArray
 from app.motion.by_hand.pose_corrections import within
 from app.motion.gestures.dance_layer import CHANNELS, BodyLayer
+from app.motion.gestures.danced_feet import DancedFeet
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.model import Character
@@ -55,13 +56,15 @@ USUAL_SHARE: Final = 0.85
 """... this share of `MOST`."""
 
 
-def body_layer(motion: Motion, character: Character) -> BodyLayer:
+def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = None) -> BodyLayer:
     """The layer of a dance.
 
     Parameters
     ----------
     motion : Motion
         Of a dancer of the same body (`app.choreography.retarget`).
+    feet : DancedFeet, optional
+        What the player's feet do to it.
     """
     fps, skeleton = float(motion.fps), character.skeleton
     chest = skeleton.parents[skeleton.index("leftShoulder")]
@@ -84,7 +87,7 @@ def body_layer(motion: Motion, character: Character) -> BodyLayer:
     values = np.stack([columns[name] for name in CHANNELS], axis=1)
     if len(values) == 1:
         values = np.repeat(values, 2, axis=0)
-    return BodyLayer(motion.first_frame_s, 1.0 / fps, values)
+    return BodyLayer(motion.first_frame_s, 1.0 / fps, values, DancedFeet.none() if feet is None else feet)
 
 
 def _middle_m(motion: Motion, character: Character) -> FloatArray:

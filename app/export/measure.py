@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -38,6 +38,7 @@ from app.export.target import TargetSkeleton, normalised_target
 from app.export.threads import in_threads
 from app.formats.scene import Scene
 from app.motion.contacts.hand_in_bell import bell_closing
+from app.motion.gestures.danced_feet import DancedFeet
 from app.performance.cast import Performer
 from app.plan.gestures.feet import Foot, foot_of, lifted_s
 from app.plan.model import BreathEvent, PlayerPlan
@@ -53,6 +54,7 @@ JAW_OPENS = 0.05
 TORSO_BACK_RAD = math.radians(0.3)
 """A breath shows where the jaw opens by this weight and the torso leans back by this angle."""
 
+NOT_DANCED = DancedFeet.none()
 _CHUNK = 4096
 """Frames that are read and whose depths are judged at once."""
 
@@ -113,6 +115,8 @@ class PlayerJudge:
         When the player changes instruments: a breath may be drawn then, with nothing at the lips.
     out_of_reach : set of str
         Ids of the notes that are (`app.contacts.reach`).
+    danced : DancedFeet
+        Moves of the feet of a player who dances.
     """
 
     performer: Performer
@@ -120,6 +124,7 @@ class PlayerJudge:
     target: TargetSkeleton | None = None
     changing: Sequence[tuple[float, float]] = ()
     out_of_reach: Set[str | None] = frozenset()
+    danced: DancedFeet = field(default_factory=DancedFeet.none)
 
     def measure(
         self,
@@ -163,7 +168,7 @@ class PlayerJudge:
                 bones=Spread.of(bone_deviation_m(joints), BONES_MM),
                 penetration=Spread.of(depth_m, PENETRATION_MM),
                 feet={
-                    name: Spread.of(slid_m(sole_m, times_s, self.plan, name, body), FEET_MM)
+                    name: Spread.of(slid_m(sole_m, times_s, self.plan, name, body, self.danced), FEET_MM)
                     for name in SOLES
                     if (sole_m := traces.marks_m.get(name)) is not None
                 },
@@ -252,7 +257,9 @@ def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progr
     return depth_m
 
 
-def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body) -> FloatArray:
+def slid_m(
+    sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body, danced: DancedFeet = NOT_DANCED
+) -> FloatArray:
     """Return how far a sole is from where it was put down last, in the frames in which it stands."""
     foot: Foot = "left" if name.startswith("left") else "right"
     steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]
@@ -260,7 +267,8 @@ def slid_m(sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str,
     for number, event in enumerate(steps, 1):
         put[(times_s >= event.start_s) & (times_s < event.end_s)] = number
     lifted = np.zeros(len(times_s), np.bool_)
-    for start_s, end_s in lifted_s(plan.gestures, foot, body.footwork.step_s):
+    put += (len(steps) + 1) * danced.steps_before(foot, times_s)
+    for start_s, end_s in (*lifted_s(plan.gestures, foot, body.footwork.step_s), *danced.lifted_s(foot)):
         lifted |= (times_s >= start_s) & (times_s <= end_s)
     standing_m, places = sole_m[~lifted], put[~lifted]
     _, firsts, which = np.unique(places, return_index=True, return_inverse=True)

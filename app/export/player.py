@@ -27,6 +27,7 @@ from app.export.targets import CheckedTarget
 from app.export.threads import in_threads
 from app.formats.scene import Scene
 from app.performance.cast import Performer
+from app.performance.dances import danced_feet
 from app.performance.ensemble import changes_of
 from app.performance.motion import player_motion
 from app.performance.performance_problems import judged_problems
@@ -183,6 +184,7 @@ def _measured(
         musician.target,
         tuple((change.start_s, change.end_s) for change in changes),
         notes_out_of_reach(performance.problems(performer.player.id)),
+        danced_feet(performance, performer.player),
     )
     done = 1.0 - _MEASURES_WORK / _work(requested(request.formats))
     return judge.measure(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Final, NamedTuple
@@ -30,6 +30,7 @@ from app.motion.fingering.finger_curves import sampled
 from app.motion.fingering.fingers import FINGERS, fingers_of
 from app.motion.gestures.body_layers import QUIET_AIR, StyleShares, body_motion
 from app.motion.gestures.dance_layer import BodyLayer, breath_envelopes, giving_way, with_dance
+from app.motion.gestures.danced_feet import DancedFeet, with_danced, with_danced_feet
 from app.motion.gestures.feet import feet_moved
 from app.motion.gestures.held_still import with_holds
 from app.motion.gestures.layers import LAYERS, Layers, LayerSamples
@@ -49,8 +50,10 @@ from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Expression, Posture
 
+FEET_LEFT: Final = 0.25
+"""Amount of a dance from which on its feet have taken the place of all generated steps, taps and heels."""
 NOT_SHOWN = Envelopes.of(())
-OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive")
+OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive", "danced_feet")
 """Curves of `PerformanceCurves` that stand alone."""
 
 
@@ -99,6 +102,8 @@ class PerformanceCurves:
         How high fingers wait over their keys.
     dance : BodyLayer or None
         What hips, trunk and head dance, by the amount of the parameters.
+    danced_feet : DancedFeet
+        What feet dance, where the animator leaves it to them.
     inhaling : Envelopes
         When the dance gives way to breaths.
     stowed : Curve or None
@@ -128,6 +133,7 @@ class PerformanceCurves:
     raised: Curve
     steps: CurveSteps
     dance: BodyLayer | None = None
+    danced_feet: DancedFeet = field(default_factory=DancedFeet.none)
     inhaling: Envelopes = NOT_SHOWN
     stowed: Curve | None = None
     additive: Additive = NOTHING
@@ -163,6 +169,7 @@ class PerformanceCurves:
             placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
             danced=self._danced(times_s),
+            stepped=self.danced_feet.sample(times_s, steps=self.player.stands_free),
             stowed=None if self.stowed is None else self.stowed.sample(times_s),
             added=self.additive.sample(times_s),
             stopping=self.stopping.sample(times_s) if len(self.stopping.height) else None,
@@ -183,6 +190,7 @@ class PerformanceCurves:
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, self.player.stands_free
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
+            moved = with_danced_feet(moved, frames.stepped, amount, steps=free)
         if added:
             moved = with_added(moved, added, self.body, self.player.place.knee_rad)
         if frames.stopping is not None:
@@ -256,6 +264,8 @@ class PerformanceCurves:
         """Intended places of both ankles (F, 3) at ascending times."""
         levels, amplitude = self.layers.feet.sample(times_s), self.parameters.amplitude
         moved = feet_moved(levels, self.body, amplitude, self.acting.footwork, steps=self.player.steps)
+        danced = self.danced_feet.sample(times_s, steps=self.player.stands_free)
+        moved = with_danced(moved, danced, self.parameters.dance_amount)
         return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
@@ -344,7 +354,18 @@ def prepare(
     acting = shown_by(parameters, carriage, shown, dancing=dance is not None)
     parameters = limited_to_carriage(parameters, carriage)
     player = player_body(parameters, instrument_map, character, grip, body)
-    steps = _steps_of(plan, parameters, acting, player, instrument_map, body, felt_beats=felt_beats, before=before)
+    feet = DancedFeet.none() if dance is None else dance.feet.giving_way(plan.gestures)
+    steps = _steps_of(
+        plan,
+        parameters,
+        acting,
+        player,
+        instrument_map,
+        body,
+        felt_beats=felt_beats,
+        before=before,
+        dances=dance is not None,
+    )
     face, fingers = steps.face.of(FaceCurves), steps.fingers.of(fingers_of)
     made = PerformanceCurves(
         plan=plan,
@@ -363,6 +384,7 @@ def prepare(
         stations=fingers.stations,
         raised=fingers.raised,
         dance=dance,
+        danced_feet=feet,
         inhaling=NOT_SHOWN if dance is None else breath_envelopes(plan.breaths),
         stopping=bell_closing(plan.mutes, instrument_map.stopped),
         additive=steps.fingers.of(Additive.of),
@@ -382,6 +404,7 @@ def _steps_of(
     *,
     felt_beats: FeltBeats,
     before: PerformanceCurves | None,
+    dances: bool,
 ) -> CurveSteps:
     """Begin the steps that make the curves, after those of the curves before."""
     return CurveSteps.begin(
@@ -395,4 +418,5 @@ def _steps_of(
         watching=Watching(parameters.seed, acting.gaze, acting.blink),
         instrument=instrument_map,
         farthest=player.farthest,
+        generated_feet=max(0.0, 1.0 - parameters.dance_amount / FEET_LEFT) if dances else 1.0,
     )

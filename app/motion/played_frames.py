@@ -28,6 +28,8 @@ class PlayedFrames:
         As the curves of `PerformanceCurves`.
     danced : (F, 12) float64 or None
         Of its layer; None: nothing is danced.
+    stepped : dict of str to (F,) float64
+        What dancing feet do (`app.motion.gestures.danced_feet`).
     stowed : (F,) float64 or None
         How far the instrument is put aside.
     added : dict of str to Added
@@ -44,6 +46,7 @@ class PlayedFrames:
     placed: dict[str, StationBlend]
     raised: FloatArray
     danced: FloatArray | None = None
+    stepped: Mapping[str, FloatArray] = field(default_factory=dict)
     stowed: FloatArray | None = None
     added: Mapping[str, Added] = field(default_factory=dict)
     stopping: FloatArray | None = None

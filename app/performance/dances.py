@@ -14,6 +14,7 @@ from app.arrays import BoolArray, FloatArray
 from app.errors import AppError
 from app.features import modules
 from app.motion.gestures.dance_layer import BodyLayer
+from app.motion.gestures.danced_feet import DancedFeet
 from app.motion.model import Motion
 from app.performance.ensemble import Performance
 from app.plan.model import Problem
@@ -78,6 +79,12 @@ def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
     """Dance of a player while playing; None: none. Making it may take seconds."""
     maker = maker_of_dances()
     return None if maker is None else maker.layer_of(performance, player)
+
+
+def danced_feet(performance: Performance, player: Player) -> DancedFeet:
+    """Moves of the feet of a player who dances, without those that give way to the animator's."""
+    layer = layer_of(performance, player) if player.parameters.choreography else None
+    return DancedFeet.none() if layer is None else layer.feet.giving_way(performance.plan(player).gestures)
 
 
 def layer_is_made(performance: Performance, player: Player) -> bool:

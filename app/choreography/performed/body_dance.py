@@ -8,13 +8,14 @@ A player whose choreography is not there or damaged moves as generated, and the 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from app.chance import performed_seed, seed_of
 from app.choreography.body_layer import FPS, body_layer
 from app.choreography.generate import Choreographer
 from app.choreography.performed.choreographers import choreographer_of, unfit_choreography
 from app.choreography.performed.dancers import GeneratedDance, dance_frame, rhythm_of
+from app.choreography.player_steps import danced_feet
 from app.choreography.rhythm import Rhythm
 from app.identity_cache import IdentityCache
 from app.motion.gestures.dance_layer import BodyLayer
@@ -24,10 +25,13 @@ from app.performance.ensemble import Performance
 from app.plan.model import TimeFrame
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player
+from app.rig.ik import leg
 from app.rig.model import Character
 from app.score.tempo import TempoMap
 
 _Inputs: TypeAlias = tuple[Dancer, Choreographer, Rhythm, TempoMap, Character, TimeFrame]
+ADULT_LEG_M: Final = 0.82
+"""Length of the legs of a player who steps as far as is said (`app.choreography.player_steps`)."""
 _LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
 
 
@@ -53,7 +57,9 @@ def _layer(
     frame: TimeFrame,
 ) -> BodyLayer:
     dancing = GeneratedDance(dancer, choreographer, rhythm, (), tempo_map, character, frame)
-    return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character)
+    legs = leg(character.skeleton, "left").length_m / ADULT_LEG_M
+    feet = danced_feet(dancing.dance(FPS), rhythm, dancer.seed, legs)
+    return body_layer(dancing.motion(FPS, 0, frame_count(frame, FPS)), character, feet)
 
 
 def _inputs(performance: Performance, player: Player) -> _Inputs | None:

@@ -125,5 +125,4 @@ def shown_by(parameters: PlayerParameters, carriage: Carriage, acting: Acting, *
         sway=left * share * acting.sway,
         weight_shift=left * share * acting.weight_shift,
         phrase=left * share * acting.phrase,
-        footwork=left * acting.footwork,
     )

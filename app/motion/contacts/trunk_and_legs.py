@@ -32,7 +32,7 @@ HEEL = (-1.0, -0.45)
 SIT_BONES_M = 0.09
 """Distance from the hips down to the axis about which a seated player leans the pelvis."""
 X_AXIS = np.array([1.0, 0.0, 0.0])
-FOOT_PARTS = ("heel", "toes", "ahead", "up", "push")
+FOOT_PARTS = ("heel", "toes", "ahead", "up", "aside", "push")
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def _where_moved(parts: Mapping[str, FloatArray]) -> IndexArray:
 def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
     """Ankle and foot, before it pushes off, in frames in which it is moved."""
     ankle_m, foot = place.ankles_m[side], place.feet[side]
-    heel, toes, ahead_m, up_m, _ = (parts.get(name) for name in FOOT_PARTS)
+    heel, toes, ahead_m, up_m, aside_m, _ = (parts.get(name) for name in FOOT_PARTS)
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
         if angle is not None:
             turned = quaternion.multiply(foot, quaternion.from_axis_angle(X_AXIS, angle))
@@ -164,6 +164,8 @@ def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple
         ankle_m = ankle_m + np.multiply.outer(ahead, ahead_m).T
     if up_m is not None:
         ankle_m = ankle_m + np.multiply.outer(np.array([0.0, 1.0, 0.0]), up_m).T
+    if aside_m is not None:
+        ankle_m = ankle_m + np.multiply.outer(X_AXIS, aside_m).T
     return ankle_m, foot
 
 

@@ -1,16 +1,16 @@
 """A learned motion as a layer of a player's body: hips, trunk and head about the place where the player stands or sits.
 
 The layer is a function of time like all others and is added to them before the contacts are solved: the instrument goes
-with the head, hands and fingers stay on it, feet stay where they are. While the instrument is played the head goes with
-the chest, so that head, instrument, shoulders and arms move as one and no wrist is bent further than without a dance;
-while it is lowered the head dances by itself. Angles are bounded where the layer is made
-(`app.choreography.body_layer`).
+with the head, and hands and fingers stay on it. Feet have moves of their own (`app.motion.gestures.danced_feet`).
+While the instrument is played the head goes with the chest, so that head, instrument, shoulders and arms move as one
+and no wrist is bent further than without a dance; while it is lowered the head dances by itself. Angles are bounded
+where the layer is made (`app.choreography.body_layer`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -20,6 +20,7 @@ from app.motion.body_motion import BodyMotion
 from app.motion.by_hand.pose_corrections import within
 from app.motion.curves.curve import Envelopes
 from app.motion.gestures.body_layers import EYES_BACK
+from app.motion.gestures.danced_feet import DancedFeet
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from app.plan.model import BreathEvent
 from metadata.model import Body
@@ -52,11 +53,14 @@ class BodyLayer:
         Sample k is at ``start_s + k * step_s``.
     values : (K, 12) float64
         In the order of `CHANNELS`; at least two.
+    feet : DancedFeet
+        What feet do meanwhile.
     """
 
     start_s: float
     step_s: float
     values: FloatArray
+    feet: DancedFeet = field(default_factory=DancedFeet.none)
 
     def sample(self, times_s: FloatArray) -> FloatArray:
         """Values (F, 12) at any times, smooth between the samples; the ends hold."""

@@ -44,18 +44,19 @@ class Feet:
     step_s: float
 
     @classmethod
-    def of(cls, events: Sequence[GestureEvent], step_s: float) -> Feet:
-        """From what the feet of a player do."""
+    def of(cls, events: Sequence[GestureEvent], step_s: float, generated_feet: float = 1.0) -> Feet:
+        """From what the feet of a player do; generated gestures have ``generated_feet`` of their size, those that the
+        animator has set all of it."""
         rows = [
             (
                 FOOT_KINDS.index(event.kind),
                 1.0 if foot_of(event) == "left" else -1.0,
                 event.start_s,
                 event.end_s,
-                min(abs(event.amount), 1.0),
+                min(abs(event.amount), 1.0) * (1.0 if event.corrected else generated_feet),
             )
             for event in events
-            if event.end_s > event.start_s and event.amount != 0.0
+            if event.end_s > event.start_s and event.amount != 0.0 and (event.corrected or generated_feet > 0.0)
         ]
         kinds, sides, start_s, end_s, size = np.array(rows, dtype=np.float64).reshape(-1, 5).T
         return cls(kinds, sides, start_s, end_s, size, step_s)

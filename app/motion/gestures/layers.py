@@ -185,7 +185,7 @@ LAYERS: Final = StepTable(
     quiet=reading(quiet_breaths, gestures="putting_down"),
     stepping=partial(_of_parts, parts=("feet",)),
     step_s="body.footwork.step_s",
-    feet=reading(Feet.of, events="stepping"),
+    feet=reading(Feet.of, events="stepping", generated_feet="generated_feet"),
     posed="styled.poses",
     held=reading(PoseCorrectionTable.of, events="posed"),
     gestured=reading(Gestured.of, events="gestures"),
@@ -198,4 +198,4 @@ LAYERS: Final = StepTable(
     leads=reading(Leads.of, overlap="overlap"),
     layers=Layers,
 )
-"""The steps of a body's layers; given are the plan, the body and the felt beats."""
+"""The steps of a body's layers; given are the plan, the body, the felt beats and the size of generated footwork."""

@@ -1,0 +1,256 @@
+"""Steps in place of a player who dances: those of a dancer, each put on the nearest beat, about the player's place.
+
+A dancer's feet come down when the capture says, and go as far as the dance goes. A player has the beat in the feet:
+each touchdown of the dance is moved to the nearest place of the beat, of two at one place the longer step counts, and a
+foot is put as far from its usual place under the body as the dancer has it, made smaller. Where a dancer stands while
+music sounds, heels or toes mark the beats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from app.arrays import BoolArray, FloatArray
+from app.chance import chance
+from app.choreography.dance import Dance
+from app.choreography.features import facing
+from app.choreography.feet import FootPlant
+from app.choreography.rhythm import Rhythm
+from app.motion.gestures.danced_feet import MOVE_KINDS, DancedFeet, MoveKind
+from app.rig import quaternion
+
+QUICK_S, SLOW_S = 0.40, 0.78
+"""Lengths of beats: below the first steps are on every other beat, above the second also between beats."""
+BETWEEN: Final = 0.25
+"""Share of a beat by which a beat must be farther from a touchdown than the place between beats that it is put on."""
+LATE: Final = 0.9
+"""Two feet at one place: the later one comes down at the next if that is nearer than this share of the way there."""
+AIR_S: Final = 0.42
+"""Longest time of a foot in the air."""
+AIR_SHARE: Final = 0.85
+"""Longest time in the air as a share of the time since the other foot came down."""
+LEAST_AIR_S: Final = 0.22
+"""Shortest time in the air; there is no quicker step."""
+SAME_FOOT_S: Final = 0.55
+"""Least time from one landing of a foot to its next; the other foot takes a step that is sooner."""
+HEEL_S: Final = 0.5
+"""Longest time for which a heel or toes are up."""
+LIFT_SHARE: Final = 0.75
+"""The same as a share of a beat."""
+TOES_CHANCE: Final = 0.4
+"""Chance that toes, not heels, mark a phrase's beats without steps, and that a seated player answers it with heels."""
+PHRASE_BEATS: Final = 8
+USUAL: Final = 0.9
+"""Share of the steps that go no farther than `AHEAD_M` and `OUT_M` when a dance is made smaller."""
+AHEAD_M, OUT_M, IN_M = 0.09, 0.09, 0.03
+"""Farthest places of a foot: ahead and back, to its own side, and towards the other foot."""
+LEAST_SIZE: Final = 0.65
+"""Size of the shortest step, as a share of that of a usual one."""
+MIDDLE_S: Final = 0.6
+"""Standard deviation of the window over the hips' path in which a foot has its usual place."""
+HEARD_S: Final = 2.0
+"""Beats are marked while something sounds within this time."""
+
+
+@dataclass(frozen=True)
+class _Touchdown:
+    """A foot of the dancer that comes down: when, how far from its usual place (left, ahead), and after which way."""
+
+    foot: int
+    time_s: float
+    place_m: tuple[float, float]
+    way_m: float
+
+    def other(self) -> _Touchdown:
+        """The same of the other foot."""
+        return _Touchdown(1 - self.foot, self.time_s, (-self.place_m[0], self.place_m[1]), self.way_m)
+
+
+@dataclass(frozen=True)
+class _Row:
+    foot: int
+    kind: MoveKind
+    start_s: float
+    lands_s: float
+    size: float
+    place_m: tuple[float, float]
+
+
+def danced_feet(dance: Dance, rhythm: Rhythm, seed: int, scale: float) -> DancedFeet:
+    """Moves of the feet of a player whose hips, trunk and head dance so.
+
+    Parameters
+    ----------
+    seed : int
+        Of the variation: where heels and where toes mark the beats.
+    scale : float
+        Length of the player's legs over an adult's.
+    """
+    places_s, strong = _places(rhythm)
+    if len(places_s) < 2 or not dance.steps:
+        return DancedFeet.none()
+    danced_s = dance.steps[0].start_s, dance.steps[-1].end_s
+    stepped = _stepped(_touchdowns(dance), places_s, strong, danced_s)
+    rows = _with_marks(stepped, places_s, strong & _heard(places_s, rhythm), danced_s, rhythm, seed)
+    if not rows:
+        return DancedFeet.none()
+    toes, heel = MOVE_KINDS.index("toes"), MOVE_KINDS.index("heel")
+    heels = [chance("seated feet", seed, _phrase(row.lands_s, rhythm)) < TOES_CHANCE for row in rows]
+    return DancedFeet(
+        sides=np.array([row.foot for row in rows], np.int64),
+        kinds=np.array([MOVE_KINDS.index(row.kind) for row in rows], np.int64),
+        seated=np.array([heel if lifts else toes for lifts in heels], np.int64),
+        start_s=np.array([row.start_s for row in rows]),
+        lands_s=np.array([row.lands_s for row in rows]),
+        size=np.array([row.size for row in rows]),
+        place_m=scale * np.array([row.place_m for row in rows]),
+    )
+
+
+def _phrase(time_s: float, rhythm: Rhythm) -> int:
+    return int(np.searchsorted(rhythm.beats_s, time_s - 1e-6)) // PHRASE_BEATS
+
+
+def _places(rhythm: Rhythm) -> tuple[FloatArray, BoolArray]:
+    """Places of the beat at which feet come down, and which of them are beats."""
+    beats_s = rhythm.beats_s
+    if len(beats_s) < 3:
+        return beats_s, np.ones(len(beats_s), bool)
+    apart_s = float(np.median(np.diff(beats_s)))
+    if apart_s < QUICK_S:
+        beats_s = beats_s[rhythm.bar_beats % 2 == 0]
+    if apart_s <= SLOW_S:
+        return beats_s, np.ones(len(beats_s), bool)
+    between_s = 0.5 * (beats_s[1:] + beats_s[:-1])
+    places_s = np.concatenate([beats_s, between_s])
+    order = np.argsort(places_s)
+    return places_s[order], (np.arange(len(places_s)) < len(beats_s))[order]
+
+
+def _heard(places_s: FloatArray, rhythm: Rhythm) -> BoolArray:
+    """Return at which places something sounds."""
+    if not len(rhythm.hits_s):
+        return np.zeros(len(places_s), bool)
+    low, high = (np.searchsorted(rhythm.hits_s, places_s + way) for way in (-HEARD_S, HEARD_S))
+    return np.asarray(high > low)
+
+
+def _touchdowns(dance: Dance) -> list[_Touchdown]:
+    """Touchdowns of a dance in order, each with the place of its foot as seen from the middle of the hips' path."""
+    clip, fps = dance.clip, float(dance.clip.fps)
+    middle_m = gaussian_filter1d(clip.hips_m, MIDDLE_S * fps, axis=0, mode="nearest")
+    back = quaternion.conjugate(facing(clip))
+    found: list[_Touchdown] = []
+    for foot in range(2):
+        own = [stand for stand in dance.standing if stand.foot == foot]
+        seen_m = [_seen_m(stand, middle_m, back) for stand in own]
+        if len(own) < 2:
+            continue
+        usual_m = np.median(seen_m, axis=0)
+        for before, stand, place_m in zip(own, own[1:], seen_m[1:], strict=False):
+            left_m, ahead_m = (place_m - usual_m).tolist()
+            way_m = float(np.linalg.norm(np.subtract(stand.place_m, before.place_m)))
+            found.append(_Touchdown(foot, dance.first_s + stand.start / fps, (left_m, ahead_m), way_m))
+    return sorted(found, key=lambda one: (one.time_s, one.foot))
+
+
+def _seen_m(stand: FootPlant, middle_m: FloatArray, back: FloatArray) -> FloatArray:
+    """(2,) to the left and ahead of the body where a foot stands."""
+    frame = min((stand.start + stand.stop) // 2, len(middle_m) - 1)
+    seen = quaternion.rotate(back[frame], np.array(stand.place_m) - middle_m[frame])
+    return seen[[0, 2]]
+
+
+def _stepped(
+    touchdowns: list[_Touchdown], places_s: FloatArray, strong: BoolArray, danced_s: tuple[float, float]
+) -> list[_Row]:
+    """Steps on places of the beat, one foot at a time."""
+    chosen: dict[int, _Touchdown] = {}
+    for one in touchdowns:
+        place = _nearest(one.time_s, places_s, strong)
+        there = chosen.get(place)
+        if there is not None and there.foot != one.foot and _is_late(one.time_s, place, places_s):
+            place, there = place + 1, None
+        if danced_s[0] <= places_s[place] <= danced_s[1] and (there is None or one.way_m > there.way_m):
+            chosen[place] = one
+    if not chosen:
+        return []
+    steps = [chosen[place] for place in sorted(chosen)]
+    usual_m = float(np.median([step.way_m for step in steps])) or 1.0
+    far_m = np.quantile(np.abs([step.place_m for step in steps]), USUAL, axis=0)
+    shares = np.minimum(1.0, np.array((OUT_M, AHEAD_M)) / np.maximum(far_m, 1e-6))
+    rows: list[_Row] = []
+    last_s = {0: -np.inf, 1: -np.inf}
+    for place, step in zip(sorted(chosen), steps, strict=True):
+        lands_s = float(places_s[place])
+        if lands_s - last_s[step.foot] < SAME_FOOT_S:
+            step = step.other()
+        air_s = min(AIR_S, AIR_SHARE * (lands_s - max(last_s.values())))
+        if air_s < LEAST_AIR_S or lands_s - last_s[step.foot] < SAME_FOOT_S:
+            continue
+        size = (LEAST_SIZE + (1.0 - LEAST_SIZE) * min(1.0, step.way_m / usual_m)) * min(1.0, (air_s / AIR_S) ** 2)
+        rows.append(_Row(step.foot, "step", lands_s - air_s, lands_s, size, _near(step, shares)))
+        last_s[step.foot] = lands_s
+    return rows
+
+
+def _nearest(time_s: float, places_s: FloatArray, strong: BoolArray) -> int:
+    """The place of the beat at which a touchdown is danced."""
+    off_s = np.abs(places_s - time_s)
+    beat_s = float(np.median(np.diff(places_s[strong])))
+    return int((off_s + np.where(strong, 0.0, BETWEEN * beat_s)).argmin())
+
+
+def _is_late(time_s: float, place: int, places_s: FloatArray) -> bool:
+    """Return whether a touchdown may as well be at the next place."""
+    if place + 1 == len(places_s):
+        return False
+    return bool(places_s[place + 1] - time_s < LATE * (places_s[place + 1] - places_s[place]))
+
+
+def _near(step: _Touchdown, shares: FloatArray) -> tuple[float, float]:
+    """Place of a foot (left, ahead): as in the dance, made smaller, and never before the other foot."""
+    left_m, ahead_m = (shares * step.place_m).tolist()
+    out_m = left_m if step.foot == 0 else -left_m
+    out_m = float(np.clip(out_m, -IN_M, OUT_M))
+    return (out_m if step.foot == 0 else -out_m), float(np.clip(ahead_m, -AHEAD_M, AHEAD_M))
+
+
+def _with_marks(
+    stepped: list[_Row],
+    places_s: FloatArray,
+    marked: BoolArray,
+    danced_s: tuple[float, float],
+    rhythm: Rhythm,
+    seed: int,
+) -> list[_Row]:
+    """The steps, with heels and toes where none is for some places of the beat."""
+    rows, lands_s = list(stepped), np.array([row.lands_s for row in stepped])
+    apart_s = float(np.median(np.diff(rhythm.beats_s)))
+    last_phrase, foot = -1, 0
+    for place, time_s in enumerate(places_s.tolist()):
+        if not marked[place] or not danced_s[0] <= time_s <= danced_s[1]:
+            continue
+        near = np.searchsorted(lands_s, time_s - 1e-6)
+        before_s = time_s - float(lands_s[near - 1]) if near else np.inf
+        after_s = float(lands_s[near]) - time_s if near < len(lands_s) else np.inf
+        # A step is made ready when the mark before it is down.
+        if min(before_s, after_s) < 0.99 * apart_s:
+            continue
+        phrase = _phrase(time_s, rhythm)
+        toes = chance("marked beats", seed, phrase) < TOES_CHANCE
+        if phrase != last_phrase:
+            last_phrase, foot = phrase, int(chance("marking foot", seed, phrase) < 0.5)
+        elif not toes:
+            foot = 1 - foot
+        up_s = min(HEEL_S, LIFT_SHARE * apart_s)
+        if after_s < 1.5 * apart_s:
+            # The other foot is about to step.
+            foot = 1 - stepped[near].foot
+        place_m = next((row.place_m for row in reversed(stepped[:near]) if row.foot == foot), (0.0, 0.0))
+        rows.append(_Row(foot, "toes" if toes else "heel", time_s - up_s, time_s, 1.0, place_m))
+    return sorted(rows, key=lambda row: row.lands_s)

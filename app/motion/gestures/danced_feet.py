@@ -1,0 +1,290 @@
+"""Feet of a player who dances: steps in place, heels and toes, each down on its beat.
+
+A foot stays where it was put down until it leaves the ground again, by heel first and ball last, and comes down on the
+ball. Where hips may not leave their place, feet only lift heels and toes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Final, Literal, NamedTuple, get_args
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.motion.body_motion import BodyMotion
+from app.motion.curves.curve import minimum_jerk, rows_changed_s
+from app.plan.by_hand.pose_corrections import TRUNK_SHARES
+from app.plan.kinds import answered_by
+from app.plan.model import GestureEvent
+
+MoveKind = Literal["step", "heel", "toes"]
+MOVE_KINDS: Final[tuple[MoveKind, ...]] = get_args(MoveKind)
+
+LIFT_M: Final = 0.06
+"""Height of the ball of a foot half way of the largest step, at full amount."""
+HEEL_RAD: Final = float(np.deg2rad(24.0))
+"""Angle of the heel above the ball in the largest step or lifted heel."""
+TOES_RAD: Final = float(np.deg2rad(18.0))
+"""Angle of lifted toes above the heel."""
+SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
+"""Angle of a lifted heel of a player whose feet keep their place: instruments lie on thighs."""
+PEELS_S: Final = 0.12
+"""Time from the heel's leaving the ground to the ball's, and from the ball's landing to the heel's."""
+PEELED: Final = 0.35
+"""Share of a step in which the heel still rises, and in which it sinks again."""
+OVER_M: Final = 0.055
+"""Way of the hips over the foot that carries the weight."""
+OVER_S: Final = 0.3
+"""Time in which the weight goes there, and back."""
+ROLL_RAD, TURN_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(5.0))
+"""Angles by which the hips are lower and farther ahead on the side of the foot that carries nothing."""
+LEAN_RAD: Final = float(np.deg2rad(3.5))
+"""Lean of the chest to the foot that carries the weight."""
+LIGHT: Final = 0.6
+"""Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
+SINKS_M: Final = 0.035
+"""Way of the hips down as a foot takes the weight on a beat."""
+SINK_S: Final = (0.1, 0.32)
+"""Time from the beginning of that way to the beat, and from the beat to its end; a third of this is the way down."""
+FOLLOWS: Final = 0.4
+"""Share of the way of each foot that the hips go along."""
+IN_HIPS: Final = ("over", "sunk")
+"""Samples that move hips, not feet."""
+CLEAR_S: Final = 0.3
+"""Time for which feet stand before and after what the animator has them do."""
+GROWTH: Final = 0.7
+"""Power of the amount with which feet move: half of a dance shows in them too."""
+
+
+class _Moves(NamedTuple):
+    """Columns of the moves of one foot, in their order."""
+
+    kinds: IntArray
+    start_s: FloatArray
+    lands_s: FloatArray
+    size: FloatArray
+    seated: IntArray
+    from_m: FloatArray
+    to_m: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class DancedFeet:
+    """All that the feet of a dancing player do, a row for each move, ascending by when it lands.
+
+    Attributes
+    ----------
+    sides : (N,) int64
+        0 the left foot, 1 the right one.
+    kinds, seated : (N,) int64
+        Place in `MOVE_KINDS`; the second is the move of a player whose feet do not leave their place.
+    start_s, lands_s : (N,) float64
+        A step is in the air from the one to the other; a heel or toes go up and are down again. Each lands on its beat.
+    size : (N,) float64
+        0..1.
+    place_m : (N, 2) float64
+        Where a step puts the foot, to the left and ahead of where it stands without a dance.
+    """
+
+    sides: IntArray
+    kinds: IntArray
+    seated: IntArray
+    start_s: FloatArray
+    lands_s: FloatArray
+    size: FloatArray
+    place_m: FloatArray
+
+    @classmethod
+    def none(cls) -> DancedFeet:
+        """Feet that stand."""
+        whole, real = np.zeros(0, np.int64), np.zeros(0)
+        return cls(whole, whole, whole, real, real, real, np.zeros((0, 2)))
+
+    def __len__(self) -> int:
+        return len(self.sides)
+
+    def sample(self, times_s: FloatArray, *, steps: bool) -> dict[str, FloatArray]:
+        """Sample the feet at ascending times; parts at rest are left out.
+
+        ``left_heel`` and ``left_toes`` (radians), ``left_up``, ``left_ahead`` and ``left_aside`` (metres, to the left)
+        are parts of a foot; ``over`` is the weight that goes to the left foot, -1..1, ``sunk`` the give of
+        the knees, 0..1. Without ``steps`` feet stay at their place.
+        """
+        found: dict[str, FloatArray] = {}
+        if not len(times_s) or not len(self):
+            return found
+        for side, name in enumerate(("left", "right")):
+            moves = self._of(side)
+            if steps:
+                _put(found, name, moves, times_s)
+            late_s = max(PEELS_S, OVER_S, *SINK_S)
+            near = (moves.start_s - late_s <= times_s[-1]) & (moves.lands_s + late_s >= times_s[0])
+            for row in np.flatnonzero(near).tolist():
+                kind = MOVE_KINDS[int((moves.kinds if steps else moves.seated)[row])]
+                span_s, size = (float(moves.start_s[row]), float(moves.lands_s[row])), float(moves.size[row])
+                heel_rad = HEEL_RAD if steps else SEATED_HEEL_RAD
+                if kind == "step":
+                    _add(found, f"{name}_up", size * LIFT_M * _air(times_s, span_s))
+                    _add(found, f"{name}_heel", size * heel_rad * _peeled(times_s, span_s))
+                elif kind == "heel":
+                    _add(found, f"{name}_heel", size * heel_rad * _lifted(times_s, span_s))
+                else:
+                    _add(found, f"{name}_toes", size * TOES_RAD * _lifted(times_s, span_s))
+                over = (2.0 * side - 1.0) * (1.0 if kind == "step" else LIGHT)
+                _add(found, "over", size * over * _bump(times_s, span_s[0] - OVER_S, *span_s, OVER_S))
+                _add(found, "sunk", size * _sunk(times_s, span_s[1]))
+        return {name: values for name, values in found.items() if np.any(values)}
+
+    def lifted_s(self, side: Literal["left", "right"]) -> list[tuple[float, float]]:
+        """Spans in which a foot, or a part of it, is off the ground."""
+        own = self._of(("left", "right").index(side))
+        return [(start_s - PEELS_S, lands_s + PEELS_S) for start_s, lands_s in zip(*own[1:3], strict=True)]
+
+    def steps_before(self, side: Literal["left", "right"], times_s: FloatArray) -> IntArray:
+        """Count of the steps of a foot before each time."""
+        steps = (self.sides == ("left", "right").index(side)) & (self.kinds == MOVE_KINDS.index("step"))
+        return np.searchsorted(self.lands_s[steps], times_s, side="right")
+
+    def changed_s(self, other: DancedFeet) -> FloatArray:
+        """Spans (K, 2) outside of which both have the same values."""
+        if self is other:
+            return np.zeros((0, 2))
+        (mine, mine_s), (theirs, theirs_s) = self._rows(), other._rows()
+        return rows_changed_s(mine, theirs, mine_s, theirs_s)
+
+    def giving_way(self, gestures: Iterable[GestureEvent]) -> DancedFeet:
+        """These feet without what is near to corrected gestures of feet: those are the animator's."""
+        kinds = answered_by("feet")
+        spans = [(event.start_s, event.end_s) for event in gestures if event.corrected and event.kind in kinds]
+        if not spans or not len(self):
+            return self
+        begin_s, end_s = np.array(spans).T[:, None]
+        busy = (self.start_s[:, None] < end_s + CLEAR_S) & (self.lands_s[:, None] > begin_s - CLEAR_S)
+        return self._chosen(~busy.any(axis=1))
+
+    def _chosen(self, kept: BoolArray) -> DancedFeet:
+        return replace(self, **{one.name: getattr(self, one.name)[kept] for one in fields(self)})
+
+    def _of(self, side: int) -> _Moves:
+        own = self._chosen(self.sides == side)
+        steps = np.flatnonzero(own.kinds == MOVE_KINDS.index("step"))
+        before = np.searchsorted(steps, np.arange(len(own)))
+        places_m = np.concatenate([np.zeros((1, 2)), own.place_m[steps]])
+        after = np.searchsorted(steps, np.arange(len(own)), side="right")
+        return _Moves(own.kinds, own.start_s, own.lands_s, own.size, own.seated, places_m[before], places_m[after])
+
+    def _rows(self) -> tuple[FloatArray, FloatArray]:
+        """Rows (N, C) of all moves with their places, and the spans (N, 2) in which each is seen: a place until the
+        foot has come down elsewhere."""
+        rows, spans_s = list[FloatArray](), list[FloatArray]()
+        for side in range(2):
+            own = self._of(side)
+            until_s = np.append(own.lands_s[1:], np.inf) if len(own.kinds) else own.lands_s
+            rows.append(np.column_stack([np.full(len(own.kinds), side), *own]))
+            spans_s.append(np.column_stack([own.start_s - OVER_S, np.maximum(until_s, own.lands_s + OVER_S)]))
+        return np.concatenate(rows), np.concatenate(spans_s)
+
+
+def with_danced(
+    moved: Mapping[str, FloatArray], danced: Mapping[str, FloatArray], amount: float
+) -> dict[str, FloatArray]:
+    """The moves of feet (`app.motion.gestures.feet.feet_moved`) with the danced ones."""
+    feet, size = dict(moved), amount**GROWTH
+    for name, values in danced.items():
+        if name not in IN_HIPS:
+            feet[name] = feet[name] + size * values if name in feet else size * values
+    return feet
+
+
+def with_danced_feet(motion: BodyMotion, danced: Mapping[str, FloatArray], amount: float, *, steps: bool) -> BodyMotion:
+    """The body with its feet dancing.
+
+    Parameters
+    ----------
+    danced : dict of str to (F,) float64
+        As of `DancedFeet.sample`.
+    amount : float
+        0..1.
+    """
+    if not danced or amount <= 0.0:
+        return motion
+    size, feet = amount**GROWTH, with_danced(motion.feet, danced, amount)
+    nothing = np.zeros(len(motion.hips_side_m))
+    over, sunk = (size * danced.get(name, nothing) for name in IN_HIPS)
+    roll_rad, turn_rad = (ROLL_RAD * over, TURN_RAD * over) if steps else (nothing, nothing)
+    left_rad, turned_rad = dict(motion.left_rad), dict(motion.turn_rad)
+    for joint, share in TRUNK_SHARES.items():
+        left_rad[joint] = left_rad[joint] + share * (LEAN_RAD * over + roll_rad)
+        turned_rad[joint] = turned_rad[joint] - share * turn_rad
+    motion = replace(motion, feet=feet, left_rad=left_rad, turn_rad=turned_rad)
+    if not steps:
+        return motion
+    aside_m, ahead_m = (
+        FOLLOWS * size * (danced.get(f"left_{way}", nothing) + danced.get(f"right_{way}", nothing))
+        for way in ("aside", "ahead")
+    )
+    return replace(
+        motion,
+        hips_side_m=motion.hips_side_m + aside_m + OVER_M * over,
+        hips_ahead_m=motion.hips_ahead_m + ahead_m,
+        hips_bob_m=motion.hips_bob_m + SINKS_M * sunk,
+        hips_roll_rad=motion.hips_roll_rad - roll_rad,
+        hips_turn_rad=motion.hips_turn_rad + turn_rad,
+    )
+
+
+def _put(found: dict[str, FloatArray], name: str, moves: _Moves, times_s: FloatArray) -> None:
+    """Add where a foot is: at the place where it came down last, or on the way to the next one."""
+    if not len(moves.kinds):
+        return
+    begun = np.searchsorted(moves.start_s, times_s, side="right")
+    row = np.maximum(begun - 1, 0)
+    lasts_s = moves.lands_s[row] - moves.start_s[row]
+    share = minimum_jerk(np.clip((times_s - moves.start_s[row]) / lasts_s, 0.0, 1.0))
+    stays = np.all(moves.from_m[row] == moves.to_m[row], axis=1)
+    for axis, way in enumerate(("aside", "ahead")):
+        low, high = moves.from_m[row, axis], moves.to_m[row, axis]
+        # A foot that stands is at its place to the bit.
+        there = np.where(stays | (share >= 1.0), high, low + share * (high - low))
+        found[f"{name}_{way}"] = np.where(begun > 0, there, moves.from_m[0, axis])
+
+
+def _add(found: dict[str, FloatArray], name: str, values: FloatArray) -> None:
+    # From 0: a move before the span adds as much as none, to the sign of nought.
+    found[name] = found.get(name, np.zeros(len(values))) + values
+
+
+def _air(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
+    """0 on the ground, 1 half way."""
+    phase = np.clip((times_s - span_s[0]) / (span_s[1] - span_s[0]), 0.0, 1.0)
+    height: FloatArray = np.where((phase > 0.0) & (phase < 1.0), np.sin(np.pi * phase) ** 2, 0.0)
+    return height
+
+
+def _peeled(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
+    """The heel of a step above its ball: up before the ball leaves the ground, down after that is back."""
+    part_s = PEELED * (span_s[1] - span_s[0])
+    return _bump(times_s, span_s[0] - PEELS_S, span_s[0] + part_s, span_s[1] - part_s, PEELS_S + part_s)
+
+
+def _lifted(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
+    """Up, and quicker down to be there when it lands."""
+    start_s, lands_s = span_s
+    falls_s = 0.42 * (lands_s - start_s)
+    return _bump(times_s, start_s, lands_s - falls_s, lands_s - falls_s, falls_s)
+
+
+def _bump(times_s: FloatArray, rises_s: float, up_s: float, falls_s: float, lasts_s: float) -> FloatArray:
+    """From 0 to 1 between the first two times, and from the third on back to 0 within some time."""
+    up = minimum_jerk(np.clip((times_s - rises_s) / (up_s - rises_s), 0.0, 1.0))
+    down = minimum_jerk(np.clip((times_s - falls_s) / lasts_s, 0.0, 1.0))
+    return np.asarray(up * (1.0 - down))
+
+
+def _sunk(times_s: FloatArray, lands_s: float) -> FloatArray:
+    """Give of the knees around a landing, 0..1."""
+    before_s, after_s = SINK_S
+    low_s = lands_s + after_s / 3.0
+    return _bump(times_s, lands_s - before_s, low_s, low_s, after_s - after_s / 3.0)
