@@ -50,7 +50,7 @@ from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Expression, Posture
 
-FEET_LEFT: Final = 0.25
+FEET_LEFT: Final = 0.1
 """Amount of a dance from which on its feet have taken the place of all generated steps, taps and heels."""
 NOT_SHOWN = Envelopes.of(())
 OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive", "danced_feet")

@@ -36,7 +36,7 @@ forward, turn to the left and lean to the left, all three seen from the floor.""
 SINKS_M: Final = 0.014
 """Distance by which the bent knees of a dancer lower the hips, which go up and down from there by less."""
 BREATH_ROOM: Final = 0.9
-"""The trunk nods so much less while the player breathes in: the breath has to be seen ..."""
+"""Hips and trunk nod so much less while the player breathes in: the breath has to be seen ..."""
 BREATH_EASE_S: Final = 0.35
 """... and it comes to that within this time, and goes back in as much."""
 LEGS_EASE_M: Final = 0.008
@@ -77,7 +77,7 @@ class BodyLayer:
         return result
 
 
-_NOD: Final = CHANNELS.index("trunk_forward_rad")
+_NODS: Final = [CHANNELS.index(f"{part}_forward_rad") for part in ("hips", "trunk")]
 
 
 def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
@@ -94,7 +94,7 @@ def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
 def giving_way(dance: FloatArray, to_breath: FloatArray) -> FloatArray:
     """A dance (F, 12) that gives way to breaths, (F,) of 0..1."""
     given = dance.copy()
-    given[:, _NOD] *= 1.0 - to_breath
+    given[:, _NODS] *= (1.0 - to_breath)[:, None]
     return given
 
 

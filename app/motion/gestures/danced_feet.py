@@ -26,8 +26,10 @@ LIFT_M: Final = 0.06
 """Height of the ball of a foot half way of the largest step, at full amount."""
 HEEL_RAD: Final = float(np.deg2rad(24.0))
 """Angle of the heel above the ball in the largest step or lifted heel."""
-TOES_RAD: Final = float(np.deg2rad(18.0))
-"""Angle of lifted toes above the heel."""
+TOES_RAD: Final = float(np.deg2rad(9.0))
+"""Angle of lifted toes above the heel, of a player who stands on bent knees."""
+SEATED_TOES_RAD: Final = float(np.deg2rad(18.0))
+"""Angle of the lifted toes of a player whose feet keep their place."""
 SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
 """Angle of a lifted heel of a player whose feet keep their place: instruments lie on thighs."""
 PEELS_S: Final = 0.12
@@ -44,7 +46,7 @@ LEAN_RAD: Final = float(np.deg2rad(3.5))
 """Lean of the chest to the foot that carries the weight."""
 LIGHT: Final = 0.6
 """Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
-SINKS_M: Final = 0.035
+SINKS_M: Final = 0.028
 """Way of the hips down as a foot takes the weight on a beat."""
 SINK_S: Final = (0.1, 0.32)
 """Time from the beginning of that way to the beat, and from the beat to its end; a third of this is the way down."""
@@ -124,14 +126,14 @@ class DancedFeet:
             for row in np.flatnonzero(near).tolist():
                 kind = MOVE_KINDS[int((moves.kinds if steps else moves.seated)[row])]
                 span_s, size = (float(moves.start_s[row]), float(moves.lands_s[row])), float(moves.size[row])
-                heel_rad = HEEL_RAD if steps else SEATED_HEEL_RAD
+                heel_rad, toes_rad = (HEEL_RAD, TOES_RAD) if steps else (SEATED_HEEL_RAD, SEATED_TOES_RAD)
                 if kind == "step":
                     _add(found, f"{name}_up", size * LIFT_M * _air(times_s, span_s))
                     _add(found, f"{name}_heel", size * heel_rad * _peeled(times_s, span_s))
                 elif kind == "heel":
                     _add(found, f"{name}_heel", size * heel_rad * _lifted(times_s, span_s))
                 else:
-                    _add(found, f"{name}_toes", size * TOES_RAD * _lifted(times_s, span_s))
+                    _add(found, f"{name}_toes", size * toes_rad * _lifted(times_s, span_s))
                 over = (2.0 * side - 1.0) * (1.0 if kind == "step" else LIGHT)
                 _add(found, "over", size * over * _bump(times_s, span_s[0] - OVER_S, *span_s, OVER_S))
                 _add(found, "sunk", size * _sunk(times_s, span_s[1]))
