@@ -12,7 +12,7 @@ import msgspec
 
 from app.errors import MapError
 from instrument_maps.model import InstrumentName
-from instrument_maps.name_words import words_of
+from instrument_maps.name_words import is_wide, words_of
 
 T = TypeVar("T")
 
@@ -24,7 +24,8 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     kind : {"wind", "percussion", "other"}
     names : tuple of str
-        The first is the English name for people; matching ignores case, diacritics, width and punctuation.
+        The first is the English name for people, the first in kana or kanji the Japanese one; matching ignores case,
+        diacritics, width and punctuation.
     programs : tuple of int
         General MIDI programs, 0..127.
     family : str
@@ -40,6 +41,8 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     any_pitch : bool
         A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
         ``families`` where they are named.
+    various : bool
+        It stands for several instruments: a part's own name says which.
     vague : bool
         Its names may mean a part of any instrument ("Voice 1"): a program other than 0 says more.
     vague_names : tuple of str
@@ -64,12 +67,18 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     families: tuple[str, ...] = ()
     key_by_part: bool = False
     any_pitch: bool = False
+    various: bool = False
     vague: bool = False
     vague_names: tuple[str, ...] = ()
     keyed_names: tuple[str, ...] = ()
     key: str = ""
     form_of: tuple[str, ...] = ()
     marks: tuple[str, ...] = ()
+
+    @property
+    def japanese(self) -> str:
+        """Its Japanese name for people."""
+        return next((name for name in self.names if any(map(is_wide, name))), self.names[0])
 
 
 class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

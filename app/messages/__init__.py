@@ -92,7 +92,7 @@ def _after(value: str, literal: str) -> str:
     if _JAPANESE_START.match(words):
         if _LATIN_END.search(value):
             return f" {words}"
-        if _JAPANESE_END.search(value):
+        if _JAPANESE_END.search(value.rstrip("）」")):
             return words
     return literal
 

@@ -17,6 +17,7 @@ from app.errors import Argument, Message, UsageError
 from app.score.track_channel import TrackChannel
 from app.score.track_instrument import (
     by_program_alone,
+    called,
     is_named,
     said_of,
     said_plainly,
@@ -194,7 +195,7 @@ def refusal(channel: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
     if instrument is not None and not instrument.any_pitch:
         if instrument.kind != "wind":
             id_ = "score.percussion" if instrument.kind == "percussion" else "score.not_wind"
-            return Message(id_, {"instrument": instrument.names[0]})
+            return Message(id_, {"instrument": called(channel, instrument)})
         return None if found.maps else Message("score.no_map", {"instrument": instrument.names[0]})
     range_: dict[str, Argument] = {"lowest": min(channel.pitches), "highest": max(channel.pitches)}
     if found.unknown:

@@ -77,6 +77,14 @@ def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]
     return telling, next(iter(named), None) if telling is None else None
 
 
+def called(channel: TrackChannel, instrument: Instrument) -> str:
+    """Return the usual name of a track's instrument; the score's own ("和太鼓") where it is one of various."""
+    own = (
+        text for text in (channel.name, channel.instrument_name) if text and vocabulary().by_name(text) == instrument
+    )
+    return next(own if instrument.various else iter(()), instrument.names[0])
+
+
 def is_named(channel: TrackChannel) -> bool:
     """Return whether someone named a track, not the program that wrote it."""
     return not all(map(is_no_name, (channel.name, channel.instrument_name)))

@@ -185,6 +185,7 @@ def test_every_part_that_touches_has_a_name_in_both_languages() -> None:
         ("第 {bar} 小節", "5", "第 5 小節"),
         ("（{pitch}）", "B♭", "（B♭）"),
         ("{a} {b}", "笛", "笛 笛"),
+        ("{a} を持つ", "トランペット（B♭管）", "トランペット（B♭管）を持つ"),
         ("Add {player} now", "笛", "Add 笛 now"),
         ("{note}の音", "B♭", "B♭ の音"),
     ],

@@ -17,6 +17,7 @@ from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.performers import Player
 from app.score.model import Note
 from instrument_maps.fingering_words import in_words
+from instrument_maps.instrument_names import vocabulary
 from instrument_maps.library import all_maps
 from instrument_maps.model import PARTS, InstrumentMap
 from widgets.common.channel_names import channel_name
@@ -156,6 +157,13 @@ def parameter_text(text_id: str) -> str:
     return tr(text_id) if text_id else ""
 
 
+def _instruments() -> dict[str, str]:
+    """Instruments by their maps' ids and by their names in messages."""
+    in_japanese = language() == "ja"
+    known = {one.names[0]: one.japanese if in_japanese else one.names[0] for one in vocabulary().instruments.values()}
+    return known | _WORDS["map"]()
+
+
 _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "kind": lambda: {tag: tr(f"{CORRECTION}{tag}") for tag in CORRECTIONS},
     "target": _targets,
@@ -163,6 +171,7 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "touch": _touches,
     "moved": lambda: {channel: channel_name(channel) for channel in CHANNELS},
     "map": lambda: {id: instrument_name(instrument) for id, instrument in all_maps().items()},
+    **dict.fromkeys(("instrument", "said", "played"), _instruments),
     "angle": lambda: {"up": tr("word.up_and_down"), "left": tr("word.to_side"), "roll": tr("word.leaning")},
     "leader_reason": lambda: {"chosen": tr("word.chosen_as_leader"), "melody": tr("word.leads_melody")},
 }

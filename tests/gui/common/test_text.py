@@ -97,6 +97,30 @@ def test_in_japanese_no_english_word_is_left(session: Session, note: Note) -> No
         assert not any("a" <= letter <= "z" for letter in reported), reported
 
 
+@pytest.mark.usefixtures("japanese")
+@pytest.mark.parametrize(
+    ("id", "arguments", "reported"),
+    [
+        ("score.not_wind", {"instrument": "Double Bass"}, "コントラバスは管楽器ではありません"),
+        ("score.percussion", {"instrument": "和太鼓"}, "和太鼓は打楽器です"),
+        ("score.no_map", {"instrument": "Serpent"}, "セルパンの楽器マップがありません"),
+        (
+            "score.substituted",
+            {"part": "Cor.", "instrument": "Soprano Cornet", "map": "cornet_Bb"},
+            "ソプラノコルネットの",
+        ),
+        ("midi.name_says_other", {"part": "Bass", "said": "Tuba", "played": "Trombone"}, "トロンボーン"),
+        (
+            "character.hold_failed",
+            {"character": "x", "instrument": "trumpet_Bb", "detail": "x"},
+            "トランペット（B♭管）を",
+        ),
+    ],
+)
+def test_in_japanese_an_instrument_has_its_japanese_name(id: str, arguments: dict[str, str], reported: str) -> None:
+    assert reported in message_text(Message(id, arguments))
+
+
 def test_pitches_of_messages_are_their_fields() -> None:
     for id, names in PITCHES.items():
         assert all("{" + name + "}" in WORDINGS[id][0] for name in names), id

@@ -199,6 +199,23 @@ def test_a_section_is_divided_among_its_own() -> None:
         assert {part.map_id for part in score(("Sopran", pitches), title="brass quintet").parts} <= families
 
 
+def test_every_instrument_has_a_japanese_name() -> None:
+    names = {one.japanese for one in vocabulary().instruments.values()}
+    without_kana = {name for name in names if not any("ぁ" <= letter <= "ヺ" for letter in name)}
+    assert without_kana == {
+        "尺八",
+        "金管楽器",
+        "木管楽器",
+        "管楽器",
+        "民族管楽器",
+        "弦楽",
+        "小物打楽器",
+        "撥弦楽器",
+        "効果音",
+        "歌手",
+    }
+
+
 def test_every_wind_sits_somewhere_and_every_sort_is_of_something() -> None:
     words = vocabulary()
     for instrument in words.instruments.values():

@@ -65,6 +65,24 @@ def test_what_is_not_played_is_listed_with_its_reason(options: dict[str, object]
     assert left.name
 
 
+@pytest.mark.parametrize(
+    ("options", "instrument"),
+    [
+        ({"name": "和太鼓"}, "和太鼓"),
+        ({"name": "Shime Taiko 2"}, "Shime Taiko 2"),
+        ({"name": "三味線"}, "三味線"),
+        ({"name": "Solo", "instrument": "Erhu"}, "Erhu"),
+        ({"name": "Klavier"}, "Piano"),
+        ({"name": "Track 4", "program": 116}, "Auxiliary Percussion"),
+        ({"program": 105}, "Plucked Instrument"),
+        ({"program": 0}, "Piano"),
+    ],
+)
+def test_what_is_not_played_is_called_as_the_score_calls_it(options: dict[str, object], instrument: str) -> None:
+    score = one_part(60, 62, 64, **options)
+    assert [part.reason.arguments.get("instrument") for part in score.unplayed] == [instrument]
+
+
 def test_an_instrument_without_a_map_is_played_by_a_substitute_with_a_warning() -> None:
     score = one_part(60, 62, name="Kornett")
     (part,) = score.parts
