@@ -2,9 +2,6 @@
 
 Every edit returns another tuple of fingerings, sorted and with ranks that count from 1; `problems_of` says what a map
 with them would be refused for.
-
-Messages: ``fingering.unknown_sign``, ``fingering.unknown_place``, ``fingering.twice``, ``fingering.no_number``,
-``fingering.last``, ``map.not_rewritten``.
 """
 
 from __future__ import annotations

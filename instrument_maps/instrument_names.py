@@ -2,8 +2,6 @@
 
 The table itself is `instrument_names.toml` beside this module. An instrument here need not have a map; the vocabulary
 says what a part is; the maps say which instruments can play it.
-
-Messages: ``vocabulary.invalid``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Instruments of the vocabulary: what the table says of each, and how they are related.
-
-Messages: ``vocabulary.invalid``.
-"""
+"""Instruments of the vocabulary: what the table says of each, and how they are related."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Reads instrument maps: TOML text to `InstrumentMap`, refusing with the exact place what is wrong.
-
-Messages: ``map.unreadable``, ``table.invalid`` and what `app.formats.toml` says.
-"""
+"""Reads instrument maps: TOML text to `InstrumentMap`, refusing with the exact place what is wrong."""
 
 from __future__ import annotations
 

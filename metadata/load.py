@@ -1,7 +1,4 @@
-"""Reading and checking the metadata tables; every fault names the file and the line or key path.
-
-Messages: ``metadata.missing``, ``table.invalid`` and what `app.formats.toml` says.
-"""
+"""Reading and checking the metadata tables; every fault names the file and the line or key path."""
 
 from __future__ import annotations
 

@@ -1,9 +1,6 @@
 """Recordings: WAV, FLAC, OGG and MP3 files, and the sound of films, as samples at the rate everything is mixed at.
 
 The reader is chosen by what is in a file, whatever its name.
-
-Messages: ``audio.not_readable``, ``audio.empty``, ``audio.too_long``, ``audio.too_dense``, ``audio.too_many_samples``,
-``audio.unusable``, ``audio.breaks_off``; of what ffmpeg reads, those of `app.formats.film_sound`.
 """
 
 from __future__ import annotations

@@ -2,8 +2,6 @@
 
 A *bound* is a frame at which a motion starts or ends; motions that meet share one. Every edit gives cuts that can be
 learned from: ascending, without overlap, each with its accent between its bounds.
-
-Messages: ``cuts.line``, ``cuts.order``, ``cuts.wrong``.
 """
 
 from __future__ import annotations

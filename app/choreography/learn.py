@@ -3,8 +3,6 @@
 Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM": motions are cut
 (`app.choreography.cuts`) and classified (`app.choreography.basic_motions`), then the states are visible and their
 probabilities are counted (`app.choreography.hidden_markov`).
-
-Messages: ``learn.no_motion``, ``learn.states``, ``learn.no_overlap``, ``cuts.wrong``, ``learn.done``.
 """
 
 from __future__ import annotations

@@ -2,8 +2,6 @@
 
 One JSON document, each row of a table on a line of its own: what a user may want to read comes first, the motion
 (little-endian float32 in base64: the only part that is no text) last. Names in it are only texts.
-
-Messages (`FileError`): ``choreography.damaged``, ``choreography.newer`` and what `read_file` and `atomic_write` say.
 """
 
 from __future__ import annotations

@@ -4,10 +4,6 @@ Bones are found by `app.rig.characters.joint_mapping`; the rest pose is turned u
 `app.rig.characters.t_pose`. Joints between two segments (collars, buttocks, neck, further vertebrae) are folded into
 the segment beyond them: its world rotation is that of the file, its offset the mean over the clip of where its joint is
 on the segment that carries it.
-
-Messages: ``motion.far``, ``motion.format``, ``motion.incomplete``, ``motion.rate``, ``motion.no_unit``,
-``motion.lead_in``, ``motion.flips``, ``motion.doubtful``, ``motion.apart``, ``motion.place_unit``, and those of
-`app.formats.bvh.read` and `app.formats.motion_limits`.
 """
 
 from __future__ import annotations

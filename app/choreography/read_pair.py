@@ -1,7 +1,4 @@
-"""Files of a motion, of its music and of who made it, as a pair to learn from.
-
-Messages: ``learn.no_percussion`` and what the readers say, also those of cuts (`app.choreography.cuts_by_hand`).
-"""
+"""Files of a motion, of its music and of who made it, as a pair to learn from."""
 
 from __future__ import annotations
 

@@ -1,9 +1,6 @@
 """Many pieces exported at once: each by a process of its own, so that what is wrong with one stops no other.
 
 What was done is noted in ``exported.json`` in the folder of the exports: where a run was stopped, the next one goes on.
-
-Messages: ``batch.no_pieces`` (folder); ``batch.unreal``; ``batch.bad_notes`` (file, detail, aside); those of
-`app.cli.cluster`.
 """
 
 from __future__ import annotations

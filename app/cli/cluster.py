@@ -1,9 +1,4 @@
-"""The machines of a Dask scheduler, checked before any work is given to them.
-
-Messages (`UsageError`): ``dask.missing``; ``dask.unreachable`` (address, reason); ``dask.no_workers`` (address);
-``dask.silent_workers`` (address); ``dask.no_program`` (worker); ``dask.other_program`` (worker, version, own);
-``dask.other_files`` (worker, kinds).
-"""
+"""The machines of a Dask scheduler, checked before any work is given to them."""
 
 from __future__ import annotations
 

@@ -1,11 +1,4 @@
-"""Contacts that are not kept for a while, and the problems that they are.
-
-Messages, all problems of a player's motion: ``contact.hand_off`` (side, gap_mm): "the {side} hand comes off ...";
-``contact.finger_off`` (touch, control, gap_mm): "the {touch} misses {control} ..."; ``contact.grip_off`` (touch,
-gap_mm): "the {touch} does not touch ..."; ``contact.stops_short`` (control, side,
-gap_mm): "{control} stops {gap_mm} mm short ..."; ``contact.lips_off`` (gap_mm): "the lips are {gap_mm} mm off ...";
-``contact.foot_off`` (side, gap_mm): "the {side} foot leaves its place ...".
-"""
+"""Contacts that are not kept for a while, and the problems that they are."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Contacts that a grip itself misses, however its player moves.
-
-Messages: ``character.touches_missed`` (count, touch, gap_mm): "{count} contact points do not reach ...".
-"""
+"""Contacts that a grip itself misses, however its player moves."""
 
 from __future__ import annotations
 

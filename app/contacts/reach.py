@@ -1,7 +1,6 @@
 """Reach of a player's hands: whether they get to everything that the fingerings require.
 
-Messages: ``contact.out_of_reach`` (label, control, gap_mm): "{label} is out of this player's reach: ...", a problem of
-a note. What the hand carries stops where the hand does (`app.motion.contacts.controls_within_reach`).
+What the hand carries stops where the hand does (`app.motion.contacts.controls_within_reach`).
 """
 
 from __future__ import annotations

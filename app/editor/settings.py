@@ -2,8 +2,6 @@
 
 The file is a TOML table that may be edited by hand. A value that is not possible is as if it were not there; a file
 that cannot be read at all is left as it is, and what is chosen meanwhile is kept until it can be, or the editor ends.
-
-Messages: ``settings.value``, ``settings.set_aside``.
 """
 
 from __future__ import annotations

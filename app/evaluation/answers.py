@@ -2,10 +2,6 @@
 
 A file is read as the page writes it or as a spreadsheet saves it again: with or without a byte order mark, with commas,
 semicolons or tabs between the fields, and with decimal commas. Whatever else is wrong with it is refused.
-
-Messages of `FileError`, all with ``file``: ``results.not_text``, ``results.header`` (expected), ``results.row``
-(line, found, expected), ``results.value`` (line, column, found, expected), ``results.cut_off`` (line),
-``results.empty``, ``results.viewers`` (line), ``results.repeated`` (line, first), ``results.side`` (line).
 """
 
 from __future__ import annotations

@@ -1,10 +1,4 @@
-"""Videos that a performance is compared with: real players, or animation from elsewhere; placed by their sound.
-
-Messages
---------
-evaluate.silent_video(file), evaluate.other_piece(file, percent), evaluate.not_followed(file, percent),
-evaluate.other_tempo(file, percent), evaluate.not_covered(file, from_s, until_s, first_s, last_s).
-"""
+"""Videos that a performance is compared with: real players, or animation from elsewhere; placed by their sound."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""Key of an evaluation, which names the variant of each clip: for the evaluator, never given to viewers.
-
-Messages
---------
-evaluate.not_a_key(file, detail), evaluate.newer_key(file).
-"""
+"""Key of an evaluation, which names the variant of each clip: for the evaluator, never given to viewers."""
 
 from __future__ import annotations
 

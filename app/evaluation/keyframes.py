@@ -2,12 +2,6 @@
 
 A file holds the joints of a body, as `suisou export` writes them on our own skeleton: BVH, or FBX and GLB. What it does
 not hold is that of the performance: the face, valves and slides. The instrument goes along with the hand that bears it.
-
-Messages
---------
-evaluate.keyframes_skeleton(file), evaluate.keyframes_bones(file, bones),
-evaluate.keyframes_body(file, bone, character), evaluate.keyframes_player(file, players),
-evaluate.keyframes_lacking(file, player, name), evaluate.keyframes_report(file, detail), evaluate.not_covered.
 """
 
 from __future__ import annotations

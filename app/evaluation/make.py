@@ -1,9 +1,4 @@
-"""An evaluation from a project and a video of real players: clips, the page, its key and the measures.
-
-Messages
---------
-evaluate.there_already(file), evaluate.no_excerpt; progress: evaluate.step_video and others.
-"""
+"""An evaluation from a project and a video of real players: clips, the page, its key and the measures."""
 
 from __future__ import annotations
 

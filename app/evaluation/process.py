@@ -2,10 +2,6 @@
 
 The child reads an `EvaluationJob` from its input and answers with `EvaluationProgress`, at last with
 `EvaluationFinished` or `EvaluationRefused`. When its input ends, it stops and removes the files that it has written.
-
-Messages
---------
-evaluate.ended(detail): the process has ended without an answer.
 """
 
 from __future__ import annotations

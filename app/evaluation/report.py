@@ -1,7 +1,4 @@
-"""Results written to a folder: text and picture in both languages, tables for a spreadsheet, and everything as JSON.
-
-Messages: ``file.cannot_write``.
-"""
+"""Results written to a folder: text and picture in both languages, tables for a spreadsheet, and everything as JSON."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""Settings of an evaluation, as a value that can be sent to another process.
-
-Messages (`UsageError`)
---------
-evaluate.needs_file(variant, option), evaluate.too_few().
-"""
+"""Settings of an evaluation, as a value that can be sent to another process."""
 
 from __future__ import annotations
 

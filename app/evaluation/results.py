@@ -2,9 +2,6 @@
 
 Answers about clips on their own and about clips in pairs are different questions and are never pooled. Every value is
 first a viewer's own mean; statistics are over viewers.
-
-Messages of `FileError`, all with ``file``: ``results.other_evaluation`` (found, expected), ``results.unknown_clip``
-(line, code), ``results.unasked`` (line, aspect), ``results.same_viewer`` (other).
 """
 
 from __future__ import annotations

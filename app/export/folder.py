@@ -1,7 +1,4 @@
-"""A set of files that appears in a folder whole or not at all.
-
-Messages: ``file.cannot_write`` (file, reason) and those of `app.export.tree`.
-"""
+"""A set of files that appears in a folder whole or not at all."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""Pictures to PNG files: one for each, or all of them on a contact sheet.
-
-Messages
---------
-picture.other_frames(file): frames of another film are in the folder.
-"""
+"""Pictures to PNG files: one for each, or all of them on a contact sheet."""
 
 from __future__ import annotations
 

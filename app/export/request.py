@@ -1,8 +1,4 @@
-"""Request of an export, and its cast: players that cannot be exported are excluded with the reason.
-
-Messages: ``export.no_players`` (file); ``export.too_long`` (file, frames,
-most); ``work.stopped``; those of `app.performance.cast`.
-"""
+"""Request of an export, and its cast: players that cannot be exported are excluded with the reason."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""A performance to files: characters, instruments, report. Players who cannot be exported are excluded and named.
-
-Messages: those of `app.export.request`.
-"""
+"""A performance to files: characters, instruments, report. Players who cannot be exported are excluded and named."""
 
 from __future__ import annotations
 

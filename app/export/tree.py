@@ -6,18 +6,6 @@ folder, from which the next one restores what was there before.
 
 A tree may come from anywhere, with whatever links in it: nothing is written, moved or removed through a link that leads
 out of it. The tree itself may be reached through links, and links within it are followed.
-
-Messages
---------
-file.cannot_write (file, reason)
-tree.busy (file)
-    Another process is writing into the same tree.
-tree.refused (file, reason)
-    The system did not let a file be replaced or removed; everything is as it was.
-tree.leads_outside (file, target)
-    A link in the tree leads out of it; nothing was touched there.
-tree.not_restored (file, reason)
-    Nor did it let what was there before be given back; the next one tries again.
 """
 
 from __future__ import annotations

@@ -1,9 +1,4 @@
-"""Pictures and sound to an MP4 file (H.264 and AAC), by the ffmpeg that imageio-ffmpeg brings.
-
-Messages
---------
-video.failed(file, detail): the encoder refused.
-"""
+"""Pictures and sound to an MP4 file (H.264 and AAC), by the ffmpeg that imageio-ffmpeg brings."""
 
 from __future__ import annotations
 

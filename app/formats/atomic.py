@@ -1,7 +1,4 @@
-"""Files that appear whole or not at all.
-
-Messages: ``file.cannot_write`` (file, reason): "{file} cannot be written: {reason}".
-"""
+"""Files that appear whole or not at all."""
 
 from __future__ import annotations
 

@@ -2,13 +2,6 @@
 
 It runs as a process of its own within the limits of `app.child_limits`, reads this one file and no other that the file
 names, and takes no input.
-
-Messages
---------
-video.not_readable(file, detail): ffmpeg cannot read it.
-video.transport_stream(file): a transport stream, at which ffmpeg crashes.
-video.too_costly(file): ffmpeg needed more memory or time than a file of this size may take.
-video.reader_ended(file, status): ffmpeg crashed.
 """
 
 from __future__ import annotations

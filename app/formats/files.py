@@ -1,8 +1,6 @@
 """Reading files of any origin: only ordinary files, only up to a size, and never waiting for one.
 
 A pipe would block its reader for ever and a device may have no end, so what is opened is looked at before it is read.
-
-Messages: ``file.cannot_read``, ``file.not_regular``, ``file.other_computer``, ``file.too_large``.
 """
 
 from __future__ import annotations

@@ -3,11 +3,6 @@
 ffmpeg decodes what is there and says when each block of it begins. It fills no gap: a few bytes can say that an hour
 passes, and it would make the silence of that hour before anybody could count it. Gaps are filled here, after the whole
 was measured.
-
-Messages
---------
-video.no_sound(file): there are pictures alone.
-video.sound_times(file): by its time stamps much of the sound would be heard at once.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""JSON of any origin -> typed values; nothing but our own error escapes.
-
-Messages: ``json.invalid``.
-"""
+"""JSON of any origin -> typed values; nothing but our own error escapes."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Limits of the motion in a file: few keys can stand for many frames, so frames are counted before any is made.
-
-Messages: ``motion.too_long`` (seconds, frames, nodes, most), ``motion.rate_impossible`` (frame_s, slowest, fastest).
-"""
+"""Limits of the motion in a file: few keys can stand for many frames, so frames are counted before any is made."""
 
 from __future__ import annotations
 

@@ -3,8 +3,6 @@ r"""Paths on other computers, which are not touched before the user agrees.
 Where a path names another computer (``\\host\share\take.wav``), asking whether the file is there already makes Windows
 sign in to that computer with the user's account. A path that a file brings along is therefore refused until its host
 was agreed to: in the window, by choosing or dropping a file there, or by naming a path there on the command line.
-
-Messages: ``file.other_computer``.
 """
 
 from __future__ import annotations

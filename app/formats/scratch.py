@@ -1,8 +1,6 @@
 """Temporary folders in known places: what a killed process leaves there, the next start removes.
 
 Each has a locked file in it for as long as its process lives; the system takes the lock away, however that ends.
-
-Messages: ``file.cannot_write`` (file, reason).
 """
 
 from __future__ import annotations

@@ -3,8 +3,6 @@
 Reading is meant for files of any origin. What the format allows and no table of ours needs is refused: numbers beyond
 64 bits, nan and infinity, names and tables nested deeper than any real file. Besides being wrong, each of them makes
 some step behind the parser fail, or take longer than the square of the file's size.
-
-Messages (`MapError`): ``table.syntax``, ``table.invalid``.
 """
 
 from __future__ import annotations

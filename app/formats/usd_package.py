@@ -1,7 +1,4 @@
-"""The package usd-core, which writes USD files and may not be installed.
-
-Message: ``usd.missing``: "USD files need the package usd-core, which is not installed: pip install usd-core".
-"""
+"""The package usd-core, which writes USD files and may not be installed."""
 
 from __future__ import annotations
 

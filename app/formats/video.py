@@ -1,10 +1,4 @@
-"""The pictures of films of other programs and cameras, by ffmpeg.
-
-Messages
---------
-those of `app.formats.ffmpeg`.
-video.no_pictures(file): there is sound alone.
-"""
+"""The pictures of films of other programs and cameras, by ffmpeg."""
 
 from __future__ import annotations
 

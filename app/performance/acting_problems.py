@@ -1,8 +1,4 @@
-"""Problems of a player's acting and dancing: styles, habits and choreographies that are missing.
-
-Messages: ``project.style_missing``, ``project.habit_missing`` (player, name, known); ``project.no_dances`` (dancer), or
-what the maker of dances reports of a choreography.
-"""
+"""Problems of a player's acting and dancing: styles, habits and choreographies that are missing."""
 
 from __future__ import annotations
 

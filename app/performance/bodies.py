@@ -1,7 +1,4 @@
-"""Characters, bodies, instruments, models and grips of players; each is made once.
-
-Messages: ``character.hold_failed`` (character, instrument, detail): "{character} cannot be made to hold ...".
-"""
+"""Characters, bodies, instruments, models and grips of players; each is made once."""
 
 from __future__ import annotations
 

@@ -1,7 +1,5 @@
 """Cast of visible players: prepared one by one; a player that lacks something is excluded with the reason, and the
 others continue.
-
-Messages: ``player.left_out``, ``player.not_seen``, ``player.all_left_out``.
 """
 
 from __future__ import annotations

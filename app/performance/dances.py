@@ -1,8 +1,6 @@
 """Dances, as far as a performance, its exports and its streams know them; `app.features` names who makes them.
 
 Without a maker of dances, dancers are excluded and players who were to dance move as generated, both with the reason.
-
-Messages: ``project.no_dances`` (dancer).
 """
 
 from __future__ import annotations

@@ -1,10 +1,4 @@
-"""Plans of all players of a project, made once from a snapshot and shared.
-
-Messages: ``piece.too_long`` (as `app.score.limits.too_long` says it): "the piece would last {hours} hours, ...";
-as problems of the player's plan ``project.instrument_missing``, ``project.character_missing`` (player, id),
-``project.style_missing``, ``project.habit_missing`` (player, name, known), or what is wrong with the file of that
-instrument or character.
-"""
+"""Plans of all players of a project, made once from a snapshot and shared."""
 
 from __future__ import annotations
 

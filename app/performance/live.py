@@ -3,8 +3,6 @@
 The performance is cut into chunks of frames. The owner of the worker thread calls `LiveMotion.work` as long as it
 makes something; the viewport calls `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
 whose curves changed.
-
-Messages: ``character.hold_waiting``, ``player.fault`` and those of `app.performance.ensemble`.
 """
 
 from __future__ import annotations

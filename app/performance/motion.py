@@ -1,7 +1,4 @@
-"""One player's motion at a frame rate, made piece by piece so that it can be watched and stopped.
-
-Messages: ``work.stopped`` (of `Cancelled`): "stopped; nothing was written".
-"""
+"""One player's motion at a frame rate, made piece by piece so that it can be watched and stopped."""
 
 from __future__ import annotations
 

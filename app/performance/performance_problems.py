@@ -1,8 +1,4 @@
-"""All that is wrong with a player's performance, its generated motion included: the same in every report.
-
-Messages: ``judged.sparsely`` (rate, players, minutes), ``judged.some`` (judged, players, last, rate, minutes),
-``judged.not`` (players, minutes).
-"""
+"""All that is wrong with a player's performance, its generated motion included: the same in every report."""
 
 from __future__ import annotations
 

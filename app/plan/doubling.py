@@ -3,8 +3,6 @@
 The change is in the middle of the rest between the last note of one and the first of the next: the first is put aside,
 the hand moves, the second is picked up. Players are assumed to need about two seconds: the three steps at an
 unhurried pace and a small margin.
-
-Messages: ``doubling.rest_short``, ``doubling.overlap``.
 """
 
 from __future__ import annotations

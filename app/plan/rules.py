@@ -1,8 +1,4 @@
-"""Events that rules (`metadata.rules`) generate; their ids name the rule and the note.
-
-Messages: ``rule.applied`` (rule), ``expression.effort``, ``expression.low_loud``, ``rule.unknown_expression``,
-``rule.unknown_gesture`` (rule, name, known).
-"""
+"""Events that rules (`metadata.rules`) generate; their ids name the rule and the note."""
 
 from __future__ import annotations
 

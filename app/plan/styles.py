@@ -1,8 +1,6 @@
 """Regions in which a player plays in another style: how much of each layer is shown at any time.
 
 What such a region names is what the player would show with that style throughout; at its edges both are blended.
-
-Messages: ``project.style_missing`` (player, name, known).
 """
 
 from __future__ import annotations

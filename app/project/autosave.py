@@ -8,9 +8,6 @@ second editor has open, because two editors must not write one autosave; one bes
 the user has not decided about; and one whose folder refuses (read-only, full, gone, not answering) until it does not.
 
 A project that cannot be saved, which no edit should make, is written without the value that is at fault.
-
-Messages (warnings): ``autosave.elsewhere``, ``autosave.refused``, ``autosave.nowhere``, ``autosave.without`` (place,
-detail, count).
 """
 
 from __future__ import annotations

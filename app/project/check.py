@@ -2,8 +2,6 @@
 
 One check at every door: what a reader makes of a file, an edit of the project, and a save must all pass `faults`, so
 that whatever got in can be saved and is read again.
-
-Messages (`UsageError`): ``project.not_storable`` (place, detail).
 """
 
 from __future__ import annotations

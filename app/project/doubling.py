@@ -2,8 +2,6 @@
 
 A `Player` is one instrument part. A player who doubles another shares that player's body: the player of the first
 instrument stands for the musician, and has the character, the parameters and the place.
-
-Messages: ``doubling.posture``, ``doubling.together``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""A project's piece as a MIDI file: what its players play, under their names.
-
-Messages: ``midi.onto_source``.
-"""
+"""A project's piece as a MIDI file: what its players play, under their names."""
 
 from __future__ import annotations
 

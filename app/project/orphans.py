@@ -1,7 +1,4 @@
-"""Corrections whose note is gone: they stay and do nothing until they get another note or are taken back.
-
-Messages (`UsageError`): ``reimport.no_note``, ``reimport.not_played``.
-"""
+"""Corrections whose note is gone: they stay and do nothing until they get another note or are taken back."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""`PLAYER.parameter=value`: what the user sets for one player or for several, checked before anything is made.
-
-Raises `UsageError` with these ids: ``set.syntax`` (text), ``set.player_unknown`` (player, possible),
-``set.parameter_unknown`` (parameter, possible), ``set.value_invalid`` (parameter, value, possible),
-``player.unknown`` (player, possible).
-"""
+"""`PLAYER.parameter=value`: what the user sets for one player or for several, checked before anything is made."""
 
 from __future__ import annotations
 

@@ -2,8 +2,6 @@
 
 A TOML file: the section's intensity, of each player by name style, habits, amounts and layers that are off, and what
 was corrected of gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
-
-Messages: ``metadata.newer``, ``metadata.no_player`` (players, known), ``table.invalid``; what `require_sound` says.
 """
 
 from __future__ import annotations

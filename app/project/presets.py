@@ -3,8 +3,6 @@
 Each is a small TOML file in a folder of the user's; its name stands in it, and the file is called by a cleaned form of
 that, so that a name can be anything and never becomes a path. A project holds a copy of the expressions it uses and
 does not need these files.
-
-Messages: ``preset.no_name``, ``preset.none_of_name``, ``table.invalid``, ``file.cannot_write``.
 """
 
 from __future__ import annotations

@@ -14,8 +14,6 @@ pinned to the recording.
 Parts may be kept as they are here (`Reimport.keeping`); what the file has for them is offered again the next time.
 
 Corrections whose note is gone stay as they are and do nothing (`app.project.orphans`).
-
-Messages (`UsageError`): ``piece.too_long``.
 """
 
 from __future__ import annotations

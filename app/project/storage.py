@@ -3,9 +3,6 @@
 The file says its version first; older ones are migrated (`app.project.migrations`), newer ones refused. Paths of media
 are kept relative to the file where both lie in one tree, so that a folder can be moved or sent. Whatever a file holds,
 names are only texts: nothing but the recording, the MIDI file it came from and a choreography's file is ever a path.
-
-Messages (`FileError`): ``project.damaged``, ``project.invalid``, ``project.newer``, ``project.cannot_save``,
-``project.read_only`` and what `read_file` says.
 """
 
 from __future__ import annotations

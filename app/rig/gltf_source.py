@@ -1,7 +1,4 @@
-"""Source of characters and instruments: a glTF file's nodes at rest and its meshes, joined by material.
-
-Messages: ``model.invalid``.
-"""
+"""Source of characters and instruments: a glTF file's nodes at rest and its meshes, joined by material."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Loading instrument models, and where their moving parts are for given values of the controls.
-
-Messages: ``model.invalid``.
-"""
+"""Loading instrument models, and where their moving parts are for given values of the controls."""
 
 from __future__ import annotations
 

@@ -3,8 +3,6 @@
 Nodes have turns of their own at rest, and scales; joints of BVH files have neither. So each node becomes a joint that
 turns as the node turns away from its rest, below one root for all. At rest it is where its skin was bound, or where the
 file has it without animation. The longest animation counts.
-
-Messages: ``motion.no_animation``, those of `app.formats.motion_limits` and what the readers say.
 """
 
 from __future__ import annotations

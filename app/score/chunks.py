@@ -1,37 +1,4 @@
-"""The container of a Standard MIDI File: header and tracks as bytes, however carelessly written.
-
-Errors (all `FileError`)
-------------------------
-file.cannot_read, file.not_regular, file.too_large : file ...
-    See `app.formats.files`.
-midi.empty : file
-    "{file}: the file is empty"
-midi.not_midi : file, byte, found
-    "{file}: not a MIDI file: byte {byte} has {found} where the header MThd belongs"
-midi.header_truncated : file, byte
-    "{file}: the file ends within its header, at byte {byte}"
-midi.bad_division : file, byte
-    "{file}: the time division at byte {byte} is 0, so the notes have no times"
-midi.no_tracks : file, byte, found
-    "{file}: no track: byte {byte} has {found} where a track MTrk belongs"
-
-Warnings
---------
-midi.header_length : byte, length
-    "The header says that it is {length} bytes long and is not (byte {byte}); its first 6 bytes were taken"
-midi.unknown_format : format
-    "The file says it has the unknown format {format}; its tracks were taken as simultaneous"
-midi.format_0_tracks : tracks
-    "The file says it has one track (format 0) and has {tracks}; they were taken as simultaneous"
-midi.track_length : track, byte
-    "The length of track {track} (byte {byte}) is wrong; the track was read up to its real end"
-midi.track_cut_off : track, byte, length, found
-    "Track {track} (byte {byte}) says that it is {length} bytes long, and the file ends after {found}"
-midi.tracks_missing : expected, found
-    "The header promises {expected} tracks, the file has {found}"
-midi.bytes_left_out : byte, count
-    "{count} bytes after the last track, from byte {byte}, are no part of a MIDI file and were left out"
-"""
+"""The container of a Standard MIDI File: header and tracks as bytes, however carelessly written."""
 
 from __future__ import annotations
 

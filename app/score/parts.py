@@ -2,26 +2,6 @@
 
 A name beats a program; what an instrument is called in the track's name beats its instrument name. What is percussion
 and what sound effects `app.score.track_instrument.use_of` says.
-
-Reasons for not playing a part
-------------------------------
-score.no_map : instrument
-    "there is no instrument map for {instrument} yet"
-score.percussion : instrument
-    "{instrument} is percussion"
-score.sound_effect
-    "it is a sound effect, which no player plays"
-score.not_wind : instrument
-    "{instrument} is not a wind instrument"
-score.outside_ranges : lowest, highest
-    "neither its name nor its program says what it is, and no instrument map reaches its notes ({lowest} to {highest})"
-
-score.unknown_instrument : lowest, highest
-    "the instrument cannot be determined because the name is not understood ({lowest} to {highest}); select one"
-score.stray_notes : part, count, place, pitch
-    "{part}: {count} notes sound together with others, the first at ...; too few and too short for another player"
-score.key_switches : part, count, place, pitch
-    "{part}: {count} notes far from the instrument's range are key switches, the first at ..."
 """
 
 from __future__ import annotations

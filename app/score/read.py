@@ -22,43 +22,6 @@ end of the one after it. Two notes of such a pitch at one tick are one.
 
 Markers and cue points are markers of the piece, whichever track holds them; one that several tracks repeat is one, and
 one without a text is none.
-
-The errors are those of `app.score.chunks`, and:
-
-midi.unknown_encoding : file, encoding
-    "{file}: there is no text encoding '{encoding}'"
-midi.track_unreadable : file, track, byte, detail
-    "{file}: track {track}, which begins at byte {byte}, cannot be read: {detail}"
-midi.too_many_parts : file, parts, most
-    "{file}: {parts} parts (channels of tracks) have notes; at most {most} can be taken in"
-midi.too_long : file, track, and as `app.score.limits.too_long` says it
-    "{file}: the last note of track {track} ends after {hours} hours, {quarters} quarter notes and {bars} bars ..."
-
-The warnings are those of `app.score.chunks`, `app.score.repair`, `app.score.stuck_notes` and `app.score.parts`, and:
-
-midi.smpte_rate : rate
-    "The file counts time in frames of 1/{rate} s, which is no SMPTE rate; it was taken literally"
-midi.patterns : patterns
-    "The file has {patterns} independent patterns (format 2); they follow one another"
-midi.early_end : track, count
-    "Track {track} says that it ends before its last {count} notes, which were read all the same"
-midi.hanging_notes : track, count
-    "{count} notes of track {track} never end; they end where the next note of the channel begins, and after four
-    quarters at the latest"
-midi.beyond_all_music : track, count
-    "{count} events of track {track} lie beyond the last possible tick and were left out"
-midi.zero_length_notes : track, count
-    "{count} notes of track {track} have no length; they last one tick"
-midi.impossible_metre : track, tick, count
-    "Track {track} has {count} impossible time signatures, the first at tick {tick}; they were left out"
-midi.metre_assumed : numerator, denominator
-    "No time signature in the file: {numerator}/{denominator} assumed from the notes" (`app.score.metre_guess`)
-midi.impossible_tempo : track, tick, count
-    "Track {track} has {count} impossible tempos, the first at tick {tick}; they were left out"
-midi.no_notes : tracks
-    "The file has no notes in its {tracks} tracks"
-midi.track_without_notes : track, name, count, and midi.unnamed_track_without_notes : track, count
-    "Track {track} ({name}) has no notes and {count} other events", of each of the first tracks of such a file
 """
 
 from __future__ import annotations

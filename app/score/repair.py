@@ -7,13 +7,6 @@ What mido refuses or misreads: variable-length quantities of more than four byte
 of; system messages other than exclusive ones, running status after them or after an
 exclusive message, meta events with impossible contents, an event cut off by the end of the track. A value above 127 is
 taken for 127, as mido does when it is asked to clip.
-
-Warnings
---------
-midi.track_truncated : track, byte
-    "Track {track} breaks off within an event at byte {byte}; what came before was read"
-midi.bytes_not_understood : track, byte, count
-    "{count} bytes of track {track} are no MIDI events and were left out, the first at byte {byte}"
 """
 
 from __future__ import annotations

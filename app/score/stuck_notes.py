@@ -1,8 +1,6 @@
 """Stuck notes: a note-off that comes hours after all music, as where a key or a cable was stuck while recording.
 
 A note is cut where the other notes end when it sounds on for so long that the rest of the piece is little beside it.
-
-Messages: ``midi.stuck_notes`` (track, count, place, pitch, hours).
 """
 
 from __future__ import annotations

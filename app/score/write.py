@@ -23,20 +23,6 @@ for does not:
 The bite goes to controller 16 ("general purpose controller 1"): MIDI has no controller for it, and one that has a
 meaning (1, modulation; 77, vibrato depth) would add a vibrato to the one that was played. The standard leaves
 16 to each device.
-
-Errors
-------
-midi.tempo_unwritable : place, bpm, low, high
-    "bar {bar}: a MIDI file cannot hold a tempo of {bpm} quarters per minute; from {low} to {high} it can"
-
-Warnings
---------
-midi.nested_notes : part, count
-    "{part}: {count} notes sound within another of the same pitch; in a MIDI file the two exchange their ends"
-midi.name_says_other : part, said, played
-    "{part}: its name says {said}, so who reads the file takes it for that and not for {played}"
-midi.shared_again : part
-    "{part}: notes sound together; who reads the file shares them among players"
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Datagrams to a program that listens, here or elsewhere; nothing ever waits for it.
-
-Messages: ``stream.host_unknown``, ``stream.port``, ``stream.not_sent``, ``stream.to_many``.
-"""
+"""Datagrams to a program that listens, here or elsewhere; nothing ever waits for it."""
 
 from __future__ import annotations
 

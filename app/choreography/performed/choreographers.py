@@ -1,7 +1,4 @@
-"""Choreographies by name or path, kept as long as their files are the same.
-
-Messages: ``dance.too_long`` (minutes, most).
-"""
+"""Choreographies by name or path, kept as long as their files are the same."""
 
 from __future__ import annotations
 

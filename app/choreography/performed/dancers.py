@@ -2,12 +2,6 @@
 
 A dance is generated for the whole performance at once, whatever frames are asked for: where a dancer goes depends on
 everything before. It is made once for each frame rate and kept while nothing changes that it is made from.
-
-Messages: those of `app.choreography.model_file`; ``project.character_missing``; those of
-`app.project.storage.choreography_missing`; and of corrections that a dance does
-not hold, with basic motions and segments counted from 1: ``dance.state_not_held`` (number), ``dance.segment_not_held``
-(number), ``dance.state_not_avoided`` (number); and of what is seen of a dance, ``dance.seam_shows`` (before, after:
-basic motions), ``dance.foot_slides`` (side).
 """
 
 from __future__ import annotations

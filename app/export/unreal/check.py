@@ -1,9 +1,4 @@
-"""Checks of a written file before it may replace one in a project.
-
-Messages
---------
-unreal.file_wrong (file, what, found, requested)
-"""
+"""Checks of a written file before it may replace one in a project."""
 
 from __future__ import annotations
 

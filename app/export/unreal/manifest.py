@@ -1,9 +1,4 @@
-"""Manifest of our files: a list in each folder that we write into, with the digest of each file as written.
-
-Messages
---------
-unreal.manifest (file, detail), unreal.in_the_way, unreal.changed (file); ``unreal.kept`` (file), a warning
-"""
+"""Manifest of our files: a list in each folder that we write into, with the digest of each file as written."""
 
 from __future__ import annotations
 

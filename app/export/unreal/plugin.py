@@ -1,10 +1,6 @@
 """The plug-in that imports in Unreal, put into a project that has none or another one of ours that is no newer.
 
 The project's own file is not touched: a plug-in in its folder is on by itself, and asks for those that it needs.
-
-Messages
---------
-unreal.plugin_foreign (file)
 """
 
 from __future__ import annotations

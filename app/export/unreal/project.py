@@ -1,10 +1,4 @@
-"""The folder of an Unreal project: recognised, and whether it can be written to.
-
-Messages
---------
-unreal.not_found, unreal.no_project, unreal.several, unreal.not_a_project, unreal.too_old, unreal.read_only,
-unreal.locked
-"""
+"""The folder of an Unreal project: recognised, and whether it can be written to."""
 
 from __future__ import annotations
 

@@ -5,8 +5,6 @@ imports them to ``Plugins/Suisou``. Exporting again updates in place and takes a
 files that others made or changed are never touched.
 
 Players who cannot be exported are excluded; what an earlier export holds of them stays, in the sources and in Unreal.
-
-Messages: those of `app.export.request`, `app.export.tree` and the other modules here.
 """
 
 from __future__ import annotations

@@ -3,11 +3,6 @@
 Programs differ in capitals, blanks and where braces stand; in how many rows "Frames:" announces; in the unit of the
 frame time; some write a byte order mark, scales, or several skeletons. What a file means without doubt is read, and
 what had to be guessed stands in the clip.
-
-Messages (with ``file``): ``file.cannot_read``, ``bvh.truncated``, ``bvh.too_large``, ``bvh.frame_time`` and
-``bvh.frames`` (found); with ``line`` too ``bvh.syntax``, ``bvh.unsupported``, ``bvh.no_frames``, ``bvh.number`` and
-``bvh.row``. Guesses: ``motion.rows``, ``motion.row_cut``, ``motion.figures``, ``motion.milliseconds`` and
-``motion.rate_as_time``.
 """
 
 from __future__ import annotations

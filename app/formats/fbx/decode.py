@@ -2,9 +2,6 @@
 
 Meant for files of any origin: every length is checked before it is believed, records may nest only so deep, and an
 array is never unpacked to more than its compressed bytes can hold.
-
-Messages (all with ``file`` and the ``offset`` of the trouble in bytes): ``fbx.not_binary``, ``fbx.truncated``,
-``fbx.bad_record``, ``fbx.bad_property``, ``fbx.bad_array``, ``fbx.too_large``, ``fbx.too_deep``.
 """
 
 from __future__ import annotations

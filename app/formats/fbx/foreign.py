@@ -3,9 +3,6 @@
 Any version and both encodings are read by the library ufbx, which knows pre-rotations, pivots, geometric transforms,
 units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is reported as an
 error.
-
-Messages (all with ``file``): ``file.cannot_read``, ``file.too_large``, ``fbx.not_fbx``, ``fbx.foreign_damaged``,
-``fbx.too_large``, ``fbx.motion_too_large``, ``fbx.no_reader``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Objects of a decoded FBX file and what hangs from what; every access is checked.
-
-Messages as in `app.formats.fbx.read`.
-"""
+"""Objects of a decoded FBX file and what hangs from what; every access is checked."""
 
 from __future__ import annotations
 

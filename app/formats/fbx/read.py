@@ -3,9 +3,6 @@
 It understands what that writes: bones in centimetres without scaling, pivots or pre-rotations, directly under the
 scene or those of each figure under a Null, and linear keys on frames; the clip has what these curves are at every
 frame. Anything else is refused, never quietly misread.
-
-Messages: ``file.cannot_read``, ``fbx.missing``, ``fbx.unsupported``, ``fbx.contradiction``
-and those of `app.formats.fbx.decode`.
 """
 
 from __future__ import annotations

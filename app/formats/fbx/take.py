@@ -1,7 +1,4 @@
-"""The animation of a binary FBX file as our writer makes it: one take, linear keys on frames.
-
-Messages: those of `app.formats.fbx.read`.
-"""
+"""The animation of a binary FBX file as our writer makes it: one take, linear keys on frames."""
 
 from __future__ import annotations
 

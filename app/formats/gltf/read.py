@@ -4,9 +4,6 @@ Every index, offset and size is checked before any byte is touched, since charac
 the file is ever opened. Units stay glTF's: metres,
 right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0 Specification", sections 3.6 (buffers and accessors),
 3.7 (geometry, skins, morph targets) and 4 (GLB).
-
-Messages (all with ``file``): ``file.cannot_read``, ``gltf.not_gltf``, ``gltf.damaged``, ``gltf.external``,
-``gltf.unsupported``, ``gltf.too_large``, ``gltf.too_deep``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Depths of breaths, and places where their air does not last.
-
-Messages: ``breath.too_long``.
-"""
+"""Depths of breaths, and places where their air does not last."""
 
 from __future__ import annotations
 

@@ -7,10 +7,6 @@ Every breath ends at the onset it serves. Where no rest serves within the lungs'
 once some of the air is used, a catch breath is taken: in the short silence there, or out of the tail of the note
 before, whose lips then leave early while its sound stays. In runs whose notes are too short for that the player leaves
 out a note: its lips leave at once.
-
-Messages: ``breath.first``, ``breath.rest_whole``, ``breath.last_beat``, ``breath.prepared``, ``breath.preparation``,
-``breath.blown``, ``breath.blown_preparation``, ``breath.blown_short``, ``breath.inside_note``; those of catch breaths
-are `app.plan.breath.catch_breaths`'s.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""The breaths in rests, or in the silences of a recorded breath.
-
-Their messages are those of `app.plan.breath.breaths`; and ``breath.why_short``, ``breath.why_written``,
-``breath.why_by_hand``, ``breath.why_not_recorded``.
-"""
+"""The breaths in rests, or in the silences of a recorded breath."""
 
 from __future__ import annotations
 

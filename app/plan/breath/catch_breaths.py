@@ -1,10 +1,4 @@
-"""Catch breaths: before which notes they are taken, how, and why.
-
-Messages: ``breath.catch``, ``breath.catch_dropped``, ``breath.catch_dropped_two``, ``breath.catch_slurred``,
-``breath.catch_rest_slurred``, ``breath.catch_dropped_slurred``, ``breath.catch_dropped_two_slurred``,
-``breath.slur_broken``, ``breath.slur_begins_late``, ``breath.slur_ends_early``, ``breath.phrase_end``,
-``breath.after_hold``, ``breath.written``, ``breath.by_hand``, ``breath.breaks_slur``, ``breath.mark_too_short``.
-"""
+"""Catch breaths: before which notes they are taken, how, and why."""
 
 from __future__ import annotations
 

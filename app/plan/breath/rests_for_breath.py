@@ -2,8 +2,6 @@
 
 In a long rest a player breathes whatever was played before; the shorter a rest is, the more must have been played, or
 the less air be left. `app.plan.breath.breaths_in_rests` decides how a rest is used that is breathed in.
-
-Messages: ``breath.why_long``, ``breath.why_every``, ``breath.why_played``, ``breath.why_air``.
 """
 
 from __future__ import annotations

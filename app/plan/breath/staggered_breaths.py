@@ -4,8 +4,6 @@ In running notes that leave no other way to breathe, players of one rhythm leave
 chords too: what all left out together would be a hole.
 
 After what all of them hold, a fermata, they breathe together.
-
-Messages: ``breath.staggered``.
 """
 
 from __future__ import annotations

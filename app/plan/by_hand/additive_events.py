@@ -1,7 +1,4 @@
-"""Additive curves of the animator, in seconds and within the limits of a body.
-
-Messages: ``additive.beyond_reach``, ``additive.not_here``, ``additive.too_fast``.
-"""
+"""Additive curves of the animator, in seconds and within the limits of a body."""
 
 from __future__ import annotations
 

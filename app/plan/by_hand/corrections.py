@@ -2,9 +2,6 @@
 
 A correction wins over the generator and its result carries ``corrected=True``. One whose anchor is gone (its note was
 deleted, its event is no longer made) is handed back as a problem, never dropped silently.
-
-Messages: ``correction.orphaned``, ``correction.no_such_fingering``, ``breath.inside_note``, ``correction.by_hand``,
-``correction.empty_span``, ``correction.unknown_expression``.
 """
 
 from __future__ import annotations

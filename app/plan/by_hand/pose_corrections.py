@@ -1,7 +1,4 @@
-"""Pose corrections: bell, head, elbows and trunk, within the limits of a body.
-
-Messages: ``pose.beyond_reach``.
-"""
+"""Pose corrections: bell, head, elbows and trunk, within the limits of a body."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Nods of players who come in on another player's cue: smaller, and a little later.
-
-Messages: ``gesture.nod``.
-"""
+"""Nods of players who come in on another player's cue: smaller, and a little later."""
 
 from __future__ import annotations
 

@@ -9,9 +9,6 @@ What an accompaniment plays that is not on stage sounds too: an entry with it ne
 Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next one: there lies the nod's
 acceleration peak, and its duration is the tempo (Bishop and Goebl 2017). Both are beats of the metre: before a pickup
 the second is the beat that the pickup lies in, else it is the entry.
-
-Messages: ``cue.start``, ``cue.after_rest``, ``cue.after_pause``, ``cue.after_fermata``, ``cue.tempo``, ``cue.section``,
-``cue.joins``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,5 @@
 """Faces: neutral beneath, above it what rules show at notes (`app.plan.rules`) and at moments: with the cue of an
 entry, with the breath before one, after the end. What a name looks like is in ``metadata/expressions``.
-
-Messages: ``expression.default``, ``expression.gives_entry``, ``expression.takes_entry``, ``expression.end``.
 """
 
 from __future__ import annotations

@@ -3,10 +3,6 @@
 The search (Viterbi over the ranked fingerings of every note) keeps the first choice unless speed or a trill makes an
 alternate worth its intonation and its unfamiliarity. Afterwards every run of alternates and every phrase is compared
 with the first choices: one that travels further or needs a faster motion is played with first choices after all.
-
-Messages: ``fingering.first_choice``, ``fingering.trill``, ``fingering.speed``, ``fingering.by_hand``,
-``fingering.written``, ``fingering.not_in_map``, ``fingering.stopped``, ``fingering.out_of_range``,
-``fingering.starts_early``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Passages that are muted: with a mute in the bell, or stopped by the hand where the instrument's map has that.
-
-Messages: ``mute.mute`` and one of each of `NAMED`, ``mute.stopped_left``, ``mute.stopped_right``, ``mute.no_hand``.
-"""
+"""Passages that are muted: with a mute in the bell, or stopped by the hand where the instrument's map has that."""
 
 from __future__ import annotations
 

@@ -3,8 +3,6 @@ weight is on the other foot.
 
 An event's ``amount`` is positive for the left foot, negative for the right one; its size is 0..1. A step goes out as it
 begins, stands, and is home again as it ends. A tap ends on its beat. Feet that do nothing here do not leave the ground.
-
-Messages: ``gesture.step``, ``gesture.tap``, ``gesture.heel``.
 """
 
 from __future__ import annotations

@@ -13,8 +13,6 @@ weight is shifted a few times: what is made is in proportion to the notes, howev
 
 Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
 rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
-
-Messages: ``gesture.weight_shift``, ``gesture.bell_height``, ``gesture.bell_accent``.
 """
 
 from __future__ import annotations

@@ -2,9 +2,6 @@
 
 In a rest in which the instrument is lowered long enough the hands settle on it, the player looks about and counts the
 last bars. After the last note of all they look up to the audience and bow, together.
-
-Messages: ``gesture.count``, ``gesture.look_about``, ``gesture.settle_grip``, ``gesture.hold_still``,
-``gesture.look_up``, ``gesture.bow``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
 """Motion of trunk and head by phrase and accent: a lean towards each climax and back, and a dip on strong notes.
 
 A phrase lasts from breath to breath, or from rest to rest. Everything random is drawn from player and tick.
-
-Messages: ``gesture.lean``, ``gesture.lean_back``, ``gesture.accent``, ``gesture.accent_loud``.
 """
 
 from __future__ import annotations

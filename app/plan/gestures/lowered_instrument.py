@@ -2,8 +2,6 @@
 
 ``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
 (or stays) lowered.
-
-Messages: ``gesture.lower_instrument``, ``gesture.lower_at_end``, ``gesture.lower_at_start``, ``gesture.come_up``.
 """
 
 from __future__ import annotations

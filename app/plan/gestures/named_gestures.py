@@ -1,7 +1,4 @@
-"""Gestures that stand in tables (`metadata.gestures`), as one body with one instrument can make them.
-
-Messages: ``gesture.unknown`` (name, known), ``gesture.not_here`` (name, start), ``gesture.hand_busy`` (name).
-"""
+"""Gestures that stand in tables (`metadata.gestures`), as one body with one instrument can make them."""
 
 from __future__ import annotations
 

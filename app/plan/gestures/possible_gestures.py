@@ -1,7 +1,4 @@
-"""Conditions for gestures of tables: possible times and instruments.
-
-Messages: ``gesture.hand_holds`` (name), ``gesture.no_water_key`` (name).
-"""
+"""Conditions for gestures of tables: possible times and instruments."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Swings of the trunk from side to side: half a bar, a bar or two long by turns, with bars in between that are still.
-
-Messages: ``gesture.sway``, ``gesture.still``.
-"""
+"""Swings of the trunk from side to side: half a bar, a bar or two long by turns, with still bars in between."""
 
 from __future__ import annotations
 

@@ -1,7 +1,5 @@
 """Lips: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed). The tongue is in
 `app.plan.lips.tonguing`.
-
-Messages: ``embouchure.register``, ``embouchure.controller``.
 """
 
 from __future__ import annotations

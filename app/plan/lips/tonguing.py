@@ -3,10 +3,6 @@
 Up to a speed the tip of the tongue makes every stroke (*ta*). Beyond it the back of the tongue makes every other one
 (*ka*): double tonguing, *ta-ka-ta-ka*; in triplets the last of three, *ta-ta-ka*. Sixteenths at 132 to 144 quarters per
 minute are where players change over; who plays a reed goes on longer with the tip, since the reed is in the way.
-
-Messages: ``tongue.attack``, ``tongue.staccato``, ``tongue.accent``, ``tongue.marcato``, ``tongue.tenuto``,
-``tongue.slide``, ``tongue.double``, ``tongue.triple``, ``tongue.by_hand``, and ``tongue.written_`` with a
-kind of mark.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""A wind player sounds one note at a time: what of a line can be played, and what to report to the animator.
-
-Messages: ``note.struck_together``, ``note.overlaps``.
-"""
+"""A wind player sounds one note at a time: what of a line can be played, and what to report to the animator."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Edits of dancers: who dances, what, where and how.
-
-Messages: ``player.no_name``, ``dancer.too_many``, ``dancer.no_choreography``.
-"""
+"""Edits of dancers: who dances, what, where and how."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Curves of the dynamics: taken from a recording, and corrected by hand.
-
-Messages (`UsageError`): ``dynamics.no_curve``.
-"""
+"""Curves of the dynamics: taken from a recording, and corrected by hand."""
 
 from __future__ import annotations
 

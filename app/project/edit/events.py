@@ -2,8 +2,6 @@
 
 All take the plan that the user saw, and event ids of that plan. Those that may give an event another id (a breath
 dragged to another note) return the new ids beside the project.
-
-Messages: ``edit.no_note_to_breathe_for``, ``edit.no_note_to_cue``.
 """
 
 from __future__ import annotations

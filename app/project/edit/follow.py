@@ -1,7 +1,4 @@
-"""The piece at the tempo of a recording. Notes keep their ticks, and with them everything that was set by hand.
-
-Messages (`UsageError`): ``align.bars_missing``, ``tempo.outside``, those of `app.project.edit.piece`.
-"""
+"""The piece at the tempo of a recording. Notes keep their ticks, and with them everything that was set by hand."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Givers and takers of entries: a cue that another player takes over, or that brings in others.
-
-Messages: ``edit.no_note_to_take``.
-"""
+"""Givers and takers of entries: a cue that another player takes over, or that brings in others."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Limit of a piece's length: no edit makes one that no file could hold.
-
-Messages (`UsageError`): ``piece.too_long``.
-"""
+"""Limit of a piece's length: no edit makes one that no file could hold."""
 
 from __future__ import annotations
 

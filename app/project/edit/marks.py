@@ -2,8 +2,6 @@
 
 A mark of the score that is changed is taken away, and the changed one written. In a part read from sound a dynamic that
 is written over several notes holds for these; over one note, and always in a part of a score, up to the next dynamic.
-
-Messages (`UsageError`): ``mark.no_notes``, ``mark.one_note``.
 """
 
 from __future__ import annotations

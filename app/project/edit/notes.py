@@ -2,9 +2,6 @@
 
 A note made here is called ``"n:<number>"``, the next one free: no file's note is called so ("track:number"), and the
 same edits give the same names. Erasing a note erases its corrections; undo restores both.
-
-Messages: ``note.before_start``, ``note.after_all_pieces``, ``note.pitch_outside``, ``note.velocity_outside``,
-``note.too_short``, ``note.nothing_to_split``, ``note.nothing_to_join``, ``piece.too_long``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""The piece as a whole: started over, its title, picture rate, beat, acting, recording, and own expressions.
-
-Messages (`UsageError`): ``piece.value_outside``, ``piece.no_recording``, ``piece.path_unusable``,
-``expression.invalid``, ``expression.no_name``, ``expression.name_taken``, ``expression.none_of_name``.
-"""
+"""The piece as a whole: started over, its title, picture rate, beat, acting, recording, and own expressions."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""Beats pinned to the recording by hand: the tempo moves so that they lie where they sound. Notes keep their ticks.
-
-Messages (`UsageError`): ``piece.no_recording``, ``pins.before_the_piece``, ``pins.no_room``, ``pins.none_here``, those
-of `app.project.edit.tempo`.
-"""
+"""Beats pinned to the recording by hand: the tempo moves so that they lie where they sound. Notes keep their ticks."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Edits of players: adding and removing, their parts, parameters and places.
-
-Messages: ``player.no_name``, ``player.too_many``, ``doubling.posture``, ``doubling.together``.
-"""
+"""Edits of players: adding and removing, their parts, parameters and places."""
 
 from __future__ import annotations
 

@@ -3,9 +3,6 @@
 A take is kept as it was played. What of it a part has is said by the comp: spans of the part and the takes they came
 from. Only what is swiped over is changed, so that whatever was corrected by hand elsewhere stays; a note of a take has
 the same id whenever it is brought in, so that corrections about it wait for it.
-
-Messages: ``take.none``, ``take.too_many``, ``take.invalid``, ``take.not_free``, ``piece.too_long``,
-``take.too_few_notes``, ``take.no_beats``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""Tempo, metre and pickup. Notes keep their ticks; what changes is when they sound and where the bar lines stand.
-
-Messages (`UsageError`): ``tempo.outside``, ``tempo.first_stays``, ``tempo.none_here``, ``metre.none_here``,
-``metre.impossible``, ``metre.pickup_too_long``, ``metre.inside_pickup``, ``tempo.place_outside``, ``piece.too_long``.
-"""
+"""Tempo, metre and pickup. Notes keep their ticks; what changes is when they sound and where the bar lines stand."""
 
 from __future__ import annotations
 

@@ -2,9 +2,6 @@
 
 The user's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
 was corrected by hand: which bone is which joint, which morphs make a face.
-
-Messages: ``character.missing``, ``table.invalid``, ``character.file_missing``, ``character.odd_name``,
-``character.taken`` and what `app.formats.toml` says.
 """
 
 from __future__ import annotations

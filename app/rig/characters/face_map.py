@@ -2,8 +2,6 @@
 
 Names come from the tables in ``metadata/faces``. The table that makes most shapes leads; what it leaves out is taken
 from the others. What no table makes is missing, and is reported as such.
-
-Messages: ``figure.no_shape``, ``figure.no_morph``.
 """
 
 from __future__ import annotations

@@ -1,8 +1,6 @@
 """A figure from what any file has: nodes that may be scaled, and meshes bound to them in whatever space.
 
 Scales are multiplied out and every vertex is put where it is in the world at rest.
-
-Messages: ``figure.too_large``, ``figure.no_bones``, ``figure.scaled``, ``figure.odd_height``.
 """
 
 from __future__ import annotations

@@ -7,8 +7,6 @@ skeleton's. A joint that the file lacks is supplied so that the motion can be gi
 - of the trunk's joints the highest one that has no bone of its own takes the bone below, because shoulders and neck
   hang from it; the joints between lie on it too;
 - at the end of a chain (fingers of a mitten, toes, eyes) it follows our own bodies' proportions and carries nothing.
-
-Messages: ``character.incomplete``.
 """
 
 from __future__ import annotations

@@ -2,8 +2,6 @@
 
 Names come from the tables in ``metadata/bone_names``; of all tables the one counts that most joints and the hierarchy
 agree with. Left is where +X is, whatever a name says.
-
-Messages: ``figure.no_joint``, ``figure.no_bone``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Loading characters: our own glTF binaries as they are, others as figures (`app.rig.characters.figure_to_character`).
-
-Messages: ``model.invalid``.
-"""
+"""Loads characters: our own glTF binaries as they are, others as figures (`app.rig.characters.figure_to_character`)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Opening a character's file, whatever its format: glTF, GLB, VRM 0.x and 1.0, FBX.
-
-Messages: ``figure.too_large``, ``figure.unknown_format``, ``file.cannot_read``.
-"""
+"""Opening a character's file, whatever its format: glTF, GLB, VRM 0.x and 1.0, FBX."""
 
 from __future__ import annotations
 

@@ -3,19 +3,6 @@
 A file is data: a document that declares entities is refused, one that names others outside it is read without them.
 Texts of any encoding are taken that a notation program wrote: UTF-8 and UTF-16 with or without their marks, what the
 declaration names, and characters that XML does not allow are dropped.
-
-Errors (all `FileError`)
-------------------------
-file.cannot_read, file.not_regular, file.too_large : file ...
-    See `app.formats.files`.
-musicxml.damaged_archive, musicxml.no_score_in_archive : file
-musicxml.archive_too_large : file, most_mb
-musicxml.damaged : file, line, detail
-musicxml.entities : file
-musicxml.too_deep : file, line, most
-musicxml.too_many_elements : file, most
-musicxml.list_of_scores : file
-musicxml.not_a_score : file, root
 """
 
 from __future__ import annotations

@@ -5,20 +5,6 @@ and jumps are played (`app.score.musicxml.order`); grace notes, trills, turns, m
 (`ornaments`), tempo, rit., accel. and fermatas are in the tempo map (`tempos`), dynamics and accents in velocities
 (`loudness`). What is written over the notes is kept as marks (`app.score.marks`). Lyrics, chord names, figured bass and
 layout are passed over, and so are cue notes, which their player does not play.
-
-The errors are those of `app.score.musicxml.container`, and:
-
-musicxml.bad_value : file, part, measure, element, value
-musicxml.too_many_parts : file, parts, most
-musicxml.too_many_measures, musicxml.too_many_notes : file, most
-musicxml.too_many_repeats : file, most
-musicxml.too_long : file, and as `app.score.limits.too_long` says it
-
-Warnings
---------
-musicxml.no_notes : parts
-musicxml.lost_jump : measure
-musicxml.slashes : part, measures
 """
 
 from __future__ import annotations

@@ -6,8 +6,6 @@ elbow's swivel. Requested are the map's contacts on the deformed skin, no skin i
 that do not pass through each other, a straight wrist under a natural elbow, and fingers near their relaxed curl
 (`app.rig.grip.fitting.residuals`). The fingers that work a control are then solved for values between
 (`app.rig.grip.fitting.solved_fingers`).
-
-Messages: ``character.landmarks_missing``.
 """
 
 from __future__ import annotations

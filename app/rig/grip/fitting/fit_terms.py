@@ -1,7 +1,4 @@
-"""Terms of fitting a grip (`app.rig.grip.fitting.fit`), for what starts one or uses its results.
-
-Messages: ``character.landmarks_missing``.
-"""
+"""Terms of fitting a grip (`app.rig.grip.fitting.fit`), for what starts one or uses its results."""
 
 from __future__ import annotations
 

@@ -1,18 +1,4 @@
-"""The instrument as one body plays it: of the size that its hands and arms ask for, touched by what the body has.
-
-Messages, what an animator should know of a character with an instrument:
-
-character.instrument_size : percent
-    "plays an instrument of {percent} % ..."
-character.no_fingers : side
-    "the {side} hand has no fingers that bend: ..."
-character.no_hand : side
-    "the {side} hand has no skin: ..."
-character.no_lips
-    "there is no mouth ..."
-character.lips_still
-    "the mouth does not open ..."
-"""
+"""The instrument as one body plays it: of the size that its hands and arms ask for, touched by what the body has."""
 
 from __future__ import annotations
 
