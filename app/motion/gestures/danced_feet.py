@@ -36,14 +36,14 @@ PEELS_S: Final = 0.12
 """Time from the heel's leaving the ground to the ball's, and from the ball's landing to the heel's."""
 PEELED: Final = 0.35
 """Share of a step in which the heel still rises, and in which it sinks again."""
-OVER_M: Final = 0.055
+OVER_M: Final = 0.065
 """Way of the hips over the foot that carries the weight."""
 OVER_S: Final = 0.3
 """Time in which the weight goes there, and back."""
 ROLL_RAD, TURN_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(5.0))
 """Angles by which the hips are lower and farther ahead on the side of the foot that carries nothing."""
-LEAN_RAD: Final = float(np.deg2rad(3.5))
-"""Lean of the chest to the foot that carries the weight."""
+LEAN_RAD, COUNTER_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(4.0))
+"""Lean of the chest to the foot that carries the weight, and its turn away from it, against that of the hips."""
 LIGHT: Final = 0.6
 """Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
 SINKS_M: Final = 0.028
@@ -219,7 +219,7 @@ def with_danced_feet(motion: BodyMotion, danced: Mapping[str, FloatArray], amoun
     left_rad, turned_rad = dict(motion.left_rad), dict(motion.turn_rad)
     for joint, share in TRUNK_SHARES.items():
         left_rad[joint] = left_rad[joint] + share * (LEAN_RAD * over + roll_rad)
-        turned_rad[joint] = turned_rad[joint] - share * turn_rad
+        turned_rad[joint] = turned_rad[joint] - share * (COUNTER_RAD * over + turn_rad)
     motion = replace(motion, feet=feet, left_rad=left_rad, turn_rad=turned_rad)
     if not steps:
         return motion
