@@ -20,6 +20,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.feet import planted, stands
 from app.choreography.hands import out_of_body
+from app.choreography.heard import heard_hits, log_emission
 from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
@@ -31,7 +32,6 @@ from app.choreography.sequence import (
     Weights,
     choose,
     grid_of,
-    symbol_scores,
 )
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
@@ -107,17 +107,18 @@ class Choreographer:
             if one.clip == following.clip and one.end == following.start:
                 joins[at, at + 1] = 0.0
         log_a = np.log(model.transition * model.states)
-        # Of a symbol, against how often it is struck at all.
-        often = np.array([np.mean(states == state) for state in range(model.states)])
-        usual = often @ model.emission
         return SegmentCandidates(
             states=states,
             before_s=self._hits_s - np.array([one.start / fps[one.clip] for one in segments]),
             after_s=np.array([one.end / fps[one.clip] for one in segments]) - self._hits_s,
             joins_m=joins,
             log_transition=log_a[states[:, None], states[None, :]],
-            log_emission=np.log(model.emission / usual)[states],
         )
+
+    @cached_property
+    def log_emission(self) -> FloatArray:
+        """See `app.choreography.heard.log_emission`."""
+        return log_emission(self.model)
 
     def dance(
         self,
@@ -173,14 +174,14 @@ class Choreographer:
         preferred = np.zeros(len(segments))
         if manner.source is not None:
             preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
-        scores = symbol_scores(grid, rhythm, candidates) + preferred
         chosen = choose(
             grid,
-            scores,
             candidates,
+            heard_hits(rhythm, self.log_emission),
             seed=manner.seed,
             weights=weights,
             constraints=constraints,
+            usual=preferred,
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )

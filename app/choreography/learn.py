@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 
-from app.arrays import IntArray
 from app.choreography.basic_motions import classify
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut, Segmentation, segment
@@ -136,15 +135,19 @@ def learn(
             ((clip, cut) for clip, those in enumerate(cuts) for cut in those), found, strict=True
         )
     )
-    of_clips = [[one for one in segments if one.clip == clip] for clip in range(len(clips))]
+    of_clips = [
+        _sounding(pair, source, [one for one in segments if one.clip == clip])
+        for clip, (pair, source) in enumerate(zip(pairs, sources, strict=True))
+    ]
     transition, emission, initial = count(
         [np.array([one.state for one in those], np.int64) for those in of_clips],
-        [_symbols(pair, source, those) for pair, source, those in zip(pairs, sources, of_clips, strict=True)],
+        [[np.array(one.sounds, np.int64) for one in those] for those in of_clips],
         int(found.max()) + 1,
         smoothing=SMOOTHING,
     )
     progress(1.0, name)
-    return ChoreographyModel(name, tuple(sources), tuple(clips), segments, transition, emission, initial)
+    every = tuple(one for those in of_clips for one in those)
+    return ChoreographyModel(name, tuple(sources), tuple(clips), every, transition, emission, initial)
 
 
 def summary(model: ChoreographyModel, file: Path) -> Message:
@@ -186,10 +189,13 @@ def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
     return TrainingPair(pair.motion_name, pair.music_name, found.offset_s, found.confidence, pair.credits, given)
 
 
-def _symbols(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[IntArray]:
-    """The symbols that sound during each motion of a clip."""
+def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[MotionSegment]:
+    """The motions of a clip with the symbols that sound during each."""
     bounds = np.array([(one.start, one.end) for one in segments], np.float64).reshape(-1, 2) / float(FPS)
     first, last = np.searchsorted(pair.rhythm.hits_s, bounds - source.offset_s).T
     if segments and not (last > first).any():
         raise UsageError("learn.no_overlap", motion=pair.motion_name, music=pair.music_name)
-    return [pair.rhythm.symbols[start:stop] for start, stop in zip(first, last, strict=True)]
+    symbols = pair.rhythm.symbols.tolist()
+    return [
+        replace(one, sounds=tuple(symbols[start:stop])) for one, start, stop in zip(segments, first, last, strict=True)
+    ]

@@ -45,6 +45,8 @@ class MotionSegment:
         the next segment of the clip, if it follows at once, begins at ``end``.
     state : int
         The basic motion that it is an instance of.
+    sounds : tuple of int
+        Percussion symbols that sounded during it, in time order. Files of version 1 do not say them.
     """
 
     clip: int
@@ -52,6 +54,7 @@ class MotionSegment:
     accent: int
     end: int
     state: int
+    sounds: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ import math
 import os
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
@@ -26,7 +27,8 @@ from app.formats.atomic import atomic_write
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
 
-VERSION: Final = 1
+VERSION: Final = 2
+"""Files of version 1 do not say what sounded during each motion."""
 MOST_BYTES: Final = 128 * 2**20
 """About an hour and a half of motion."""
 FPS: Final = (1, 240)
@@ -56,7 +58,7 @@ class _Motion(msgspec.Struct, forbid_unknown_fields=True):
     rotations: bytes
 
 
-class _File(msgspec.Struct, forbid_unknown_fields=True):
+class _File(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
     choreography_version: int
     name: str
     fps: str
@@ -66,6 +68,8 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
     emission: list[list[float]]
     segments: list[tuple[int, int, int, int, int]]
     """Clip, start, accent, end, state."""
+    sounds: list[list[int]] = []
+    """Symbols during each segment."""
     bodies: list[_Body]
     motions: list[_Motion]
 
@@ -109,6 +113,7 @@ def encode_model(model: ChoreographyModel) -> bytes:
         transition=model.transition.tolist(),
         emission=model.emission.tolist(),
         segments=[(one.clip, one.start, one.accent, one.end, one.state) for one in model.segments],
+        sounds=[list(one.sounds) for one in model.segments],
         bodies=[_Body(clip.shape.offsets_m.tolist(), clip.shape.ends_m.tolist()) for clip in model.clips],
         motions=[
             _Motion(len(clip), clip.hips_m.astype("<f4").tobytes(), clip.rotations.astype("<f4").tobytes())
@@ -138,7 +143,7 @@ def decode_model(content: bytes, file: str) -> ChoreographyModel:
         if error.message.id != "json.invalid":
             raise
         raise check.error("JSON", str(error.message.arguments["detail"])) from error
-    if version != VERSION:
+    if version < 1:
         raise check.error("choreography_version", str(version))
     fps = check.fps(raw.fps)
     states = len(raw.initial)
@@ -153,6 +158,9 @@ def decode_model(content: bytes, file: str) -> ChoreographyModel:
     )
     segments = tuple(MotionSegment(*row) for row in raw.segments)
     check.segments(segments, clips, states)
+    if raw.sounds:
+        check.sounds(raw.sounds, len(segments))
+        segments = tuple(replace(one, sounds=tuple(own)) for one, own in zip(segments, raw.sounds, strict=True))
     return ChoreographyModel(
         name=raw.name,
         sources=tuple(raw.sources),
@@ -213,6 +221,11 @@ class _Check:
             free = one.end
         missing = set(range(states)) - {one.state for one in segments}
         self.is_true("segments", not missing, f"no motion of state {min(missing, default=0)}")
+
+    def sounds(self, sounds: Sequence[Sequence[int]], segments: int) -> None:
+        self.is_true("sounds", len(sounds) == segments, f"{len(sounds)} of {segments}")
+        for number, own in enumerate(sounds):
+            self.is_true(f"sounds[{number}]", all(0 <= one < len(SYMBOLS) for one in own), "no percussion symbol")
 
     def probabilities(self, place: str, rows: Sequence[Any], shape: tuple[int, ...]) -> FloatArray:
         lengths = {len(row) for row in rows} if len(shape) > 1 else {shape[-1]}

@@ -1,4 +1,4 @@
-"""Overview of a learned choreography: its basic motions, and the percussion of its music."""
+"""Overview of a learned choreography: its basic motions."""
 
 from __future__ import annotations
 
@@ -59,10 +59,3 @@ def basic_motions(model: ChoreographyModel) -> tuple[BasicMotion, ...]:
         sources = tuple(sorted(count.items(), key=lambda item: (-item[1], item[0])))
         found.append(BasicMotion(len(own), float(lengths_s[own].mean()), sources, poses))
     return tuple(found)
-
-
-def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:
-    """Percussion symbols that were counted with some state: those that are more probable in it than by smoothing alone,
-    which is what the least probable symbol of a state has."""
-    least = model.emission.min(axis=1, keepdims=True)
-    return tuple(np.flatnonzero((model.emission > least * (1.0 + 1e-9)).any(axis=0)).tolist())

@@ -4,26 +4,28 @@ A state of the search is a segment whose accent is at a place of the grid of bea
 the next counts
 
 - the model: transition and emission probabilities, as logarithms of how much likelier than by chance they are, so that
-  few long motions and many short ones are compared fairly;
+  few long motions and many short ones are compared fairly; every hit counts in the segment during which it sounds, as
+  when it was learned (`app.choreography.heard`);
 - how well the second fits on the first (`app.choreography.joins`); the segment that follows in the capture fits best;
 - how much faster or slower than captured both must be danced between their accents, within `SPEEDS`;
 - an accent off the beat;
 - a little chance, by the seed, so that a choreography does not repeat itself, and a cost of segments danced lately.
 
-With one segment for each state, no costs and one place a step this is the Viterbi algorithm of
-`app.choreography.hidden_markov`.
+With one segment for each state, no costs and one place a step this is the Viterbi algorithm for the model whose
+probabilities `app.choreography.hidden_markov` counts.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
+from app.choreography.heard import HeardHits
 from app.choreography.rhythm import Rhythm
 
 SPEEDS: Final = (0.67, 1.5)
@@ -47,6 +49,8 @@ class Weights:
         Of an accent between two beats.
     model : float
         Of the model's log odds.
+    heard : float
+        Of the log odds of what is struck, beside ``model``.
     chance : float
         Scale of the seed's noise, of Gumbel's distribution.
     lately : float
@@ -57,6 +61,7 @@ class Weights:
     speed: float = 1.5
     off_beat: float = 1.2
     model: float = 1.0
+    heard: float = 1.3
     chance: float = 0.6
     lately: float = 2.0
 
@@ -65,6 +70,8 @@ LATELY_S: Final = 12.0
 PHRASE_BEATS: Final = 16
 """Beats that are searched at a time; the motions danced in them then count as danced lately."""
 NEVER: Final = -1e9
+_SHARES: Final = 64
+"""Accuracy, as a part of the time from accent to accent, of where two segments meet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +102,6 @@ class SegmentCandidates:
         How far the end of the one is from the start of the other.
     log_transition : (S, S) float64
         Log odds of the second's state after the first's.
-    log_emission : (S, 47) float64
-        Log odds of each symbol during the segment.
     """
 
     states: IntArray
@@ -104,7 +109,6 @@ class SegmentCandidates:
     after_s: FloatArray
     joins_m: FloatArray
     log_transition: FloatArray
-    log_emission: FloatArray
 
 
 @dataclass(frozen=True)
@@ -135,35 +139,15 @@ def grid_of(rhythm: Rhythm) -> AccentGrid:
     return AccentGrid(times, np.arange(len(times)) % 2 == 0)
 
 
-def symbol_scores(grid: AccentGrid, rhythm: Rhythm, candidates: SegmentCandidates) -> FloatArray:
-    """(G, S) log odds of what is struck from half way after the place before to half way to the next, in each segment.
-
-    Hits count by their strength; several at a place count no more than the strongest would twice, for they are one
-    moment of the music.
-    """
-    score = np.zeros((len(grid.times_s), len(candidates.states)))
-    if not len(grid.times_s) or not len(rhythm.hits_s):
-        return score
-    edges = 0.5 * (grid.times_s[1:] + grid.times_s[:-1])
-    places = np.searchsorted(edges, rhythm.hits_s, side="right")
-    weights = np.zeros(len(grid.times_s))
-    np.add.at(weights, places, rhythm.strengths)
-    np.add.at(score, places, rhythm.strengths[:, None] * candidates.log_emission[:, rhythm.symbols].T)
-    strongest = np.zeros(len(grid.times_s))
-    np.maximum.at(strongest, places, rhythm.strengths)
-    return np.asarray(
-        score * np.where(weights > 0.0, np.minimum(1.0, 2.0 * strongest / np.maximum(weights, 1e-9)), 0.0)[:, None]
-    )
-
-
 def choose(
     grid: AccentGrid,
-    scores: FloatArray,
     candidates: SegmentCandidates,
+    heard: HeardHits,
     *,
     seed: int,
     weights: Weights | None = None,
     constraints: Constraints | None = None,
+    usual: FloatArray | None = None,
     initial: FloatArray | None = None,
     final: FloatArray | None = None,
 ) -> list[tuple[int, int]]:
@@ -171,11 +155,11 @@ def choose(
 
     Parameters
     ----------
-    scores : (G, S) float64
-        See `symbol_scores`.
+    heard : HeardHits
+        By segment of the candidates.
     constraints : Constraints, optional
-    initial, final : (S,) float64, optional
-        Log odds of each segment as the first, and as the last.
+    usual, initial, final : (S,) float64, optional
+        Log odds of each segment wherever it is, as the first, and as the last.
 
     Returns
     -------
@@ -187,7 +171,7 @@ def choose(
     if not count or not segments:
         return []
     random = np.random.default_rng(seed)
-    search = _Search(grid, scores, candidates, weights, constraints, initial)
+    search = _Search(grid, candidates, heard, weights, constraints, usual, initial)
     chosen: list[tuple[int, int]] = []
     step = 2 * PHRASE_BEATS
     for first in range(0, count, step):
@@ -214,23 +198,32 @@ class _Search:
     def __init__(
         self,
         grid: AccentGrid,
-        scores: FloatArray,
         candidates: SegmentCandidates,
+        heard: HeardHits,
         weights: Weights,
         constraints: Constraints,
+        usual: FloatArray | None,
         initial: FloatArray | None,
     ) -> None:
         self._grid, self._candidates, self._weights, self._constraints = grid, candidates, weights, constraints
+        self._heard = replace(heard, summed=weights.model * weights.heard * heard.summed)
         self._constrained = sorted({*constraints.pinned, *constraints.segments})
         self._forbidden: dict[int, list[int]] = {}
         for place, state in constraints.forbidden:
             self._forbidden.setdefault(place, []).append(state)
-        self._scores = weights.model * scores - weights.off_beat * ~grid.on_beat[:, None]
-        self._initial = np.zeros(len(candidates.states)) if initial is None else weights.model * initial
+        nothing = np.zeros(len(candidates.states))
+        self._usual = nothing if usual is None else weights.model * usual
+        self._off_beat = -weights.off_beat * ~grid.on_beat
+        self._initial = nothing if initial is None else weights.model * initial
         base = weights.model * candidates.log_transition - weights.join_per_m * candidates.joins_m
         np.fill_diagonal(base, NEVER)
         self._base = base.astype(np.float32)
         self._lasts_s = candidates.after_s[:, None] + candidates.before_s[None, :]
+        # A row for each end, as of the scores of moves: where they meet, as places in the tables of `_add_struck`.
+        meets = (_SHARES * candidates.after_s / np.maximum(self._lasts_s.T, 1e-9)).astype(np.intp)
+        row, every = np.minimum(meets, _SHARES - 1) * len(nothing), np.arange(len(nothing))
+        self._of_start, self._of_end = row + every, row + every[:, None]
+        self._taken = np.empty(row.shape, np.float32)
         self._between: dict[int, SingleArray] = {}
         self._longest_s = float(self._lasts_s.max()) / SPEEDS[0] if self._lasts_s.size else 0.0
         self._shortest_s = float(self._lasts_s.min()) / SPEEDS[1] if self._lasts_s.size else 0.0
@@ -249,13 +242,16 @@ class _Search:
         scores, every = np.empty_like(self._base), np.arange(len(self._initial))
         for place in range(first, stop):
             row = place - first
-            own = self._scores[place] + extra[row] + self._allowed(place)
+            own = self._usual + self._off_beat[place] + extra[row] + self._allowed(place)
             if before is None and row == 0:
-                best[row] = self._initial + own
+                struck = self._heard.between(times[place] - self._candidates.before_s, times[place])
+                best[row] = self._initial + struck + own
             elif before is not None:
                 gap_s = times[place] - times[before[0]]
                 if self._possible(gap_s):
-                    reached = self._moves(gap_s)[:, before[1]] + own
+                    scores[:] = self._moves(gap_s)
+                    self._add_struck(scores, before[0], place)
+                    reached = scores[:, before[1]] + own
                     better = reached > best[row]
                     best[row, better] = reached[better]
                     came[row, better] = -1
@@ -264,6 +260,7 @@ class _Search:
                 if not self._possible(gap_s) or self._skips(earlier, place):
                     continue
                 np.add(self._moves(gap_s), best[earlier - first].astype(np.float32), out=scores)
+                self._add_struck(scores, earlier, place)
                 from_segment = scores.argmax(axis=1)
                 reached = scores[every, from_segment] + own
                 better = reached > best[row]
@@ -283,8 +280,13 @@ class _Search:
         last = max((row for row in range(stop - first) if reached[row] > NEVER / 2.0), default=-1)
         if last < 0:
             return []
-        row = max(range(max(0, last - 1), last + 1), key=lambda at: float(reached[at]))
-        segment = int(best[row].argmax())
+        rows = range(max(0, last - 1), last + 1)
+        times_s = self._grid.times_s[first:]
+        finally_ = {
+            at: best[at] + self._heard.between(times_s[at], times_s[at] + self._candidates.after_s) for at in rows
+        }
+        row = max(rows, key=lambda at: float(finally_[at].max()))
+        segment = int(finally_[row].argmax())
         way = [(first + row, segment)]
         while came[row, segment, 0] >= 0:
             place, segment = int(came[row, segment, 0]), int(came[row, segment, 1])
@@ -307,6 +309,22 @@ class _Search:
     def _skips(self, earlier: int, place: int) -> bool:
         """Return whether going from one place to the other leaves out one that has to have an accent."""
         return bisect_right(self._constrained, earlier) < bisect_left(self._constrained, place)
+
+    def _add_struck(self, scores: SingleArray, earlier: int, place: int) -> None:
+        """Add the log odds of what is struck from one accent to the next: of the one's segment until they meet, then of
+        the other's."""
+        start_s, stop_s = self._grid.times_s[[earlier, place]]
+        times_s, summed = self._heard.times_s, self._heard.summed
+        first, stop = self._heard.before(self._grid.times_s[[earlier, place]])
+        if first == stop:
+            return
+        shares = (times_s[first:stop] - start_s) / (stop_s - start_s)
+        met = first + np.searchsorted(shares, (np.arange(_SHARES) + 0.5) / _SHARES)
+        for log_odds, which in (
+            (summed[met] - summed[first], self._of_start),
+            (summed[stop] - summed[met], self._of_end),
+        ):
+            scores += log_odds.astype(np.float32).take(which, out=self._taken, mode="clip")
 
     def _possible(self, gap_s: float) -> bool:
         return self._shortest_s <= gap_s <= self._longest_s

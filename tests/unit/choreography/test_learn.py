@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from app.choreography.cuts import segment
+from app.choreography.heard import log_emission
 from app.choreography.hidden_markov import count
 from app.choreography.learn import FPS, SMOOTHING, Pair, learn
 from app.choreography.model_file import encode_model
@@ -56,6 +57,7 @@ def test_states_follow_each_other_and_sound_as_in_the_pair() -> None:
     expected = count([np.array(states)], [[np.array([1 + at % 2]) for at in range(10)]], 4, smoothing=SMOOTHING)
     for found, known in zip((model.transition, model.emission, model.initial), expected, strict=True):
         assert found == pytest.approx(known)
+    assert [one.sounds for one in model.segments] == [(1 + at % 2,) for at in range(10)]
     (source,) = model.sources
     assert (source.offset_s, source.offset_confidence) == (1.0, None)
     assert (source.motion_name, source.music_name, source.credits) == (
@@ -71,6 +73,20 @@ def test_an_offset_shifts_what_sounds() -> None:
     late = learn([replace(SWINGS, offset_s=1.25)], states=4, seed=0, name="")
     assert late.transition.tolist() == early.transition.tolist()
     assert late.emission[0, 1] < early.emission[0, 1]
+
+
+def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
+    """Two dancers who dance alike to sounds of their own share their basic motions, and are told apart by them."""
+    other = replace(SWINGS.rhythm, symbols=SWINGS.rhythm.symbols + 10)
+    model = learn([SWINGS, replace(SWINGS, rhythm=other)], states=4, seed=0, name="")
+    clips = np.array([one.clip for one in model.segments])
+    log_odds = log_emission(model)
+    assert {one.state for one in model.segments if one.clip == 0} == {one.state for one in model.segments if one.clip}
+    for symbol, own in ((1, 0), (2, 0), (11, 1), (12, 1)):
+        best = np.sort(log_odds[clips == own, symbol])[-5:]
+        assert best.min() > 0.5 + log_odds[clips != own, symbol].max()
+    # Sounds that no one heard tell nothing between two motions.
+    assert np.ptp(log_odds[:, 30]) < 1e-6
 
 
 def test_offsets_are_found_where_none_is_given() -> None:

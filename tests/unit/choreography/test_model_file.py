@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +57,13 @@ def test_a_user_can_read_it() -> None:
     assert "made for this test" in lines[5]
     first = MODEL.segments[0]
     assert f" [0,{first.start},{first.accent},{first.end},{first.state}]," in lines
+
+
+def test_a_file_of_version_1_has_no_sounds() -> None:
+    document = json.loads(changed("choreography_version", to=1))
+    del document["sounds"]
+    old = decode_model(json.dumps(document).encode(), "old")
+    assert is_same(old, replace(MODEL, segments=tuple(replace(one, sounds=()) for one in MODEL.segments)))
 
 
 texts = st.text(max_size=40)
@@ -127,6 +135,8 @@ def changed(*path: str | int, to: Any) -> bytes:
         (("segments", 3, 4), -1, "segments[3]"),
         (("segments", 3, 4), 99, "segments[3]"),
         (("segments",), [[0, 1, 2, 3, 0]] * 50, "segments[1]"),
+        (("sounds",), [[0]], "sounds"),
+        (("sounds", 3), [46, 47], "sounds[3]"),
         (("initial",), [], "initial"),
         (("initial", 0), 2.0, "initial"),
         (("transition", 0, 0), -0.5, "transition"),

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from hmmlearn.base import BaseHMM
 
+from app.choreography.heard import HeardHits, heard_hits
+from app.choreography.rhythm import Rhythm
 from app.choreography.sequence import (
     AccentGrid,
     Constraints,
@@ -15,7 +17,6 @@ from app.choreography.sequence import (
     Weights,
     choose,
     grid_of,
-    symbol_scores,
 )
 from tests.support.dances import beaten
 
@@ -27,7 +28,7 @@ class Scored(BaseHMM):
         return scores
 
 
-PLAIN = Weights(join_per_m=0.0, speed=0.0, off_beat=0.0, chance=0.0, lately=0.0)
+PLAIN = Weights(join_per_m=0.0, speed=0.0, off_beat=0.0, chance=0.0, lately=0.0, heard=1.0)
 
 
 def candidates(count: int, seed: int, spread: float = 0.0) -> SegmentCandidates:
@@ -39,8 +40,17 @@ def candidates(count: int, seed: int, spread: float = 0.0) -> SegmentCandidates:
         after_s=lasts[1],
         joins_m=random.uniform(0.0, 0.3, (count, count)),
         log_transition=np.log(random.dirichlet(np.ones(count), count) * count),
-        log_emission=np.log(random.dirichlet(np.ones(47), count) * 47),
     )
+
+
+def emission(count: int, seed: int) -> np.ndarray:
+    """Log odds of symbols during segments."""
+    return np.log(np.random.default_rng(seed).dirichlet(np.ones(47), count) * 47)
+
+
+def struck(times_s: np.ndarray, scores: np.ndarray) -> HeardHits:
+    """Hits of given log odds (H, S)."""
+    return HeardHits(times_s, np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)]))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -54,12 +64,11 @@ def test_with_a_segment_a_state_and_a_place_a_step_it_is_the_viterbi_algorithm(s
     transition /= transition.sum(axis=1, keepdims=True)
     with np.errstate(divide="ignore"):
         log = np.log(transition * 5)
-    fixed = SegmentCandidates(
-        own.states, own.before_s, own.after_s, own.joins_m, np.maximum(log, -1e6), own.log_emission
-    )
+    fixed = SegmentCandidates(own.states, own.before_s, own.after_s, own.joins_m, np.maximum(log, -1e6))
     initial = random.dirichlet(np.ones(5))
     grid = AccentGrid(0.5 * np.arange(20), np.ones(20, bool))
-    found = choose(grid, scores, fixed, seed=0, weights=PLAIN, initial=np.log(initial * 5))
+    heard = struck(grid.times_s, scores)
+    found = choose(grid, fixed, heard, seed=0, weights=PLAIN, initial=np.log(initial * 5))
     other = Scored(n_components=5)
     other.startprob_, other.transmat_ = initial, transition
     _, states = other.decode(scores)
@@ -68,18 +77,30 @@ def test_with_a_segment_a_state_and_a_place_a_step_it_is_the_viterbi_algorithm(s
 
 
 def scored(
-    way: tuple[tuple[int, int], ...], grid: AccentGrid, scores: np.ndarray, own: SegmentCandidates, weights: Weights
+    way: tuple[tuple[int, int], ...],
+    grid: AccentGrid,
+    hits: list[tuple[float, np.ndarray]],
+    own: SegmentCandidates,
+    weights: Weights,
 ) -> float:
     """What a way through the grid is worth, added up one by one; less than anything where it is too fast or slow."""
-    total = 0.0
-    for place, segment in way:
-        total += weights.model * scores[place, segment] - (0.0 if grid.on_beat[place] else weights.off_beat)
+    total, starts = 0.0, [float(grid.times_s[way[0][0]] - own.before_s[way[0][1]])]
+    for place, _ in way:
+        total -= 0.0 if grid.on_beat[place] else weights.off_beat
     for (place, one), (later, other) in pairwise(way):
-        off = np.log((own.after_s[one] + own.before_s[other]) / (grid.times_s[later] - grid.times_s[place]))
+        gap_s = grid.times_s[later] - grid.times_s[place]
+        lasts_s = own.after_s[one] + own.before_s[other]
+        off = np.log(lasts_s / gap_s)
         if one == other or abs(off) > np.log(1.5):
             return -np.inf
         total += weights.model * own.log_transition[one, other] - weights.join_per_m * own.joins_m[one, other]
         total -= weights.speed * (off / np.log(1.5)) ** 2
+        starts.append(float(grid.times_s[place] + gap_s * own.after_s[one] / lasts_s))
+    end_s = grid.times_s[way[-1][0]] + own.after_s[way[-1][1]]
+    for time_s, log_odds in hits:
+        if starts[0] <= time_s < end_s:
+            during = max(at for at, start_s in enumerate(starts) if start_s <= time_s)
+            total += weights.heard * log_odds[way[during][1]]
     return float(total)
 
 
@@ -87,52 +108,75 @@ def scored(
 def test_no_way_through_a_small_grid_is_better(seed: int) -> None:
     own = candidates(3, seed, spread=0.6)
     grid = AccentGrid(0.3 * np.arange(6), np.arange(6) % 2 == 0)
-    scores = np.random.default_rng(seed).normal(size=(6, 3))
+    random = np.random.default_rng(seed)
+    times_s, scores = np.sort(random.uniform(-0.3, 1.9, 12)), random.normal(size=(12, 3))
+    hits = list(zip(times_s.tolist(), scores, strict=True))
     weights = Weights(chance=0.0, lately=0.0, join_per_m=5.0)
-    found = choose(grid, scores, own, seed=0, weights=weights)
+    found = choose(grid, own, struck(times_s, scores), seed=0, weights=weights)
     assert found[0][0] == 0
     # All ways from the first place to the one that it ends at.
     ways = []
     for used in product((False, True), repeat=found[-1][0] - 1):
         places = [0, *(at + 1 for at, one in enumerate(used) if one), found[-1][0]]
         ways += [tuple(zip(places, segments, strict=True)) for segments in product(range(3), repeat=len(places))]
-    best = max(scored(way, grid, scores, own, weights) for way in ways)
+    best = max(scored(way, grid, hits, own, weights) for way in ways)
     # Times are distinguished to 2 %.
-    assert scored(tuple(found), grid, scores, own, weights) == pytest.approx(best, abs=0.12)
+    assert scored(tuple(found), grid, hits, own, weights) == pytest.approx(best, abs=0.12)
+
+
+@pytest.mark.parametrize("where", [0.0, 0.2, 0.4, 0.6, 0.8])
+def test_a_sound_is_heard_wherever_it_is_in_a_beat(where: float) -> None:
+    """Two kinds of motions, each with a sound of its own: each is danced while its sound is struck."""
+    random = np.random.default_rng(1)
+    own = SegmentCandidates(
+        np.arange(12) % 2, np.full(12, 0.25), np.full(12, 0.25), random.uniform(0.0, 0.05, (12, 12)), np.zeros((12, 12))
+    )
+    log_odds = np.zeros((12, 47))
+    log_odds[:, 20], log_odds[:, 21] = np.where(own.states, -2.0, 0.6), np.where(own.states, 0.6, -2.0)
+    beats = 0.5 * np.arange(64)
+    # Four beats of the one sound, then four of the other.
+    symbols = 20 + np.arange(64) // 4 % 2
+    music = Rhythm(beats, np.arange(64) % 4, beats + 0.5 * where, symbols, np.ones(64), derived=False)
+    found = choose(grid_of(music), own, heard_hits(music, log_odds), seed=0)
+    # Motions meet half way from accent to accent.
+    accents_s = 0.25 * np.array([place for place, _ in found])
+    danced = np.searchsorted(0.5 * (accents_s[1:] + accents_s[:-1]), music.hits_s, side="right")
+    states = own.states[[segment for _, segment in found]]
+    assert np.mean(states[danced] == symbols - 20) > 0.9
 
 
 def test_constraints_are_met_and_solved_around() -> None:
     own, rhythm = candidates(8, 3, spread=0.3), beaten(32)
     grid = grid_of(rhythm)
-    scores = symbol_scores(grid, rhythm, own)
-    free = choose(grid, scores, own, seed=5)
+    heard = heard_hits(rhythm, emission(len(own.states), 9))
+    free = choose(grid, own, heard, seed=5)
     # A phrase that is not asked for anything begins on the beat.
     place = 16
     there = dict(free).get(place)
     requested = next(state for state in range(8) if state != there)
-    pinned = choose(grid, scores, own, seed=5, constraints=Constraints(pinned={place: requested}))
+    pinned = choose(grid, own, heard, seed=5, constraints=Constraints(pinned={place: requested}))
     assert dict(pinned)[place] == requested
     banned = frozenset((at, state) for at in range(len(grid.times_s)) for state in range(4))
     assert all(
-        segment >= 4 for _, segment in choose(grid, scores, own, seed=5, constraints=Constraints(forbidden=banned))
+        segment >= 4 for _, segment in choose(grid, own, heard, seed=5, constraints=Constraints(forbidden=banned))
     )
     both = Constraints(pinned={place: 2}, forbidden=banned)
-    assert dict(choose(grid, scores, own, seed=5, constraints=both))[place] == 2
+    assert dict(choose(grid, own, heard, seed=5, constraints=both))[place] == 2
 
 
 def test_the_same_seed_is_the_same_dance_and_another_is_another() -> None:
     own, rhythm = candidates(12, 4, spread=0.3), beaten(64)
     grid = grid_of(rhythm)
-    scores = symbol_scores(grid, rhythm, own)
-    assert choose(grid, scores, own, seed=1) == choose(grid, scores, own, seed=1)
-    assert choose(grid, scores, own, seed=1) != choose(grid, scores, own, seed=2)
+    heard = heard_hits(rhythm, emission(len(own.states), 9))
+    assert choose(grid, own, heard, seed=1) == choose(grid, own, heard, seed=1)
+    assert choose(grid, own, heard, seed=1) != choose(grid, own, heard, seed=2)
 
 
 def test_motions_keep_within_the_speeds_at_any_tempo() -> None:
     own = candidates(12, 4, spread=0.5)
     for beat_s in (0.3, 0.5, 0.9, 1.4):
         grid = grid_of(beaten(40, beat_s))
-        found = choose(grid, np.zeros((len(grid.times_s), 12)), own, seed=1)
+        found = choose(grid, own, struck(np.zeros(0), np.zeros((0, 12))), seed=1)
         for (place, one), (later, other) in pairwise(found):
             speed = (own.after_s[one] + own.before_s[other]) / (grid.times_s[later] - grid.times_s[place])
             assert 0.65 < speed < 1.54
@@ -140,5 +184,6 @@ def test_motions_keep_within_the_speeds_at_any_tempo() -> None:
 
 def test_without_music_or_motion_there_is_nothing() -> None:
     own = candidates(3, 0)
-    assert choose(AccentGrid(np.zeros(0), np.zeros(0, bool)), np.zeros((0, 3)), own, seed=0) == []
-    assert choose(AccentGrid(np.zeros(1), np.ones(1, bool)), np.zeros((1, 3)), own, seed=0)
+    silence = struck(np.zeros(0), np.zeros((0, 3)))
+    assert choose(AccentGrid(np.zeros(0), np.zeros(0, bool)), own, silence, seed=0) == []
+    assert choose(AccentGrid(np.zeros(1), np.ones(1, bool)), own, silence, seed=0)

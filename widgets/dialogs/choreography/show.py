@@ -286,8 +286,9 @@ class ChoreographyDialog(Retranslated, QDialog):
 
 def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopRequested], ChoreographyView]:
     def work(progress: Progress, stop_requested: StopRequested) -> ChoreographyView:
+        from app.choreography.heard import learned_symbols
         from app.choreography.model_file import read_model
-        from app.choreography.overview import basic_motions, learned_symbols
+        from app.choreography.overview import basic_motions
         from app.choreography.performed.dance_steps import dance_of
         from app.choreography.performed.dancers import rhythm_of
         from app.project.choreography_files import choreography_path
