@@ -7,6 +7,7 @@ probabilities are counted (`app.choreography.hidden_markov`).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -48,6 +49,9 @@ class Pair:
         See `app.choreography.model.TrainingPair`.
     cuts : tuple of Cut or None
         Frames of the motion at `FPS`, as a user set them; None to cut it (`app.choreography.cuts.segment`).
+    unfit : tuple of (start, stop)
+        Spans of the motion's frames from which nothing is learned (`app.choreography.cleaning.CleanedClip.unfit`), also
+        where a user cuts it.
     """
 
     motion: MotionClip
@@ -57,6 +61,7 @@ class Pair:
     offset_s: float | None = None
     credits: str = ""
     cuts: tuple[Cut, ...] | None = None
+    unfit: tuple[tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +73,9 @@ class Analysis:
     clip : MotionClip
         The motion as a model holds it, at `FPS`.
     segmentation : Segmentation
-        Of this clip.
+        Of this clip; what is unfit belongs to no cut.
+    unfit : tuple of (start, stop)
+        Frames of this clip from which nothing is learned.
     offset : MusicOffset
         Where the music begins; found, also where the pair says it.
     """
@@ -76,12 +83,15 @@ class Analysis:
     clip: MotionClip
     segmentation: Segmentation
     offset: MusicOffset
+    unfit: tuple[tuple[int, int], ...] = ()
 
 
 def analyse(pair: Pair) -> Analysis:
     """Cut the motion of a pair, and find where its music begins."""
     clip = stored(pair.motion)
-    return Analysis(clip, segment(clip), find_offset(clip, pair.rhythm))
+    found, unfit = segment(clip), _unfit(pair)
+    fit = replace(found, cuts=_fit(found.cuts, unfit))
+    return Analysis(clip, fit, find_offset(clip, pair.rhythm), unfit)
 
 
 def learn(
@@ -175,10 +185,20 @@ def stored(motion: MotionClip) -> MotionClip:
 
 
 def _cuts(pair: Pair, clip: MotionClip) -> tuple[Cut, ...]:
-    if pair.cuts is None:
-        return segment(clip).cuts
-    check_cuts(pair.cuts, len(clip), pair.motion_name)
-    return pair.cuts
+    if pair.cuts is not None:
+        check_cuts(pair.cuts, len(clip), pair.motion_name)
+    return _fit(segment(clip).cuts if pair.cuts is None else pair.cuts, _unfit(pair))
+
+
+def _unfit(pair: Pair) -> tuple[tuple[int, int], ...]:
+    """Frames at `FPS` from which nothing is learned."""
+    rate = FPS / pair.motion.fps
+    return tuple((math.floor(start * rate), math.ceil(stop * rate)) for start, stop in pair.unfit)
+
+
+def _fit(cuts: Sequence[Cut], unfit: Sequence[tuple[int, int]]) -> tuple[Cut, ...]:
+    """Cuts that touch nothing unfit."""
+    return tuple(cut for cut in cuts if all(cut.end <= start or stop <= cut.start for start, stop in unfit))
 
 
 def _source(pair: Pair, clip: MotionClip) -> TrainingPair:

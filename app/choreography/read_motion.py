@@ -20,8 +20,8 @@ from scipy.spatial.transform import Rotation
 
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
+from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
-from app.choreography.flips import Flip, lead_in, mend_flips, mend_steps
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.formats.motion_limits import require_frames, require_rate
@@ -69,10 +69,8 @@ class ReadMotion:
         Axis of the file that points up, e.g. ``"+Z"``.
     file_fps : Fraction
         As the file says; the clip's may have been given.
-    lead_in : int
-        Frames left out at the start: a rest pose before the motion (`app.choreography.flips.lead_in`).
-    flips : tuple of Flip
-        What was mended.
+    cleaned : CleanedClip
+        The clip, and what was taken from the file's and changed in it.
     joints_doubtful : tuple of str
         Whose bones were guessed.
     rate_guess, file_guesses
@@ -82,23 +80,26 @@ class ReadMotion:
         rotation, but its joint has one place on the segment that carries it, also where collars or a neck move.
     """
 
-    clip: MotionClip
+    cleaned: CleanedClip
     profile: str
     unit: str
     unit_m: float
     up: str
     file_fps: Fraction
-    lead_in: int
-    flips: tuple[Flip, ...]
     joints_doubtful: tuple[str, ...]
     apart_m: float
     rate_guess: Message | None = None
     file_guesses: tuple[Message, ...] = ()
 
     @property
+    def clip(self) -> MotionClip:
+        """The motion."""
+        return self.cleaned.clip
+
+    @property
     def start_s(self) -> float:
         """Time of the file at which the clip begins."""
-        return float(self.lead_in / self.clip.fps)
+        return self.cleaned.start_s
 
 
 def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> ReadMotion:
@@ -128,17 +129,14 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
 def guesses(motion: ReadMotion) -> tuple[Message, ...]:
     """Guesses about a motion's file that a user may want to correct."""
     found = []
-    if motion.clip.fps != motion.file_fps:
-        found.append(Message("motion.rate", {"rate": str(motion.clip.fps), "said": str(motion.file_fps)}))
+    if (rate := motion.clip.fps * motion.cleaned.held) != motion.file_fps:
+        found.append(Message("motion.rate", {"rate": str(rate), "said": str(motion.file_fps)}))
     elif motion.rate_guess is not None:
         found.append(motion.rate_guess)
     found += motion.file_guesses
     if not motion.unit:
         found.append(Message("motion.no_unit"))
-    if motion.lead_in:
-        found.append(Message("motion.lead_in", {"n": motion.lead_in}))
-    if motion.flips:
-        found.append(Message("motion.flips", {"n": len(motion.flips)}))
+    found += remarks(motion.cleaned)
     if motion.joints_doubtful:
         found.append(Message("motion.doubtful", {"joints": ", ".join(motion.joints_doubtful)}))
     if motion.apart_m > FAR_M:
@@ -183,13 +181,13 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     floor_m = _floor(positions, rotations, ends)
     hips = positions[:, 0] - (0.0, floor_m, 0.0)
     whole = MotionClip(BodyShape.of(offsets, ends), fps or bvh.fps, hips, _local(rotations))
-    before = lead_in(whole)
-    apart_m = _apart(whole.span(before, len(whole)), (positions - positions[:, :1])[before:])
-    clip, flips = mend_flips(whole.span(before, len(whole)))
-    clip, steps = mend_steps(clip)
-    clip = replace(clip, hips_m=clip.hips_m - clip.hips_m[0] * (1.0, 0.0, 1.0))
+    done = cleaned(whole)
+    before, after = (done.held * frames for frames in (done.lead_in, done.trail))
+    proper = slice(before, len(whole) - after)
+    apart_m = _apart(whole.span(proper.start, proper.stop), (positions - positions[:, :1])[proper])
+    clip = replace(done.clip, hips_m=done.clip.hips_m - done.clip.hips_m[0] * (1.0, 0.0, 1.0))
     return ReadMotion(
-        clip, mapping.profile, unit, unit_m, up, bvh.fps, before, flips + steps, mapping.doubtful, apart_m,
+        replace(done, clip=clip), mapping.profile, unit, unit_m, up, bvh.fps, mapping.doubtful, apart_m,
         bvh.rate_guess, bvh.guesses,
     )  # fmt: skip
 

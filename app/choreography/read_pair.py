@@ -78,7 +78,7 @@ def read_pair(
         credits = beside
     text = "" if credits is None else guessed(read_file(credits, MOST_CREDITS_BYTES)).strip()
     of_clip_s = None if offset_s is None else offset_s - read.start_s
-    pair = Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text)
+    pair = Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text, unfit=read.cleaned.unfit)
     return ReadPair(pair if cuts is None else _cut(pair, read, read_times(cuts)), read, score)
 
 

@@ -48,7 +48,7 @@ def test_limbs_are_where_another_reader_has_them(name: str) -> None:
     frames = np.linspace(0, len(read.clip) - 1, 5).astype(int)
     root = bvhio.readAsHierarchy(str(CLIPS / f"{name}.bvh"))
     for frame in frames:
-        root.loadPose(int(frame) + read.lead_in)
+        root.loadPose(int(frame) + read.cleaned.lead_in)
         hips = root.PositionWorld
         for part, at in LIMBS.items():
             joint = next(one for one, _, _ in root.layout() if one.Name == side + names[at])

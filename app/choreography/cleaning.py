@@ -1,0 +1,123 @@
+"""A capture made fit to be danced: frames that were held, rest poses at its ends, damage."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+
+from app.choreography.clip import MotionClip
+from app.choreography.clip_ends import idle, proper
+from app.choreography.damage import PARTS, Damage, part_speeds
+from app.choreography.mending import mended
+from app.errors import Message
+
+HELD_PART: Final = 0.95
+"""Part of all changes that come at every so manieth frame only, if frames are held."""
+NAMED: Final = 6
+"""Most places that a message names; it says how many more there are."""
+
+
+@dataclass(frozen=True, eq=False)
+class CleanedClip:
+    """A clip, and what was taken from it and changed in it.
+
+    Attributes
+    ----------
+    clip : MotionClip
+        The motion proper, mended.
+    held : int
+        Number of frames of the file for which each frame was held, which are one now.
+    lead_in, trail : int
+        Frames (once they are not held) of rest poses that were left out at the start and at the end.
+    idle : tuple of int
+        Frames at the start and at the end of the clip in which the body stands idle.
+    mended, left_out : tuple of Damage
+        See `app.choreography.mending.Mended`; frames of the clip.
+    """
+
+    clip: MotionClip
+    held: int = 1
+    lead_in: int = 0
+    trail: int = 0
+    idle: tuple[int, int] = (0, 0)
+    mended: tuple[Damage, ...] = ()
+    left_out: tuple[Damage, ...] = ()
+
+    @property
+    def start_s(self) -> float:
+        """Time of the uncleaned clip at which this begins."""
+        return float(self.lead_in / self.clip.fps)
+
+    @property
+    def unfit(self) -> tuple[tuple[int, int], ...]:
+        """Spans of the clip (start, stop) from which no motion is to be taken, ascending."""
+        start, end = self.idle
+        spans = [(one.start, one.stop) for one in self.left_out]
+        spans += [(0, start)] if start else []
+        spans += [(len(self.clip) - end, len(self.clip))] if end else []
+        return tuple(sorted(spans))
+
+
+def cleaned(clip: MotionClip) -> CleanedClip:
+    """Clean a clip; one without damage stays as it is."""
+    count = held(clip)
+    clip = without_held(clip, count)
+    start, stop = proper(clip)
+    done = mended(clip.span(start, stop))
+    return CleanedClip(done.clip, count, start, len(clip) - stop, idle(done.clip), done.mended, done.left_out)
+
+
+def held(clip: MotionClip) -> int:
+    """Number of frames for which each is held, as by a converter to a higher rate: 1 of nearly every capture."""
+    changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1))
+    if len(changed) < 3:
+        return 1
+    count = int(np.median(np.diff(changed)))
+    return count if count > 1 and (np.diff(changed) % count == 0).mean() >= HELD_PART else 1
+
+
+def without_held(clip: MotionClip, count: int) -> MotionClip:
+    """The first of every so many frames that are the same, at the frame rate of these."""
+    if count == 1:
+        return clip
+    changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1)) + 1
+    phase = int(np.bincount(changed % count).argmax())
+    kept = np.maximum(np.arange(phase - count if phase else 0, len(clip), count), 0)
+    return replace(clip, fps=clip.fps / count, hips_m=clip.hips_m[kept], rotations=clip.rotations[kept])
+
+
+def remarks(done: CleanedClip) -> tuple[Message, ...]:
+    """Describe what was taken from a clip and changed in it; times are those of the file."""
+    found = []
+    if done.held > 1:
+        found.append(Message("motion.held", {"n": done.held, "rate": str(done.clip.fps)}))
+    if done.lead_in:
+        found.append(Message("motion.lead_in", {"n": done.lead_in}))
+    if done.trail:
+        found.append(Message("motion.trail", {"n": done.trail}))
+    for where, frames in zip(("motion.idle_start", "motion.idle_end"), done.idle, strict=True):
+        if frames:
+            found.append(Message(where, {"length_s": float(frames / done.clip.fps)}))
+    if done.mended:
+        found.append(Message("motion.mended", {"n": len(done.mended), "places": _places(done.mended, done)}))
+    if done.left_out:
+        found.append(Message("motion.left_out", {"n": len(done.left_out), "places": _places(done.left_out, done)}))
+    return tuple(found)
+
+
+def _places(damage: Sequence[Damage], done: CleanedClip) -> str:
+    """Times and parts, as "1.25-1.40 s (hips, leftHand)"."""
+    fps = done.clip.fps
+
+    def place(one: Damage) -> str:
+        first, last = (done.start_s + float(Fraction(frame) / fps) for frame in (one.start, one.stop))
+        named = [part for part in one.parts if part in PARTS[:-1]] or ["hips"]
+        parts = ", ".join(named[:3]) + (", ..." if len(named) > 3 else "")
+        return f"{first:.2f}-{last:.2f} s ({parts})"
+
+    more = f"; +{len(damage) - NAMED}" if len(damage) > NAMED else ""
+    return "; ".join(map(place, damage[:NAMED])) + more

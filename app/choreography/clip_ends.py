@@ -1,0 +1,145 @@
+"""Beginning and end of a capture that are no dance: rest poses and standing idle.
+
+Many files begin or end with their rest pose or with a T-pose, for a frame or for seconds, which the body leaves within
+a frame or by lowering its arms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.cuts import LONGEST_REST_S
+from app.choreography.damage import angle, runs
+from app.rig import quaternion
+
+HELD_RAD: Final = 0.05
+HELD_M: Final = 0.02
+"""A pose is held while no segment and no place is farther from it."""
+JUMP_RAD_S: Final = 20.0
+"""A body that leaves the pose that it began with faster than this was put into it."""
+LEAD_S: Final = 0.15
+"""Swings that the jump to the motion leaves are over within this time."""
+AFTER_S: Final = 0.5
+CALM: Final = 2.0
+CALM_RAD_S: Final = 1.0
+"""It is over when the body is no faster than this many times its median speed in the time after it, or than that."""
+T_POSE_RAD: Final = 0.4
+"""Trunk, arms and legs of the T-pose are nearer than this to it."""
+STILL_RAD_S: Final = 0.35
+STILL_M_S: Final = 0.12
+"""A body whose trunk and limbs are slower than this over `STILL_OVER_S` stands; hands, feet and head may move."""
+STILL_OVER_S: Final = 0.2
+T_POSE_S: Final = 0.1
+"""A T-pose is held for this time and `STILL_OVER_S` at least, if it is not left by a jump."""
+LOWERS_S: Final = 1.5
+"""Time within which arms are lowered from it."""
+DOWN_RAD: Final = 0.8
+SLOWER: Final = 0.5
+"""Arms farther from it than this have been lowered once they are slower than this part of how fast they were."""
+IDLE_S: Final = 1.0
+"""A body that stands for this long at an end is idle."""
+REST_S: Final = LONGEST_REST_S
+"""The rest of it is one of the dance's."""
+LEAST_S: Final = 1.0
+"""And nothing is cut off of a clip of which no more than this would be left."""
+
+_TRUNK: Final = ("hips", "spine", "chest")
+_LIMBS: Final = tuple(
+    f"{side}{part}" for side in ("left", "right") for part in ("UpperArm", "LowerArm", "UpperLeg", "LowerLeg")
+)
+_BODY: Final = [SEGMENTS.index(name) for name in (*_TRUNK, *_LIMBS)]
+
+
+def proper(clip: MotionClip) -> tuple[int, int]:
+    """Frames (start, stop) of the motion proper; all of a clip that does not move."""
+    start, stop = _lead(clip), len(clip) - _lead(_backwards(clip))
+    return (start, stop) if (stop - start) / float(clip.fps) >= LEAST_S else (0, len(clip))
+
+
+def idle(clip: MotionClip) -> tuple[int, int]:
+    """Frames at the start and before the end in which the body stands idle, but for a rest beside its motion."""
+    over_s, rest = IDLE_S * float(clip.fps), round(REST_S * float(clip.fps))
+    start, stop = (_first_run(_still(one)) for one in (clip, _backwards(clip)))
+    if max(start, stop) >= len(clip) - 1:
+        return 0, 0
+    return start - rest if start >= over_s else 0, stop - rest if stop >= over_s else 0
+
+
+def _backwards(clip: MotionClip) -> MotionClip:
+    return replace(clip, hips_m=clip.hips_m[::-1], rotations=clip.rotations[::-1])
+
+
+def _lead(clip: MotionClip) -> int:
+    """Number of frames before the motion proper."""
+    poses = angle(clip.rotations, clip.rotations[:1]).max(axis=1)
+    places = np.linalg.norm(clip.hips_m - clip.hips_m[0], axis=1)
+    left = np.flatnonzero((poses > HELD_RAD) | (places > HELD_M))
+    if not len(left):
+        return 0
+    frame = int(left[0]) - 1
+    if (settled := _settled(clip, frame)) > frame:
+        return settled
+    fps = float(clip.fps)
+    in_t_pose = _in_t_pose(clip) & _still(clip)
+    t_pose = _first_run(in_t_pose)
+    if t_pose and (settled := _settled(clip, t_pose - 1)) > t_pose:
+        return settled
+    # A dancer who takes the pose again between its ends dances it.
+    taken = [stop for start, stop in runs(in_t_pose) if stop - start >= T_POSE_S * fps and start]
+    danced = any(stop < len(clip) - LOWERS_S * fps for stop in taken)
+    return 0 if danced or t_pose < T_POSE_S * fps else _arms_down(clip, t_pose)
+
+
+def _settled(clip: MotionClip, frame: int) -> int:
+    """Frame at which the motion is what it is after, where a pose is left by a jump after a frame; otherwise that."""
+    fps = float(clip.fps)
+    steps, later = round(LEAD_S * fps), round((LEAD_S + AFTER_S) * fps)
+    some = clip.rotations[frame : frame + later + 1]
+    speeds = angle(some[:-1], some[1:]).max(axis=1, initial=0.0) * fps
+    fast = np.flatnonzero(speeds[:2] > JUMP_RAD_S)
+    if not len(fast):
+        return frame
+    # Files are filtered with their rest pose in them: after the jump the body still slows down and swings.
+    usual = CALM * float(np.median(speeds[steps:])) if len(speeds) > steps else JUMP_RAD_S
+    wild = np.flatnonzero(speeds[:steps] > max(usual, CALM_RAD_S))
+    return frame + (int(wild[-1]) if len(wild) else int(fast[-1])) + 1
+
+
+def _in_t_pose(clip: MotionClip) -> BoolArray:
+    turns = clip.rotations[:, _BODY].copy()
+    turns[:, 0] = quaternion.swing_twist(turns[:, 0], (0.0, 1.0, 0.0))[0]
+    return np.asarray(angle(turns, quaternion.IDENTITY).max(axis=1) < T_POSE_RAD)
+
+
+def _still(clip: MotionClip) -> BoolArray:
+    """(F,) whether a body stands from a frame on."""
+    over = max(1, round(STILL_OVER_S * float(clip.fps)))
+    later = np.minimum(np.arange(len(clip)) + over, len(clip) - 1)
+    turns = angle(clip.rotations[:, _BODY], clip.rotations[later][:, _BODY]).max(axis=1)
+    ways = np.linalg.norm(clip.hips_m - clip.hips_m[later], axis=1)
+    return np.asarray((turns < STILL_RAD_S * STILL_OVER_S) & (ways < STILL_M_S * STILL_OVER_S))
+
+
+def _first_run(of: BoolArray) -> int:
+    """Number of frames from the first on in which a condition holds."""
+    spans = runs(of)
+    return spans[0][1] if spans and spans[0][0] == 0 else 0
+
+
+def _arms_down(clip: MotionClip, frame: int) -> int:
+    """Frame at which both arms, lowered from the T-pose after a frame, slow down; 0 if they are not lowered."""
+    fps = float(clip.fps)
+    arms = [SEGMENTS.index("leftUpperArm"), SEGMENTS.index("rightUpperArm")]
+    some = clip.rotations[frame : frame + round(LOWERS_S * fps) + 1, arms]
+    if len(some) < 3:
+        return 0
+    speeds = angle(some[:-1], some[1:]).max(axis=1)
+    down = angle(some[:-1], quaternion.IDENTITY).min(axis=1) > DOWN_RAD
+    slower = np.flatnonzero(down & (speeds < SLOWER * np.maximum.accumulate(speeds)))
+    return frame + int(slower[0]) if len(slower) else frame * int(down.any())

@@ -1,0 +1,254 @@
+"""Damage of a capture: places where a segment moves as no body does, for a few frames or for longer.
+
+What a body does between two moments follows from how it moves at both; where damage is, it does not. Between every two
+frames up to `WINDOW_S` apart the way is compared with the cubic that joins them at their speeds: a spin and a throw are
+near to it, a flip, a swapped marker, a jump and a place that is lost are not. Speed alone says nothing, and neither
+does what is as fast before or after.
+
+The bounds were measured on clean captures of four makers (CMU, Bandai Namco, Mixamo-like ones of Meta's, at 30, 60 and
+120 frames a second: dances, kicks, punches, jumps, waving): each is 1.2 to 1.5 times what is farthest from the cubic
+in any of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from scipy.ndimage import maximum_filter1d
+
+from app.arrays import BoolArray, FloatArray, IntArray
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.rig import quaternion
+
+WINDOW_S: Final = 0.12
+"""Longest time over which a way is compared."""
+MOST_WINDOWS: Final = 8
+MOST_INSIDE: Final = 8
+"""Lengths of windows, and frames inside of each, where the frame rate has more of them."""
+BESIDE: Final = 1.5
+BESIDE_RAD_S: Final = 2.0
+BESIDE_M_S: Final = 0.2
+"""Inside of damage a step is so many times, and by this more, faster than the step before and the step after it."""
+_FAR_DEG: Final = {
+    "hips": 9.5, "spine": 8.0, "chest": 8.0, "head": 16.0, "UpperArm": 42.0, "LowerArm": 45.0, "Hand": 72.0,
+    "UpperLeg": 34.0, "LowerLeg": 45.0, "Foot": 50.0,
+}  # fmt: skip
+"""Distance from the cubic over `FAR_S` beyond which there is damage; in shorter times it is less."""
+FAR_M: Final = 0.05
+"""The same for the place of the hips."""
+FAR_S: Final = 0.1
+LEAST_PART: Final = 0.45
+"""Nothing nearer than this part of these bounds is damage, however short the time."""
+SUDDEN: Final = 4.0
+SUDDEN_PART: Final = 0.6
+"""Over two steps, the bounds are this part for what is so many times faster than the steps beside it."""
+FASTEST_RAD_S: Final = 45.0
+"""No joint of a dancer turns faster: elbows of boxers and pitchers reach 43 rad/s (G. Fleisig and others, "Kinetics of
+baseball pitching", 1995), knees of kicks 35, and the fastest clean capture 35."""
+FASTEST_HIPS_RAD_S: Final = 15.0
+"""Hips do so in spins only, which last: a jump is shorter than `SPIN_S` or turns by less than `SPIN_RAD`."""
+SPIN_S: Final = 0.125
+SPIN_RAD: Final = 2.5
+BEGINS: Final = 0.5
+"""Such a turn is taken from where it is faster than this part of these bounds."""
+FROZEN: Final = 2
+"""Steps without any motion, of a body that moves by more than `STARTS_RAD_S` before or after them, are lost frames."""
+STARTS_RAD_S: Final = 1.5
+MOST_FROZEN: Final = 0.25
+"""A clip that rests longer than this part of its time was made so."""
+
+MOST_AT_ONCE: Final = 1_000_000
+"""Numbers that are compared at a time: noise is damage everywhere."""
+
+PLACE: Final = len(SEGMENTS)
+"""Number of the hips' place among the tracks of a clip, after its segments."""
+PARTS: Final = (*SEGMENTS, "place")
+
+
+def _far(name: str) -> float:
+    return float(np.radians(next(far for part, far in _FAR_DEG.items() if name.endswith(part))))
+
+
+_FAR: FloatArray = np.array([*map(_far, SEGMENTS), FAR_M])
+_FASTEST: FloatArray = np.array([FASTEST_HIPS_RAD_S, *(FASTEST_RAD_S,) * (len(SEGMENTS) - 1), np.inf])
+
+
+@dataclass(frozen=True, order=True)
+class Damage:
+    """Frames of a clip between two that are sound.
+
+    Attributes
+    ----------
+    start, stop : int
+        The last sound frame before the damage and the first one after it.
+    parts : tuple of str
+        Of `PARTS`, in their order.
+    """
+
+    start: int
+    stop: int
+    parts: tuple[str, ...]
+
+
+def damage(clip: MotionClip) -> tuple[Damage, ...]:
+    """Damage of a clip, ascending; what overlaps in time is one."""
+    if len(clip) < 5:
+        return ()
+    speeds = part_speeds(clip)
+    found = set(_too_fast(speeds, float(clip.fps)))
+    for length in _lengths(float(clip.fps)):
+        found.update(_off_the_cubic(clip, speeds, length))
+    found = _with_held(speeds, found)
+    found.update((start, stop, part) for start, stop in _frozen(speeds) for part in range(len(PARTS)))
+    return tuple(_merged(found))
+
+
+def part_speeds(clip: MotionClip) -> FloatArray:
+    """(F - 1, 17) rad/s of every segment from frame to frame, and m/s of the hips."""
+    turns = angle(clip.rotations[:-1], clip.rotations[1:])
+    ways = np.linalg.norm(np.diff(clip.hips_m, axis=0), axis=-1, keepdims=True)
+    return np.concatenate([turns, ways], axis=1) * float(clip.fps)
+
+
+def angle(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Radians between rotations (..., 4)."""
+    # By the distance of the unit quaternions, which is exact where it is small, as the cosine is not.
+    dot = np.einsum("...i,...i->...", a, b)
+    apart = np.linalg.norm(a - np.where(dot < 0.0, -1.0, 1.0)[..., None] * b, axis=-1)
+    return np.asarray(4.0 * np.arcsin(np.clip(0.5 * apart, 0.0, 1.0)))
+
+
+def between(
+    before: FloatArray, after: FloatArray, slopes: tuple[FloatArray, FloatArray], share: float | FloatArray
+) -> FloatArray:
+    """Cubic from the one value to the other at a share of the way, with slopes per whole way."""
+    square, cube = share * share, share**3
+    return np.asarray(
+        (2.0 * cube - 3.0 * square + 1.0) * before
+        + (cube - 2.0 * square + share) * slopes[0]
+        + (3.0 * square - 2.0 * cube) * after
+        + (cube - square) * slopes[1]
+    )
+
+
+def _lengths(fps: float) -> list[int]:
+    """Steps of the windows."""
+    most = max(2, int(WINDOW_S * fps))
+    return sorted({round(one) for one in np.geomspace(2, most, min(MOST_WINDOWS, most - 1))})
+
+
+def _off_the_cubic(clip: MotionClip, speeds: FloatArray, length: int) -> Iterator[tuple[int, int, int]]:
+    """Spans (start, stop, part) that are far from the cubic over windows of so many steps."""
+    count = len(speeds) - length - 1
+    if count < 1:
+        return
+    steps = np.lib.stride_tricks.sliding_window_view(speeds, length, axis=0)[1 : 1 + count]
+    outside = np.maximum(speeds[:count], speeds[1 + length : 1 + length + count])
+    least = BESIDE * outside + np.where(np.arange(len(PARTS)) == PLACE, BESIDE_M_S, BESIDE_RAD_S)
+    highest = maximum_filter1d(speeds, length, axis=0, origin=-(length // 2))[1 : 1 + count]
+    first, part = np.nonzero(highest > least)
+    if not len(first):
+        return
+    time_s = length / float(clip.fps)
+    bound = _FAR * min(1.0, max(LEAST_PART, (time_s / FAR_S) ** 1.2))
+    turned, moved = part < PLACE, part == PLACE
+    bounds = bound[part]
+    if length == 2:
+        sudden = highest[first, part] > SUDDEN / BESIDE * least[first, part]
+        bounds = bounds * np.where(sudden, SUDDEN_PART, 1.0)
+    far = np.zeros(len(first), bool)
+    far[turned] = _turns_off(clip.rotations, first[turned] + 1, part[turned], length) > bounds[turned]
+    far[moved] = _moves_off(clip.hips_m, first[moved] + 1, length) > bounds[moved]
+    first, part = first[far], part[far]
+    for some in np.array_split(np.arange(len(first)), len(first) * length // MOST_AT_ONCE + 1):
+        wild = steps[first[some], part[some]] > least[first[some], part[some], None]
+        starts = first[some] + 1 + wild.argmax(axis=1)
+        stops = first[some] + 1 + length - wild[:, ::-1].argmax(axis=1)
+        yield from zip(starts.tolist(), stops.tolist(), part[some].tolist(), strict=True)
+
+
+def _inside(length: int) -> list[int]:
+    """Frames of a window that are compared."""
+    return sorted({round(one) for one in np.linspace(1, length - 1, min(MOST_INSIDE, length - 1))})
+
+
+def _turns_off(rotations: FloatArray, start: IntArray, part: IntArray, length: int) -> FloatArray:
+    """Farthest angles from the cubic of the frames between ``start`` and ``length`` later."""
+    ends = [rotations[start + step, part] for step in (-1, 0, length, length + 1)]
+    slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
+    off = np.zeros(len(start))
+    for step in _inside(length):
+        expected = quaternion.normalize(between(ends[1], ends[2], slopes, step / length))
+        off = np.maximum(off, angle(expected, rotations[start + step, part]))
+    return off
+
+
+def _moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
+    """The same of places (F, 3), metres."""
+    ends = [places[start + step] for step in (-1, 0, length, length + 1)]
+    slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
+    off = np.zeros(len(start))
+    for step in _inside(length):
+        expected = between(ends[1], ends[2], slopes, step / length)
+        off = np.maximum(off, np.linalg.norm(expected - places[start + step], axis=-1))
+    return off
+
+
+def _too_fast(speeds: FloatArray, fps: float) -> Iterator[tuple[int, int, int]]:
+    """Joints that turn faster than any does; hips that turn fast and do not spin."""
+    for part in np.flatnonzero((speeds > _FASTEST).any(axis=0)).tolist():
+        # Such a turn is followed to where it begins and ends, and so is a spin.
+        for start, stop in runs(speeds[:, part] > _FASTEST[part] * BEGINS):
+            turned = speeds[start:stop, part]
+            spins = part == 0 and (stop - start) / fps >= SPIN_S and turned.sum() / fps >= SPIN_RAD
+            if turned.max() > _FASTEST[part] and not spins:
+                yield start, stop, part
+
+
+def _with_held(speeds: FloatArray, found: set[tuple[int, int, int]]) -> set[tuple[int, int, int]]:
+    """Spans, each with what it is the edge of: frames in which the segment is held where it jumped to, or was held."""
+    held = [runs(speeds[:, part] == 0.0) for part in range(len(PARTS))]
+    usable = [(speeds[:, part] == 0.0).mean() <= MOST_FROZEN for part in range(len(PARTS))]
+    long = [
+        [run for run in some if run[1] - run[0] >= FROZEN] if use else []
+        for some, use in zip(held, usable, strict=True)
+    ]
+    begins, ends = [dict(some) for some in long], [{stop: start for start, stop in some} for some in long]
+    return {(ends[part].get(start, start), begins[part].get(stop, stop), part) for start, stop, part in found}
+
+
+def _frozen(speeds: FloatArray) -> Iterator[tuple[int, int]]:
+    """Spans in which a body that moves stands as if it were cut out."""
+    still = (speeds == 0.0).all(axis=1)
+    if still.mean() > MOST_FROZEN:
+        return
+    fast = speeds[:, :PLACE].max(axis=1)
+    for start, stop in runs(still):
+        beside = max(fast[start - 1] if start else 0.0, fast[stop] if stop < len(fast) else 0.0)
+        if stop - start >= FROZEN and start and stop < len(fast) and beside > STARTS_RAD_S:
+            yield start, stop + 1
+
+
+def runs(of: BoolArray) -> list[tuple[int, int]]:
+    """Half-open spans in which a condition holds."""
+    edges = np.flatnonzero(np.diff(of.astype(np.int8), prepend=0, append=0))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def _merged(found: Iterable[tuple[int, int, int]]) -> Iterator[Damage]:
+    """Spans of single parts that overlap or touch, as one of all of these parts."""
+    start, stop, parts = 0, -1, set[int]()
+    for one_start, one_stop, part in sorted(found):
+        if one_start <= stop:
+            stop = max(stop, one_stop)
+            parts.add(part)
+            continue
+        if parts:
+            yield Damage(start, stop, tuple(PARTS[at] for at in sorted(parts)))
+        start, stop, parts = one_start, one_stop, {part}
+    if parts:
+        yield Damage(start, stop, tuple(PARTS[at] for at in sorted(parts)))
