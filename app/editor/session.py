@@ -15,6 +15,7 @@ from PySide6.QtCore import QObject, Signal
 from app.contacts.breaks import by_time
 from app.editor.listening import Listening
 from app.editor.live_players import LivePlayers
+from app.editor.problem_filter import ProblemFilter
 from app.editor.recording import RecordingState
 from app.editor.selection import Selection
 from app.editor.state import State, Watched
@@ -147,6 +148,8 @@ class Session(QObject):
         """The timeline, for commands that mean it; the panel sets it."""
         self._performance = Performance(project)
         self._broken: Mapping[str, tuple[Problem, ...]] = {}
+        self.problem_filter = ProblemFilter()
+        """The problems that commands step through; the list of problems sets it while it is in sight."""
         self._problems: dict[str, tuple[tuple[object, ...], tuple[Problem, ...], tuple[Problem, ...]]] = {}
         """By player: what they were made from, those that count, and those that are ignored."""
         self._selection = Selection()

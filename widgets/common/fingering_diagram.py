@@ -12,9 +12,11 @@ from PySide6.QtGui import (
     QFontMetricsF,
     QHelpEvent,
     QMouseEvent,
+    QMoveEvent,
     QPainter,
     QPaintEvent,
     QPen,
+    QResizeEvent,
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
@@ -32,7 +34,7 @@ DOWN = 0.5
 """A key further than this counts as down."""
 TOP_PX = 30.0
 COLUMN_PX = 50.0
-HOLE_PX = 21.0
+HOLE_PX = 18.0
 """From one hole of a chart to the next."""
 MARGIN_PX = 8.0
 NAMES_GAP_PX = 8.0
@@ -94,9 +96,12 @@ class FingeringDiagram(QWidget):
     -------
     pressed(str)
         A key, valve or hole of this name was clicked, where the diagram was set to listen (`set_editable`).
+    placed()
+        It has another place or size.
     """
 
     pressed = Signal(str)
+    placed = Signal()
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -321,6 +326,14 @@ class FingeringDiagram(QWidget):
             painter.drawRoundedRect(QRectF(bar.left(), bar.top(), max(bar.width() * value, 6.0), bar.height()), 3, 3)
 
     # Qt's own names
+
+    def moveEvent(self, event: QMoveEvent) -> None:
+        super().moveEvent(event)
+        self.placed.emit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.placed.emit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         at = event.position()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
@@ -55,7 +55,15 @@ _WORDS: Final = {
 
 
 class NoteSection(Retranslated, QWidget):
-    """Shows and edits the selected notes."""
+    """Shows and edits the selected notes.
+
+    Signals
+    -------
+    diagram_placed()
+        The diagram of the fingering has another place or size.
+    """
+
+    diagram_placed = Signal()
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -95,7 +103,7 @@ class NoteSection(Retranslated, QWidget):
         body = self._section.body
         body.addLayout(grid)
         self._chips_box = named(panel(self._chips), "fingering_chips")
-        fingering = (self._fingering_title, self._chips_box, self._diagram, self._fingering_by_hand, self._why)
+        fingering = (self._fingering_title, self._diagram, self._chips_box, self._fingering_by_hand, self._why)
         self._fingering = panel(in_column(*fingering, margins=(0, 4, 0, 0), spacing=4))
         body.addWidget(self._fingering)
         body.addWidget(self._marks)
@@ -110,6 +118,7 @@ class NoteSection(Retranslated, QWidget):
 
     def _connect(self) -> None:
         document = self._session.document
+        self._diagram.placed.connect(self.diagram_placed)
         for slider in (*self._numbers.values(), *self._lips.values()):
             slider.released.connect(document.end_gesture)
         self._numbers["pitch"].changed.connect(self._set_pitch)
@@ -127,6 +136,13 @@ class NoteSection(Retranslated, QWidget):
         self._apply_theme()
 
     # Showing
+
+    @property
+    def diagram_bottom_px(self) -> int:
+        """Distance from the top of the section to the end of the diagram of the fingering; 0 without one."""
+        if not self._diagram.isVisible():
+            return 0
+        return self._diagram.mapTo(self, QPoint(0, self._diagram.height() + 4)).y()
 
     def show_notes(self) -> bool:
         """Show the selected notes; whether there are any."""

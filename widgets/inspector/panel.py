@@ -33,6 +33,8 @@ WHOLE = 1000
 TAB_EDGE_PX = 2
 LEAST_LISTS_PX = 60
 """Least height of the lists with their tabs."""
+USUAL_LISTS_PX = 120
+"""Least height of the lists with their tabs, until the user drags the divider."""
 
 
 class _State(msgspec.Struct, frozen=True):
@@ -89,8 +91,8 @@ class InspectorPanel(Retranslated, QWidget):
         self._tabs.setDocumentMode(True)
         self._tabs.setUsesScrollButtons(True)
         self._tabs.setMinimumHeight(LEAST_LISTS_PX)
-        self._tabs.currentChanged.connect(self._fit_lists)
         self._problems.listed.connect(self._fit_lists)
+        self._notes.diagram_placed.connect(self._fit_lists)
         self._splitter = QSplitter(Qt.Orientation.Vertical)
         self._splitter.addWidget(scroll)
         self._splitter.addWidget(self._tabs)
@@ -105,12 +107,14 @@ class InspectorPanel(Retranslated, QWidget):
         Parameters
         ----------
         lists_share : float
-            The most they get, 0..1; less where all problems are in sight in less.
+            The most they get, 0..1; less where all problems are in sight in less, and where a note's fingering needs
+            the room.
         tab : int
         kept : bool
             Whether they keep it however few problems there are, as after the user dragged the divider.
         """
         self._lists_share, self._kept = min(max(lists_share, 0.0), 1.0), kept
+        self._diagram_px = 0
         lists = round(self._lists_share * WHOLE)
         self._splitter.setStretchFactor(0, WHOLE - lists)
         self._splitter.setStretchFactor(1, lists)
@@ -123,13 +127,17 @@ class InspectorPanel(Retranslated, QWidget):
         self._lists_share, self._kept = below / max(above + below, 1), True
 
     def _fit_lists(self) -> None:
-        """Leave the room that a short list of problems does not need to what is selected."""
+        """Leave the room that a short list of problems does not need to what is selected, and let a long one leave a
+        fingering in sight. The other lists stand as high, so that the tabs stay under the mouse."""
         if self._kept or not self.isVisible():
             return
         whole_px = sum(self._splitter.sizes())
-        lists_px = round(self._lists_share * whole_px)
-        if self._tabs.currentWidget() is self._problems:
-            lists_px = min(lists_px, self._problems.contents_px + self._tabs.tabBar().sizeHint().height() + TAB_EDGE_PX)
+        tabs_px = self._tabs.tabBar().sizeHint().height() + TAB_EDGE_PX
+        # It does not move to and fro with the selection.
+        self._diagram_px = max(self._diagram_px, self._notes.diagram_bottom_px)
+        lists_px = min(round(self._lists_share * whole_px), self._problems.height_px() + tabs_px)
+        least_px = max(self._problems.height_px(1) + tabs_px, USUAL_LISTS_PX)
+        lists_px = max(min(lists_px, whole_px - self._diagram_px), least_px)
         if lists_px != self._splitter.sizes()[1]:
             self._splitter.setSizes([whole_px - lists_px, lists_px])
 

@@ -8,6 +8,7 @@ from typing import NamedTuple, TypeAlias
 from PySide6.QtCore import QEvent, QItemSelectionModel, QPoint, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
 
+from app.editor.problem_filter import ProblemFilter
 from app.editor.problem_fixes import ProblemFix, fixed, fixes_of
 from app.editor.problems import go_to_problem, show_mended
 from app.editor.session import Session
@@ -29,17 +30,7 @@ from widgets.inspector.rows import LineList, ListRow
 
 RowKey: TypeAlias = tuple[str, tuple[Problem, ...]]
 """Key of a row: the performer's id, and the problems."""
-EVERYONE, SELECTED, ALL = "everyone", "selected", "all"
-_KINDS = {
-    "fingering": "fingering",
-    "breath": "breath",
-    "note": "note",
-    "correction": "correction",
-    "contact": "contact",
-    "dance": "dance",
-    "choreography": "dance",
-    "project": "project",
-}
+EVERYONE, SELECTED, ALL = "everyone", "selected", ""
 _KIND_TEXTS = {
     ALL: "problem_list.all_kinds",
     "fingering": "problem_list.fingerings",
@@ -70,7 +61,7 @@ class ProblemList(Retranslated, QWidget):
     counted(int)
         So many problems there are in all.
     listed()
-        Other rows are shown: `contents_px` may be another.
+        Other rows are shown: `height_px` may be another.
     """
 
     counted = Signal(int)
@@ -88,7 +79,7 @@ class ProblemList(Retranslated, QWidget):
         self._empty = wrapped(Label())
         self._empty.setContentsMargins(12, 4, 12, 4)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self._filters = panel(in_row((self._who, 1), (self._kind, 1), margins=(6, 6, 6, 4), spacing=4))
+        self._filters = panel(in_row((self._who, 1), (self._kind, 1), margins=(6, 3, 6, 2), spacing=4))
         self._gone_to: tuple[object, int] | None = None
         self._is_opening = False
         self._fix, self._ignore = named(QPushButton(), "fix_problems"), named(QPushButton(), "ignore_problems")
@@ -96,7 +87,7 @@ class ProblemList(Retranslated, QWidget):
         for button, run in ((self._fix, self._fix_first), (self._ignore, self._ignore_chosen)):
             on_click(button, run)
         on_switch(self._ignored, lambda _: self.show_problems())
-        self._deeds = panel(in_row((self._fix, 1), self._ignore, margins=(6, 4, 6, 6), spacing=4))
+        self._deeds = panel(in_row((self._fix, 1), self._ignore, margins=(6, 3, 6, 3), spacing=4))
         shown = in_row(self._ignored, margins=(6, 4, 6, 0))
         self._column = in_column(
             self._filters, (self.list, 1), (self._empty, 1), shown, self._deeds, of=self, margins=0, spacing=0
@@ -123,6 +114,10 @@ class ProblemList(Retranslated, QWidget):
         self._kind.show_option(ALL)
         self.retranslate()
 
+    @property
+    def _filter(self) -> ProblemFilter:
+        return ProblemFilter(self._kind.shown or ALL, self._who.shown == SELECTED)
+
     def show_problems(self) -> None:
         """Show what the newest plans have."""
         session, project = self._session, self._session.performance.project
@@ -132,12 +127,13 @@ class ProblemList(Retranslated, QWidget):
         self.counted.emit(found)
         if not self.isVisible():
             return
+        self._session.problem_filter = self._filter
         self._ignored.setVisible(bool(left))
         self._ignored.setText(self.tr("problem_list.show_ignored").format(count=left))
         shows_ignored = self._ignored.isChecked() and bool(left)
-        for controls in (self._filters, self._deeds):
-            controls.setVisible(bool(found) or shows_ignored)
+        self._deeds.setVisible(bool(found) or shows_ignored)
         requested = self._requested(by_player, False) + (self._requested(ignored, True) if shows_ignored else [])
+        self._filters.setVisible(len(requested) > 1 or self._filter != ProblemFilter())
         requested.sort(key=lambda group: group.problems[0].start_s)
         current = {one.id: one for one in session.project.performers}
         before, self._known = self._known, {}
@@ -169,15 +165,16 @@ class ProblemList(Retranslated, QWidget):
         self._show_buttons()
         self.listed.emit()
 
-    @property
-    def contents_px(self) -> int:
-        """Height at which all rows are in sight."""
+    def height_px(self, most_rows: int | None = None) -> int:
+        """Height at which all rows, or so many of them, are in sight."""
         layout = self._column
         layout.invalidate()
         width_px = self.width()
         has_wrapped = layout.hasHeightForWidth()
         whole_px = layout.totalHeightForWidth(width_px) if has_wrapped else layout.totalSizeHint().height()
-        return whole_px if self.list.isHidden() else whole_px - self.list.sizeHint().height() + self.list.contents_px
+        if self.list.isHidden():
+            return whole_px
+        return whole_px - self.list.sizeHint().height() + self.list.height_px(most_rows)
 
     def _show_lines(self, lines: list[ListRow]) -> None:
         """Show rows; those that are selected stay so where their player still has problems of the kind."""
@@ -193,6 +190,11 @@ class ProblemList(Retranslated, QWidget):
         gone_to = self._session.problem
         if gone_to is None or self._is_opening:
             return
+        if not self._filter.takes(*gone_to, self._session.players):
+            # There is none of those that were asked for.
+            self._who.show_option(EVERYONE)
+            self._kind.show_option(ALL)
+            self.show_problems()
         row = next((row for row, key in enumerate(self._keys()) if key[0] == gone_to[0] and gone_to[1] in key[1]), None)
         if row is None:
             self.list.clearSelection()
@@ -210,14 +212,12 @@ class ProblemList(Retranslated, QWidget):
         self, by_player: list[tuple[Player | Dancer, tuple[Problem, ...]]], is_ignored: bool
     ) -> list[ProblemGroup]:
         """Groups of the players and the kind that are asked for."""
-        chosen = set(self._session.players) if self._who.shown == SELECTED else None
-        kind = self._kind.shown
+        chosen, selected = self._filter, self._session.players
         return [
             ProblemGroup(player, tuple(problems), is_ignored)
             for player, every in by_player
-            if chosen is None or player.id in chosen
             for problems in problems_by_kind(every)
-            if kind in (ALL, None, _kind(problems[0]))
+            if chosen.takes(player.id, problems[0], selected)
         ]
 
     def _line(self, group: ProblemGroup, colour: str, score: Score) -> ListRow:
@@ -353,7 +353,5 @@ class ProblemList(Retranslated, QWidget):
         self.show_problems()
         self._select_gone_to()
 
-
-def _kind(problem: Problem) -> str:
-    room = problem.message.id.split(".")[0]
-    return _KINDS.get(room, room)
+    def hideEvent(self, event: QEvent) -> None:
+        self._session.problem_filter = ProblemFilter()

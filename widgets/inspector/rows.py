@@ -186,10 +186,10 @@ class LineList(QListView):
         numbers = sorted(index.row() for index in self.selectionModel().selectedIndexes())
         return tuple(self.lines.lines[number].key for number in numbers)
 
-    @property
-    def contents_px(self) -> int:
-        """Height at which every line is in sight."""
-        lines_px = self.lines.rowCount() * self.sizeHintForRow(0)
+    def height_px(self, most_lines: int | None = None) -> int:
+        """Height at which every line, or so many of them, is in sight."""
+        count = self.lines.rowCount()
+        lines_px = (count if most_lines is None else min(count, most_lines)) * self.sizeHintForRow(0)
         return max(lines_px + 2 * self.frameWidth(), self.minimumHeight())
 
     def _open(self, index: QModelIndex) -> None:

@@ -14,9 +14,10 @@ _visited: WeakKeyDictionary[Session, tuple[str, Problem]] = WeakKeyDictionary()
 
 
 def problems(session: Session) -> list[tuple[str, Problem]]:
-    """The problems of all players and dancers with their ids, in the order of time."""
+    """The problems of all players and dancers with their ids, in the order of time: those that are listed, if any."""
     found = [(one.id, problem) for one in session.project.performers for problem in session.problems(one.id)]
-    return sorted(found, key=lambda item: item[1].start_s)
+    listed = [item for item in found if session.problem_filter.takes(*item, session.players)]
+    return sorted(listed or found, key=lambda item: item[1].start_s)
 
 
 def step_problems(session: Session, step: int) -> None:

@@ -8,7 +8,7 @@ import msgspec
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QPushButton, QWidget
+from PySide6.QtWidgets import QApplication, QListView, QPushButton, QTabWidget, QWidget
 
 from app.editor.selection import Selection
 from app.errors import Message
@@ -26,6 +26,10 @@ def _saxophone_alone(program: Program) -> None:
     assert not session.problems(first.id)
 
 
+def _in_sight(chart: QWidget) -> bool:
+    return wait_until(lambda: chart.visibleRegion().boundingRect().height() >= chart.height() - 4 > 100)
+
+
 def test_the_chart_of_a_note_is_in_sight_until_the_divider_is_dragged(program: Program) -> None:
     program.window.resize(1600, 1000)
     program.window.reset_workspace()
@@ -34,7 +38,7 @@ def test_the_chart_of_a_note_is_in_sight_until_the_divider_is_dragged(program: P
     notes = session.project.part(session.project.players[0]).notes
     session.select(Selection(frozenset({notes[3].id})))
     chart, fix = child(program.window, QWidget, "fingering_diagram"), child(program.window, QPushButton, "fix_problems")
-    assert wait_until(lambda: chart.visibleRegion().boundingRect().height() >= chart.height() - 4 > 100)
+    assert _in_sight(chart)
     assert not fix.isVisible()
 
     inspector = child(program.window, InspectorPanel)
@@ -44,6 +48,15 @@ def test_the_chart_of_a_note_is_in_sight_until_the_divider_is_dragged(program: P
     session.apply(Message("edit.move_notes", {"count": 8}), move(session.project, ids, 0, -24))
     assert splitter.sizes()[1] > alone
     assert fix.isVisible()
+    assert _in_sight(chart)
+    rows = child(program.window, QListView, "problem_list")
+    assert rows.viewport().height() >= rows.visualRect(rows.model().index(0, 0)).height()
+
+    # Other lists stand where this one does: the tabs stay under the mouse.
+    tabs, sizes = child(inspector, QTabWidget, "inspector_tabs"), splitter.sizes()
+    for tab in (1, 2, 0):
+        tabs.setCurrentIndex(tab)
+        assert splitter.sizes() == sizes
 
     handle = splitter.handle(1)
     place = handle.rect().center()

@@ -5,9 +5,11 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QApplication, QComboBox, QPushButton
 
 from app.errors import Message
+from app.plan.by_hand.corrections import PinFingering
+from app.project.edit.corrections import with_corrections
 from app.project.edit.notes import move
 from app.project.model import Project
 from app.shell.app import Program
@@ -73,6 +75,31 @@ def test_f8_selects_the_row_that_fix_and_ignore_act_on(program: Program) -> None
     assert shown.list.viewport().rect().intersects(shown.list.visualRect(shown.list.currentIndex()))
     mouse.press(fix)
     assert not [one for one in session.problems(id) if one.message.id == OUTSIDE]
+
+
+def test_the_keys_step_through_the_problems_that_are_listed(program: Program) -> None:
+    session = program.session
+    other = session.project.players[0]
+    for note in (session.project.part(other).notes[20], session.project.part(other).notes[2]):
+        pinned = with_corrections(session.project, other.id, (PinFingering(note.id, "none such"),))
+        session.apply(Message("edit.pin"), pinned)
+    _lower(program, 1)
+    kinds = child(program.window, QComboBox, "problems_kind")
+    for kind, prefix in (("Corrections", "correction."), ("Fingerings", "fingering.")):
+        kinds.setCurrentIndex(kinds.findText(kind))
+        kinds.activated.emit(kinds.currentIndex())
+        for _ in range(5):
+            _press(program, Qt.Key.Key_F8)
+            assert session.problem is not None
+            assert session.problem[1].message.id.startswith(prefix)
+            assert _chosen(program) == [(session.problem[0], session.problem[1].message.id)]
+    # Nothing of the kind is left: the next problem is of another kind, and its row is shown.
+    kinds.setCurrentIndex(kinds.findText("Contacts"))
+    kinds.activated.emit(kinds.currentIndex())
+    _press(program, Qt.Key.Key_F8)
+    assert session.problem is not None
+    assert _chosen(program) == [(session.problem[0], session.problem[1].message.id)]
+    assert kinds.currentText() == "All kinds"
 
 
 def test_a_row_stays_selected_while_its_problems_become_others(program: Program) -> None:
