@@ -54,7 +54,7 @@ class Settings(StoredSettings):
         False,
         held=within("pitch_display", "written"),
         label="setting.written_pitch",
-        options=((False, "setting_choice.as_they_sound_concert"), (True, "setting_choice.as_written_for_instrument")),
+        options=((False, "setting_choice.concert_pitch"), (True, "setting_choice.written_pitch")),
     )
     middle_c_octave = Setting(
         "pitch/middle_c_octave",

@@ -53,7 +53,7 @@ class AboutDialog(Retranslated, QDialog):
             self.tr("about_dialog.version_under_apache_license_2").format(version=program_version()),
             versions,
             self.tr("about_dialog.settings").format(path=self._settings),
-            self.tr("about_dialog.faults_are_noted_in").format(path=log_path()),
+            self.tr("about_dialog.log_file").format(path=log_path()),
         )
         self._text.setText("\n\n".join(paragraphs))
 

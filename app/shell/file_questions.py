@@ -45,9 +45,9 @@ class FileQuestions(QObject):
         """Offer work that was never saved."""
         self._banner.ask(
             lambda: (
-                self.tr("window.there_is_unsaved_work_on")
+                self.tr("window.recovered_of_older_file")
                 if item.is_file_changed
-                else self.tr("window.there_is_unsaved_work_on_this_project"),
+                else self.tr("window.recovered_changes"),
                 (self.tr("window.recover"), self.tr("window.discard")),
             ),
             (partial(self._files.recover, item), partial(self._files.discard, item)),

@@ -41,7 +41,7 @@ class Palette(Retranslated, QFrame):
         self._ran: list[str] = []
         self.field = self.texted(
             named(QLineEdit(), "palette_field"),
-            placeholder="palette.what_do_you_want_to",
+            placeholder="palette.search_field",
             name="palette.search_commands",
         )
         self.field.setClearButtonEnabled(True)
@@ -57,7 +57,7 @@ class Palette(Retranslated, QFrame):
         self.list.setFrameShape(QFrame.Shape.NoFrame)
         self.list.setMouseTracking(True)
         self.list.clicked.connect(self._run)
-        self.nothing = named(Caption("palette.no_command_is_called_that"), "palette_nothing")
+        self.nothing = named(Caption("palette.no_match"), "palette_nothing")
         self.nothing.setFixedHeight(ROW_PX)
         self.nothing.setIndent(8)
         in_column(self.field, self.list, self.nothing, of=self, margins=6, spacing=6)

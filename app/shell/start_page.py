@@ -31,7 +31,7 @@ _BEGIN = (
     ("file.new", "start_new", "start_page.new_piece", "new"),
     ("help.first_steps", "start_first_steps", "start_page.first_steps", "help"),
     ("file.open_example", "start_example", "start_page.try_example_quartet", "players"),
-    ("file.open_danced_example", "start_danced_example", "start_page.try_example_with_dancer", "pose"),
+    ("file.open_danced_example", "start_danced_example", "start_page.open_dancer_example", "pose"),
 )
 """Ways to begin: the action, the button's name, the id of its text, and its picture."""
 
@@ -107,8 +107,8 @@ class StartPage(Retranslated, QScrollArea):
             )
             changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
             when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
-            name = item.name or self.tr("start_page.piece_that_was_never_saved")
-            reported = self.tr("start_page.unsaved_work_was_found").format(name=name, when=when)
+            name = item.name or self.tr("start_page.unsaved_piece")
+            reported = self.tr("start_page.unsaved_changes").format(name=name, when=when)
             if item.is_file_missing:
                 reported = "\n".join((reported, self.tr("start_page.projects_file_no_longer_exists")))
             elif item.is_file_changed:

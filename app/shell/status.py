@@ -98,7 +98,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._age.timeout.connect(self._report_saved)
         self._age.start(AGE_MS)
         self._listen()
-        self.texted(self._motion, tip="status_line.how_much_of_players_motion")
+        self.texted(self._motion, tip="status_line.motion_progress_tip")
         self.retranslate()
 
     def _listen(self) -> None:
@@ -187,7 +187,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._notice.setIcon(
             icon(severity.value, self._session.tokens, severity_colour(severity, self._session.tokens))
         )
-        self._notice.setToolTip(self.tr("status_line.show_everything_that_was_said"))
+        self._notice.setToolTip(self.tr("status_line.all_notices_tip"))
         self._notice.show()
         self._dismiss.show()
 
@@ -278,7 +278,7 @@ class StatusLine(Retranslated, QStatusBar):
         room_px = max(self.width() // 6, 120)
         device = QFontMetrics(self._device.font()).elidedText(recording.port, Qt.TextElideMode.ElideMiddle, room_px)
         self._device.setText(verbatim(" " + text.format(device=device)))
-        self._device.setToolTip(self.tr("status_line.midi_devices_choose_watch_what"))
+        self._device.setToolTip(self.tr("status_line.midi_devices_tip"))
 
     def _report_stream(self) -> None:
         """Show what is streamed, and its rate; nothing if nothing is."""
@@ -299,7 +299,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._stream.setText(verbatim(" " + text.format(host=host, ports=ports, rate=streaming.sent_hz)))
         names = {one.id: one.name for one in self._session.project.performers}
         who = [f"{names[line.player_id]}: {line.port}" for line in lines if line.player_id in names]
-        self._stream.setToolTip("\n".join([*who, "", self.tr("status_line.live_stream_what_is_sent")]).strip())
+        self._stream.setToolTip("\n".join([*who, "", self.tr("status_line.stream_tip")]).strip())
 
     def _report_risk(self) -> None:
         """For as long as unsaved work is in no file."""

@@ -54,9 +54,9 @@ class FingeringChip(Chip):
         )
         lines += words_of_tags(one.tags)
         if round(one.cents):
-            lines.append(self.tr("note_section.cents_when_simply_blown").format(cents=f"{one.cents:+.0f}"))
+            lines.append(self.tr("note_section.uncorrected_cents").format(cents=f"{one.cents:+.0f}"))
         if generated:
-            lines.append(self.tr("note_section.what_generator_chose"))
+            lines.append(self.tr("note_section.generated_choice"))
         return "\n".join(lines)
 
     def face_px(self) -> QSizeF:

@@ -104,7 +104,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
     if note is not None:
         return note_text(session, note, player)
     if is_anchor and _NOTE_ID.fullmatch(id):
-        return tr("word.note_that_is_gone")
+        return tr("word.deleted_note")
     kind, colon, rest = id.partition(":")
     if not colon or kind_name(kind) == kind:
         return id

@@ -248,9 +248,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
         reported = not_played(made)
         self._reported.setText(
-            "\n".join(f"• {text}" for text in reported)
-            if reported
-            else self.tr("character_dialog.everything_will_be_played")
+            "\n".join(f"• {text}" for text in reported) if reported else self.tr("character_dialog.all_supported")
         )
         self._reported.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
         self._picture.setStyleSheet(
@@ -282,8 +280,8 @@ class CharacterDialog(Retranslated, QDialog):
         bone_name = "" if bone is None else self._figure.bone_names[bone]
         words = {
             "mapped": self.tr("character_dialog.text"),
-            "doubtful": self.tr("character_dialog.guess_please_look"),
-            "missing": self.tr("character_dialog.file_has_no_such_bone"),
+            "doubtful": self.tr("character_dialog.bone_guessed"),
+            "missing": self.tr("character_dialog.bone_missing"),
         }[state]
         return words.format(joint=joint_name(joint), bone=bone_name)
 
@@ -298,7 +296,7 @@ class CharacterDialog(Retranslated, QDialog):
             self._picture_requested = True
             return
         if self._made.lacking:
-            self._picture.setText(self.tr("character_dialog.no_picture_yet"))
+            self._picture.setText(self.tr("character_dialog.no_preview"))
             return
         figure, made, known = self._figure, self._made, self._seen
         key = (made.joints.bones, made.faces.morphs)
@@ -340,7 +338,7 @@ class CharacterDialog(Retranslated, QDialog):
             )
         )
         self.bones.set_headers([self.tr("character_dialog.bone_of_file"), self.tr("character_dialog.joint")])
-        self.give.setText(verbatim(self.tr("character_dialog.give_it_to").format(players=self._offered)))
+        self.give.setText(verbatim(self.tr("character_dialog.assign_to_players").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
         self._show()
 

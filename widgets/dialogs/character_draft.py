@@ -162,15 +162,15 @@ def not_played(made: Mapped) -> tuple[str, ...]:
             )
         )
     if "leftEye" not in bones and "rightEye" not in bones and not any(name.startswith("eyeLook") for name in faces):
-        reported.append(tr("character_words.eyes_do_not_look_around"))
+        reported.append(tr("character_words.no_gaze"))
     if "jaw" not in bones and "jawOpen" not in faces:
         reported.append(tr("character_words.mouth_does_not_open_it"))
     if not any(name in faces for name in _LIPS):
         reported.append(tr("character_words.lips_do_not_form_embouchure"))
     if not any(name.startswith("eyeBlink") for name in faces):
-        reported.append(tr("character_words.it_does_not_blink_it"))
+        reported.append(tr("character_words.no_blinking"))
     if "cheekPuff" not in faces:
-        reported.append(tr("character_words.cheeks_do_not_fill_it"))
+        reported.append(tr("character_words.no_cheeks"))
     return tuple(reported)
 
 

@@ -131,11 +131,11 @@ class ExportDialog(WorkingDialog):
         self._project = session.project
         self._players = named(QListWidget(), "export_players")
         self._list_players()
-        self._everyone = Button("export_dialog.all_or_none", self._toggle_everyone, "export_everyone")
+        self._everyone = Button("export_dialog.select_all", self._toggle_everyone, "export_everyone")
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = self.texted(_profiles(), items="export_dialog.those_of_skeleton")
+        self._bvh_names = self.texted(_profiles(), items="export_dialog.same_as_skeleton")
         self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
         key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys")
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
@@ -364,7 +364,7 @@ class ExportDialog(WorkingDialog):
         if seen.project is not None:
             engine = "" if seen.project.version is None else f" {seen.project.engine}"
             lines.append(self.tr("export_dialog.unreal_engine").format(name=seen.project.name, engine=engine))
-        lines.append(self.tr("export_dialog.files_that_will_be_written").format(count=seen.count))
+        lines.append(self.tr("export_dialog.file_count").format(count=seen.count))
         if seen.replaced:
             replaced = self.tr("export_dialog.of_these_will_be_replaced")
             lines.append(replaced.format(count=len(seen.replaced), names=_some(seen.replaced)))

@@ -86,7 +86,7 @@ class PlaceChooser(Retranslated, QWidget):
             title = self.tr("place_chooser.unreal_project")
             chosen = ask_for_file(self, title, self._path.path, f"{title} (*.uproject)")
         else:
-            chosen = ask_for_folder(self, self.tr("place_chooser.folder_for_files"), self._path.path)
+            chosen = ask_for_folder(self, self.tr("place_chooser.destination_folder"), self._path.path)
         if chosen is not None:
             self._path.set_path(chosen)
 

@@ -46,7 +46,7 @@ class RangeChooser(Retranslated, QWidget):
         self._session, self._score = session, score
         choices = {_WHOLE: otherwise_id, _BARS: "range_chooser.bars"}
         if session.selection.span is not None:
-            choices[_SELECTION] = "range_chooser.bars_of_selection"
+            choices[_SELECTION] = "range_chooser.selected_bars"
         self._choice = self.texted(named(ComboBox(), f"{prefix}_range"), options=choices)
         self._first_bar, self._last_bar = QSpinBox(), QSpinBox()
         self._first_bar.setObjectName(f"{prefix}_first_bar")

@@ -37,7 +37,7 @@ MOST_LINES = 5
 _KEY = "compare_skeleton"
 
 _CHOICES: Final[dict[SkeletonChoice, str]] = {
-    "own": "skeleton_chooser.of_characters_own_file",
+    "own": "skeleton_chooser.from_character_file",
     "ue5": "skeleton_chooser.unreal_engine_5_mannequin",
     "suisou": "skeleton_chooser.suisou_vrm_1_0",
 }
@@ -113,7 +113,7 @@ class SkeletonChooser(Retranslated, QWidget):
         if self._error is not None:
             return sentence(self._error.message)
         if self.asset is not None and not os.path.isfile(self.asset):
-            return self.tr("skeleton_chooser.there_is_no_file_of")
+            return self.tr("skeleton_chooser.file_missing")
         if self._checked and not any(map(_fits, self._checked.values())):
             return self.tr("skeleton_chooser.asset_has_another_skeleton_its")
         return ""
@@ -143,7 +143,7 @@ class SkeletonChooser(Retranslated, QWidget):
         if self._comparing:
             lines = [self.tr("skeleton_chooser.comparing")]
         elif self.asset is not None and self._checked:
-            lines = self._differences() or [self.tr("skeleton_chooser.every_bone_is_as_in")]
+            lines = self._differences() or [self.tr("skeleton_chooser.all_match")]
         elif self.asset is None and self.choice == "ue5":
             lines = [self.tr("skeleton_chooser.with_fbx_of_mannequin_exported")]
         if len(lines) > MOST_LINES:

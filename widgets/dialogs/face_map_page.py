@@ -61,7 +61,7 @@ class FaceMapPage(Retranslated, QWidget):
         none = "nothing_character_does_not_do" if morphs else "file_has_no_morphs_face"
         self._title, self._none = Label(), self.texted(wrapped(Label()), text=f"face_map_page.{none}")
         self._add = named(Combo(), "face_add")
-        self.texted(self._add, placeholder="face_map_page.add_morph_of_file", name="face_map_page.add_morph_of_file")
+        self.texted(self._add, placeholder="face_map_page.add_morph", name="face_map_page.add_morph")
         self._add.chosen.connect(lambda morph: self._set_part(morph, 1.0, None))
         self._reset = Button("face_map_page.automatic", lambda: self.changed.emit(self._face, None, None), "face_reset")
         self._column = in_column(spacing=4)
@@ -118,7 +118,9 @@ class FaceMapPage(Retranslated, QWidget):
 
     def _show_editor(self) -> None:
         parts = self._parts.get(self._face, {})
-        self._title.setText(self.tr("face_map_page.is_made_of").format(face=morph_name(self._face), name=self._face))
+        self._title.setText(
+            self.tr("face_map_page.morphs_of_face").format(face=morph_name(self._face), name=self._face)
+        )
         self._none.setVisible(not parts)
         self._none.setStyleSheet(f"color: {self._session.tokens.text_dim};")
         names = tuple(parts)
@@ -154,7 +156,7 @@ class _Part(QWidget):
         self.morph = morph
         self.slider = named(NumberSlider(session, 0.0, MOST_FACTOR, default=1.0, step=0.05), f"face_part_{morph}")
         self.slider.set_texts(morph)
-        button = IconButton(session, "close", "face_map_page.take_this_morph_out", remove, f"face_remove_{morph}")
+        button = IconButton(session, "close", "face_map_page.remove_morph", remove, f"face_remove_{morph}")
         in_row((self.slider, 1), button, of=self, margins=0)
 
 

@@ -39,7 +39,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._stems: dict[str, str] = {}
         self._files: dict[str, Label] = {}
         self._clear: dict[str, Button] = {}
-        self._explained = wrapped(Caption("follow_dialog.beats_lie_where_they_sound"))
+        self._explained = wrapped(Caption("follow_dialog.every_beat_hint"))
         self._notes = named(Check("follow_dialog.single_notes_move"), "follow_notes")
         self._dynamics = named(Check("follow_dialog.dynamics_follow"), "follow_dynamics")
         self._about_stems = wrapped(Caption("follow_dialog.single_players"))

@@ -99,7 +99,7 @@ class ImportDialog(Retranslated, QDialog):
             "import_dialog.merge_into_one_part", self.merge_selected, "merge", "import_dialog.make_one_part_of_selected"
         )
         self._separate = Button(
-            "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.make_part_of_each_merged"
+            "import_dialog.take_apart", self.separate_selected, "separate", "import_dialog.split_merged_tip"
         )
         self._dancer = self.texted(
             named(Check("import_dialog.add_dancer"), "import_dancer"),
@@ -241,7 +241,7 @@ class ImportDialog(Retranslated, QDialog):
         self._show_outcome()
 
     def _show_slow(self) -> None:
-        self._summary.setText(self.tr("import_dialog.finding_out_who_plays_what"))
+        self._summary.setText(self.tr("import_dialog.assigning"))
 
     def _fill(self) -> None:
         self._table.fill()
@@ -275,7 +275,7 @@ class ImportDialog(Retranslated, QDialog):
                 self._summary.setText(self.tr("import_dialog.no_notes_to_import"))
             self._warnings.addItems([sentence(message) for message in outcome.warnings])
             self._warnings.addItems([self._unplayed(part) for part in outcome.unplayed])
-        self._warning_title.setText(self.tr("import_dialog.what_reader_noticed"))
+        self._warning_title.setText(self.tr("import_dialog.warnings"))
         self._warning_title.setVisible(self._warnings.count() > 0)
         self._warnings.setVisible(self._warnings.count() > 0)
 
@@ -283,7 +283,7 @@ class ImportDialog(Retranslated, QDialog):
         """Say why a part is not played, and that it is for dancers where it is."""
         reason = message_text(part.reason)
         if part.is_of_played_part:
-            return self.tr("import_dialog.left_out_of_part").format(name=part.name, reason=reason)
+            return self.tr("import_dialog.excluded_part").format(name=part.name, reason=reason)
         percussion = {
             stream_name(self._table.contents.channels[channel])
             for row in self._table.rows

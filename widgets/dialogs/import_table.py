@@ -200,7 +200,7 @@ class ImportTable(Retranslated, QTableWidget):
 
         kinds = ((self.tr("import_dialog.sounding"), False), (self.tr("import_dialog.written"), True))
         pitches = self._choice(place, _PITCHES, "pitches", kinds, assignment.written)
-        pitches.setToolTip(self.tr("import_dialog.which_pitches_file_has_of"))
+        pitches.setToolTip(self.tr("import_dialog.pitches_tip"))
         pitches.currentIndexChanged.connect(lambda: self._assignment(place, written=bool(pitches.currentData())))
 
         figures = ((usual, None), *self._characters)

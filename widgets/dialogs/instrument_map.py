@@ -98,7 +98,7 @@ class InstrumentsDialog(Retranslated, QDialog):
             "undo": ("instruments_dialog.undo", lambda: self._step(-1)),
             "redo": ("instruments_dialog.redo", lambda: self._step(1)),
             "folder": ("instruments_dialog.show_my_folder", self._open_folder),
-            "save": ("instruments_dialog.save_as_my_own", self.save),
+            "save": ("instruments_dialog.save_own", self.save),
             "close": ("instruments_dialog.close", self.close),
         }
         """The text and the work of each button."""
@@ -221,7 +221,7 @@ class InstrumentsDialog(Retranslated, QDialog):
     def _show_wrong(self) -> None:
         """Show why files of the user's own cannot be used; there may be no instrument to show it at."""
         reported = [problem for problems in library().problems.values() for problem in problems]
-        lines = [self.tr("instruments_dialog.files_of_your_own_that")]
+        lines = [self.tr("instruments_dialog.files_with_errors")]
         lines += [message_text(problem, self._session) for problem in reported[:MOST_WRONG]]
         if len(reported) > MOST_WRONG:
             lines.append(self.tr("instruments_dialog.and_more").format(count=len(reported) - MOST_WRONG))
@@ -416,7 +416,7 @@ class InstrumentsDialog(Retranslated, QDialog):
             return
         label, written = edit.free_label(draft.instrument, draft.table, one.written_pitch), one.written_pitch
         if label is None:
-            self._report(self.tr("instruments_dialog.every_fingering_that_is_right"))
+            self._report(self.tr("instruments_dialog.all_fingerings_there"))
             return
         place = (written, len(edit.of_pitch(draft.table, written)) + 1)
         if self._do(lambda draft: edit.added(draft.instrument, draft.table, written, label), place):

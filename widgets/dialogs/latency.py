@@ -75,7 +75,7 @@ class LatencyDialog(Retranslated, QDialog):
         self.value = self.texted(
             named(QDoubleSpinBox(), "latency_value"),
             name="latency_dialog.latency",
-            tip="latency_dialog.taken_off_time_of_everything",
+            tip="latency_dialog.compensation_tip",
         )
         self.value.setRange(-500.0, 1000.0)
         self.value.setDecimals(0)
@@ -182,7 +182,7 @@ class LatencyDialog(Retranslated, QDialog):
     def _changed(self) -> None:
         recording = self._session.recording
         if self._running and (recording.connection != "open" or recording.running):
-            self._stopped_why = self.tr("latency_dialog.device_has_gone_or_take")
+            self._stopped_why = self.tr("latency_dialog.interrupted")
             self._stop()
         if recording.port != self._port:
             self._port, self._found = recording.port, None
@@ -226,7 +226,7 @@ class LatencyDialog(Retranslated, QDialog):
         if found is None:
             if not recording.port or recording.connection != "open":
                 return self.tr("latency_dialog.no_device_is_connected_choose"), "warning"
-            text = self.tr("latency_dialog.ms_are_taken_off_now")
+            text = self.tr("latency_dialog.active_compensation")
             return text.format(device=recording.port, count=f"{1000 * recording.latency_s:.0f}"), "text_dim"
         used = sum(found.used)
         if found.fault == "too_few":
@@ -241,7 +241,7 @@ class LatencyDialog(Retranslated, QDialog):
             device=recording.port, count=f"{1000 * found.latency_s:.0f}", used=used, all=COUNTED, spread=spread
         )
         if round(self.value.value()) == round(1000.0 * recording.latency_s):
-            reported += " " + self.tr("latency_dialog.it_is_taken_off_from")
+            reported += " " + self.tr("latency_dialog.compensated_from_now")
         return reported, "good"
 
     def retranslate(self) -> None:
@@ -266,7 +266,7 @@ class HitChart(Retranslated, QWidget):
         self._session = session
         self.found: LatencyMeasurement | None = None
         self._click, self._flashes = -1, False
-        self.texted(self, name="hit_chart.how_late_every_hit_came")
+        self.texted(self, name="hit_chart.title")
 
     def show_click(self, number: int, flashes: bool) -> None:
         """The counted click of this number was the last; the light shines."""

@@ -96,7 +96,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._connect()
         self.texted(self, title="midi_devices_dialog.midi_devices")
         self.texted(self._device, heading="midi_devices_dialog.chosen_device")
-        self.texted(self._incoming, heading="midi_devices_dialog.what_comes_in")
+        self.texted(self._incoming, heading="midi_devices_dialog.input_monitor")
         self.retranslate()
         self.resize(820, 560)
 
@@ -244,7 +244,9 @@ class MidiDevicesDialog(Retranslated, QDialog):
         is_open, is_learning = recording.connection == "open", self._learning is not None
         self._learn.setEnabled(is_open)
         self._learn.setText(
-            self.tr("midi_devices_dialog.cancel") if is_learning else self.tr("midi_devices_dialog.learn_by_blowing")
+            self.tr("midi_devices_dialog.cancel")
+            if is_learning
+            else self.tr("midi_devices_dialog.detect_breath_and_bite")
         )
         if is_learning:
             text = self.tr("midi_devices_dialog.blow_now_soft_loud_and")
@@ -294,7 +296,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
             return ""
         return {
             "none": "",
-            "waiting": self.tr("midi_devices_dialog.waiting_for_it"),
+            "waiting": self.tr("midi_devices_dialog.waiting"),
             "open": self.tr("midi_devices_dialog.connected"),
             "lost": self.tr("midi_devices_dialog.unplugged"),
             "refused": self.tr("midi_devices_dialog.cannot_be_opened"),
@@ -307,7 +309,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
             return sentence(recording.refusal, self._session)
         if not recording.ports:
             return self.tr("midi_devices_dialog.connect_wind_controller_by_usb")
-        return "" if recording.port else self.tr("midi_devices_dialog.click_device_that_you_play")
+        return "" if recording.port else self.tr("midi_devices_dialog.select_device")
 
     def _show_kind(self) -> None:
         recording = self._session.recording
@@ -332,7 +334,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._device.setEnabled(bool(recording.port))
 
     def retranslate(self) -> None:
-        self._learn.setToolTip(self.tr("midi_devices_dialog.finds_with_what_breath_and").format(count=LEARN_S))
+        self._learn.setToolTip(self.tr("midi_devices_dialog.detect_tip").format(count=LEARN_S))
         self._show()
 
     # Qt's own names

@@ -107,7 +107,7 @@ class MidiMonitor(Retranslated, QWidget):
         if is_other:
             text = self.tr("midi_monitor.plays_on_channel_but_only")
         else:
-            text = self.tr("midi_monitor.channel") if self._channel else self.tr("midi_monitor.nothing_has_come_in_yet")
+            text = self.tr("midi_monitor.channel") if self._channel else self.tr("midi_monitor.empty")
         self._from.setText(text.format(number=self._channel, requested=requested))
         style = f"color: {tokens.warning if is_other else tokens.text_dim};"
         if style != self._from.styleSheet():

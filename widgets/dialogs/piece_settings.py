@@ -91,7 +91,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         self._ok = Button("piece_settings_dialog.ok", self._apply, "piece_ok")
         self._ok.setDefault(True)
         self._cancel = Button("piece_settings_dialog.cancel", self.reject, "piece_cancel")
-        reset_tip = "piece_settings_dialog.all_but_title_as_in"
+        reset_tip = "piece_settings_dialog.reset_tip"
         self._reset = Button("piece_settings_dialog.reset_to_defaults", self._reset_all, "piece_reset", reset_tip)
         self._lay_out()
         self._randomise.setIcon(icon("dice", session.tokens))

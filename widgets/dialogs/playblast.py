@@ -86,7 +86,7 @@ class PlayblastDialog(WorkingDialog):
         session.loop_changed.connect(self._offer_ranges)
         session.selection_changed.connect(self._offer_ranges)
         views = {str(view): f"playblast_dialog.{view}" for view in VIEWS}
-        views = {"": "playblast_dialog.as_viewport_shows_it", **views}
+        views = {"": "playblast_dialog.current_viewport", **views}
         self._view = self.texted(named(ComboBox(), "playblast_view"), options=views)
         for camera in session.project.cameras:
             self._view.addItem(camera.name, camera)
@@ -196,7 +196,7 @@ class PlayblastDialog(WorkingDialog):
 
     def _done(self, path: Path) -> None:
         self._under_way.hide()
-        self._state.setText(self.tr("playblast_dialog.film_is_written").format(file=shown(path)))
+        self._state.setText(self.tr("playblast_dialog.video_saved").format(file=shown(path)))
         self._show.show()
         self._session.notice(Message("video.done", {"file": str(path)}))
         self.filmed.emit(path)
@@ -251,7 +251,7 @@ class PlayblastDialog(WorkingDialog):
         path = self._file.path
         self._start.setEnabled(path is not None and not self._running)
         exists = path is not None and os.path.isfile(path)
-        self._state.setText(self.tr("playblast_dialog.this_file_is_there_and") if exists else "")
+        self._state.setText(self.tr("playblast_dialog.replaces_file") if exists else "")
 
     def retranslate(self) -> None:
         super().retranslate()

@@ -84,8 +84,8 @@ class ReimportDialog(Retranslated, QDialog):
         if outcome.project is before:
             return "reimport_dialog.says_nothing_new"
         if replace(outcome.project, source=before.source) == before:
-            return "reimport_dialog.says_nothing_new_but_lies_elsewhere"
-        return "reimport_dialog.what_changes_fingerings_breaths_and"
+            return "reimport_dialog.no_changes_elsewhere"
+        return "reimport_dialog.changes_hint"
 
     def _new_and_gone(self) -> tuple[QWidget, ...]:
         """Players and parts that the file has and the project lacks, and the other way round."""
@@ -105,7 +105,7 @@ class ReimportDialog(Retranslated, QDialog):
             *self._list(
                 "reimport_left_out",
                 Caption("reimport_dialog.notes_left_out"),
-                [partial(_said_of, "import_dialog.left_out_of_part", part.name, part.reason) for part in left_out],
+                [partial(_said_of, "import_dialog.excluded_part", part.name, part.reason) for part in left_out],
             ),
         )
         self._gone.setMaximumHeight(min(140, LEAST_TARGET_PX * len(outcome.gone_players) + 6))
@@ -115,7 +115,7 @@ class ReimportDialog(Retranslated, QDialog):
             item.setCheckState(Qt.CheckState.Unchecked)
             item.setSizeHint(QSize(0, LEAST_TARGET_PX))
         self._gone.itemChanged.connect(lambda: self._enable())
-        gone = wrapped(Caption("reimport_dialog.players_whose_part_is_gone"))
+        gone = wrapped(Caption("reimport_dialog.missing_parts"))
         return (players, *unplayed, *_shown(bool(outcome.gone_players), gone, self._gone))
 
     def _timing(self) -> tuple[QWidget, ...]:
@@ -127,14 +127,14 @@ class ReimportDialog(Retranslated, QDialog):
         }
         ids = [f"reimport_dialog.{kind}" for kind, is_changed in changed.items() if is_changed]
         label = named(wrapped(Label()), "reimport_timing")
-        self.texted(label, text=lambda: tr("reimport_dialog.for_whole_piece").format(kinds=", ".join(map(tr, ids))))
+        self.texted(label, text=lambda: tr("reimport_dialog.changes_for_all").format(kinds=", ".join(map(tr, ids))))
         return _shown(bool(ids), label)
 
     def _replaced(self) -> tuple[QWidget, ...]:
         """List what the file replaces in the piece, whatever the project had."""
         ids = [f"reimport_dialog.{kind}" for kind in self._outcome.replaced]
         label = named(wrapped(Label()), "reimport_replaced")
-        self.texted(label, text=lambda: tr("reimport_dialog.replaced_by_file").format(kinds=", ".join(map(tr, ids))))
+        self.texted(label, text=lambda: tr("reimport_dialog.file_version_used").format(kinds=", ".join(map(tr, ids))))
         return _shown(bool(ids), label)
 
     def _lost_and_contradicted(self) -> tuple[QWidget, ...]:
@@ -220,7 +220,7 @@ def _conflict(session: Session, name: str, conflict: Conflict, player: Player | 
     """Name what happens to a note: as the user has it → as the file has it."""
     mine, file = conflict.by_hand, conflict.file
     here = tr("reimport_dialog.erased") if mine is None else note_text(session, mine, player)
-    there = tr("reimport_dialog.not_in_file_any_more") if file is None else note_text(session, file, player)
+    there = tr("reimport_dialog.no_longer_in_file") if file is None else note_text(session, file, player)
     return f"{name}: {here} → {there}"
 
 

@@ -152,7 +152,7 @@ class RulesDialog(Retranslated, QDialog):
         item.setCheckState(Qt.CheckState.Checked if one.rule.enabled else Qt.CheckState.Unchecked)
         whose = self.tr("rules_dialog.ours")
         if one.file:
-            whose = self.tr("rules_dialog.changed_from_ours" if one.ours is not None else "rules_dialog.yours")
+            whose = self.tr("rules_dialog.bundled_and_changed" if one.ours is not None else "rules_dialog.yours")
         item.setToolTip(f"{one.rule.name}\n{whose}")
         self._list.blockSignals(blocked)
 

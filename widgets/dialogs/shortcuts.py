@@ -70,9 +70,7 @@ class ShortcutsPage(Retranslated, QWidget):
         self._session, self._rows_now, self._conflicts = session, rows, conflicts
         self._menu_of = menu_of
         self._rows: dict[str, ShortcutRow] = {}
-        self.search = self.texted(
-            named(QLineEdit(), "shortcut_search"), placeholder="shortcuts_page.search_actions_or_keys"
-        )
+        self.search = self.texted(named(QLineEdit(), "shortcut_search"), placeholder="shortcuts_page.search_field")
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._filter)
         columns = ("shortcuts_page.action", "shortcuts_page.menu", "shortcuts_page.keys", "shortcuts_page.works")
@@ -165,7 +163,7 @@ class ShortcutsPage(Retranslated, QWidget):
         names = ", ".join(self._rows[other].text for other in taken if other in self._rows)
         self.reported.setStyleSheet(f"color: {self._session.tokens.warning};")
         if menu:
-            self.reported.setText(self.tr("shortcuts_page.opens_menu_choose_other_keys").format(menu=menu))
+            self.reported.setText(self.tr("shortcuts_page.opens_menu").format(menu=menu))
         elif names:
             self.reported.setText(self.tr("shortcuts_page.used_by_assigning_takes_it").format(names=names))
         else:

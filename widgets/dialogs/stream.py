@@ -33,7 +33,7 @@ class StreamDialog(Retranslated, QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session, self._state = session, session.streaming
         self._explained = wrapped(Caption("stream_dialog.sends_performers_poses_faces_and"))
-        self._warning = named(wrapped(Caption("stream_dialog.what_is_sent_leaves_this")), "stream_warning")
+        self._warning = named(wrapped(Caption("stream_dialog.network_warning")), "stream_warning")
         self._reported = named(wrapped(Label()), "stream_status")
         self._host, self._port = named(QLineEdit(), "stream_host"), named(QSpinBox(), "stream_port")
         self._who, self._faces = named(Combo(), "stream_who"), named(Combo(), "stream_faces")
@@ -62,7 +62,7 @@ class StreamDialog(Retranslated, QDialog):
         self.texted(
             self._who,
             options={
-                "front": "stream_dialog.selected_player_in_middle",
+                "front": "stream_dialog.selected_player_centred",
                 "everyone": "stream_dialog.everyone_on_stage_each_on",
             },
         )
@@ -91,7 +91,7 @@ class StreamDialog(Retranslated, QDialog):
                 "stream_dialog.computer": host,
                 "stream_dialog.port": self._port,
                 "stream_dialog.performers": self._who,
-                "stream_dialog.names_of_face": self._faces,
+                "stream_dialog.blendshape_naming": self._faces,
                 "stream_dialog.frames_per_second": self._rate,
             }
         )
@@ -167,4 +167,4 @@ class StreamDialog(Retranslated, QDialog):
             return (self.tr("stream_dialog.no_receiver_there_yet_start"), tokens.warning)
         if state.state == "sending":
             return self.tr("stream_dialog.sending_frames_per_second_fewer").format(count=state.sent_hz), tokens.good
-        return self.tr("stream_dialog.nothing_is_sent"), tokens.text_dim
+        return self.tr("stream_dialog.not_streaming"), tokens.text_dim

@@ -53,11 +53,11 @@ class ByHandLine(QWidget):
         if self._generated is None:
             text = self.tr("by_hand_line.yours").format(yours=self._yours)
         elif not self._generated:
-            text = self.tr("by_hand_line.added_by_hand")
+            text = self.tr("by_hand_line.added")
         else:
             text = self.tr("by_hand_line.generated_yours").format(generated=self._generated, yours=self._yours)
         self._text.setText(text)
-        self._button.setToolTip(self.tr("by_hand_line.back_to_generators"))
+        self._button.setToolTip(self.tr("by_hand_line.revert_tip"))
 
     def _apply_theme(self) -> None:
         self._button.setIcon(icon("reset", self._session.tokens, self._session.tokens.by_hand))

@@ -28,7 +28,7 @@ from widgets.inspector.words import correction_title, event_text, mark_text
 
 LATE_TICK = 2**62
 _STRETCHES: Final = {
-    "vary": "correction_list.with_other_chances_up_to",
+    "vary": "correction_list.regenerated",
     "additive": "correction_list.curve_up_to",
 }
 """Texts of corrections without events, by tag."""
@@ -52,20 +52,18 @@ class CorrectionList(Retranslated, QWidget):
         super().__init__(parent)
         self._session, self._generated = session, generated
         self.list = named(LineList(session), "correction_list")
-        self._empty = wrapped(Caption("correction_list.nothing_was_changed_by_hand"))
+        self._empty = wrapped(Caption("correction_list.empty"))
         self._empty.setMargin(12)
         self._empty.setAlignment(Qt.AlignmentFlag.AlignTop)
         revert = ("correction_list.revert", self._revert_selected, "revert_selected")
-        self._revert = PictureButton(session, "reset", *revert, "correction_list.back_to_generators_selected_lines")
+        self._revert = PictureButton(session, "reset", *revert, "correction_list.revert_selected_tip")
         everything = ("correction_list.revert_all", self._revert_players, "revert_player")
-        self._revert_all = PictureButton(
-            session, "reset", *everything, "correction_list.back_to_generators_everything_of"
-        )
+        self._revert_all = PictureButton(session, "reset", *everything, "correction_list.revert_all_tip")
         self._attach = Button(
             "correction_list.re_attach_to_selected_note",
             self._reattach,
             "reattach",
-            "correction_list.let_selected_line_be_about",
+            "correction_list.attach_tip",
         )
         buttons = in_row((self._revert, 1), (self._revert_all, 1), margins=6, spacing=4)
         attach = in_row(self._attach, margins=(6, 6, 6, 0))
@@ -138,7 +136,7 @@ class CorrectionList(Retranslated, QWidget):
         if several:
             title = f"{player.name}: {title}"
         if place.orphan:
-            detail = self.tr("correction_list.lost_its_place_it_does")
+            detail = self.tr("correction_list.inactive_tip")
             return ListRow(place, title, "", detail, self._session.colour(player), "warning")
         tick = self._tick(place)
         where = score.metre_map.label(tick) if tick != LATE_TICK else ""
@@ -151,7 +149,7 @@ class CorrectionList(Retranslated, QWidget):
     def _mark(self, item: OfMark, player: Player) -> str:
         """Describe a mark set by hand and the mark of the score that it replaces, or say that one was removed."""
         if not isinstance(item, SetMark):
-            return self.tr("correction_list.mark_of_score_removed")
+            return self.tr("correction_list.mark_removed")
         project = self._session.project
         part = project.part(player)
         text = mark_text(project.score, part, item.mark)
@@ -159,9 +157,7 @@ class CorrectionList(Retranslated, QWidget):
         if read is not None:
             before = mark_text(project.score, part, read)
             return self.tr("correction_list.mark_instead").format(yours=text, before=before)
-        return self.tr("correction_list.added_by_hand" if text else "correction_list.added_by_hand_2").format(
-            yours=text
-        )
+        return self.tr("correction_list.added_as" if text else "correction_list.added").format(yours=text)
 
     def _stretch(self, item: Correction) -> str:
         """Up to where it goes, and what of it there is."""
@@ -178,9 +174,7 @@ class CorrectionList(Retranslated, QWidget):
         )
         now, before = (event_text(score, event, instrument_id, place.correction) for event in events)
         if place.generated is None:
-            return self.tr("correction_list.added_by_hand" if now else "correction_list.added_by_hand_2").format(
-                yours=now
-            )
+            return self.tr("correction_list.added_as" if now else "correction_list.added").format(yours=now)
         reason: Message | None = getattr(place.generated, "reason", None)
         told = "" if reason is None else message_text(reason, self._session, place.player_id)
         detail = self.tr("correction_list.generated").format(before=before, reason=told)

@@ -47,16 +47,16 @@ _WORDS: Final = {
     "beats": (
         "event_section.preparatory_beat",
         "event_section.beats",
-        "event_section.how_long_before_entry_cues",
+        "event_section.cue_lead_tip",
     ),
     "up_deg": ("event_section.up", "°", "event_section.raised_leaning_back_or_elbow"),
     "left_deg": ("event_section.left", "°", "event_section.turned_to_players_left"),
     "roll_deg": ("event_section.roll", "°", "event_section.leaning_to_players_left"),
-    "fade_in_s": ("event_section.fade_in", "event_section.seconds", "event_section.how_long_it_takes_to"),
+    "fade_in_s": ("event_section.fade_in", "event_section.seconds", "event_section.fade_in_tip"),
     "fade_out_s": (
         "event_section.fade_out",
         "event_section.seconds",
-        "event_section.how_long_it_takes_to_go",
+        "event_section.fade_out_tip",
     ),
 }
 """Label, unit and tip of each number."""
@@ -72,7 +72,7 @@ class EventSection(Retranslated, QWidget):
         self._events: tuple[Placed, ...] = ()
         self._section = Section(session, "inspector_event", self)
         self._numbers: dict[str, NumberSlider] = {}
-        self._expression = self.texted(named(Combo(), "event_expression"), tip="event_section.face_that_is_shown")
+        self._expression = self.texted(named(Combo(), "event_expression"), tip="event_section.expression_tip")
         self._length, self._why = Label(), Label()
         self._by_hand = named(ByHandLine(session), "event_by_hand")
         self._build()

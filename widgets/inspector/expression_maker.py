@@ -39,11 +39,11 @@ GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
 )
 """Groups of morph targets by how their names begin."""
 _TOOLS = (
-    ("duplicate", "duplicate", "expression_maker.make_one_of_your_own"),
+    ("duplicate", "duplicate", "expression_maker.duplicate_tip"),
     ("remove", "delete", ""),
     ("keep", "save", "expression_maker.keep_it_for_other_projects"),
     ("both", "link", "expression_maker.move_both_sides_of_face"),
-    ("preview", "eye", "expression_maker.show_it_on_player_in"),
+    ("preview", "eye", "expression_maker.preview_tip"),
 )
 """Buttons, their pictures and the ids of their tips; that of the second depends on the expression."""
 
@@ -80,7 +80,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._title = self.texted(named(QLineEdit(), "expression_name"), placeholder="expression_maker.name")
         self._playing = self.texted(
             named(Check("expression_maker.may_show_while_playing"), "expression_while_playing"),
-            tip="expression_maker.what_moves_lips_must_not",
+            tip="expression_maker.lips_hint",
         )
         self._hint = Label()
         self._picture = FacePicture(session)
@@ -210,7 +210,7 @@ class ExpressionMaker(Retranslated, QWidget):
             if editable
             else self.tr("expression_maker.comes_from_your_folder_use")
             if from_folder
-            else self.tr("expression_maker.comes_with_program_duplicate_it")
+            else self.tr("expression_maker.bundled_hint")
         )
         self._hint.setVisible(not editable)
         self._title.setVisible(editable)

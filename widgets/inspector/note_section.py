@@ -46,10 +46,10 @@ _WORDS: Final = {
         "note_section.beats",
         "note_section.in_beats_of_metre",
     ),
-    "velocity": ("note_section.velocity", "", "note_section.how_hard_note_is_struck"),
+    "velocity": ("note_section.velocity", "", "note_section.velocity_tip"),
     "tension": ("note_section.tension", "", "note_section.lips_0_relaxed_for_low"),
-    "effort": ("note_section.effort", "", "note_section.how_much_face_works_height"),
-    "air": ("note_section.air", "", "note_section.how_much_air_flows"),
+    "effort": ("note_section.effort", "", "note_section.effort_tip"),
+    "air": ("note_section.air", "", "note_section.air_flow_tip"),
 }
 """Label, unit and tip of each number."""
 

@@ -106,10 +106,10 @@ class ProblemList(Retranslated, QWidget):
         session.pitch_display.changed.connect(self._say_anew)
         whose = {EVERYONE: "problem_list.all_players", SELECTED: "problem_list.selected_players"}
         self.texted(self._who, explained="problem_list.whose_problems", options=whose)
-        self.texted(self._kind, explained="problem_list.problems_of_which_kind", options=_KIND_TEXTS)
+        self.texted(self._kind, explained="problem_list.kind_filter_tip", options=_KIND_TEXTS)
         self.texted(self._fix, explained="problem_list.mend_selected")
         self.texted(self._ignore, explained="problem_list.ignore_selected")
-        self.texted(self._ignored, explained="problem_list.show_what_is_ignored")
+        self.texted(self._ignored, explained="problem_list.show_ignored_tip")
         self._who.show_option(EVERYONE)
         self._kind.show_option(ALL)
         self.retranslate()
@@ -157,11 +157,7 @@ class ProblemList(Retranslated, QWidget):
         if more > 0:
             self._empty.setText(self.tr("problem_list.and_more_choose_players_or").format(count=more))
         else:
-            self._empty.setText(
-                self.tr("problem_list.no_problems_everything_can_be")
-                if not found
-                else self.tr("problem_list.none_of_these_choose_other")
-            )
+            self._empty.setText(self.tr("problem_list.empty") if not found else self.tr("problem_list.no_match"))
         self._show_buttons()
         self.listed.emit()
 

@@ -63,20 +63,18 @@ NUMBERS: Final = (
         100.0,
         5.0,
         "take_section.doubled_notes_within",
-        "take_section.same_note_struck_again_within",
+        "take_section.merge_repeats_tip",
     ),
     _Number(
         "overlap_s",
         1000.0,
         100.0,
         5.0,
-        "take_section.legato_overlap_at_most",
+        "take_section.most_legato_overlap",
         "take_section.note_that_sounds_longer_into",
     ),
-    _Number("quantise", 100.0, 100.0, 5.0, "take_section.quantise", "take_section.how_far_notes_are_drawn"),
-    _Number(
-        "align", 100.0, 100.0, 5.0, "take_section.draw_to_score", "take_section.how_far_notes_are_drawn_to_those_of"
-    ),
+    _Number("quantise", 100.0, 100.0, 5.0, "take_section.quantise", "take_section.quantise_strength_tip"),
+    _Number("align", 100.0, 100.0, 5.0, "take_section.draw_to_score", "take_section.align_strength_tip"),
 )
 
 
@@ -230,9 +228,9 @@ class TakeSection(Retranslated, QWidget):
         }
         left_out = [text.format(count=found[fault]) for fault, text in names.items() if fault in found]
         if not left_out:
-            return self.tr("take_section.notes_nothing_is_left_out").format(count=kept)
-        faults = self.tr("take_section.between_what_is_left").join(left_out)
-        return self.tr("take_section.notes_left_out").format(count=kept, faults=faults)
+            return self.tr("take_section.no_notes_excluded").format(count=kept)
+        faults = self.tr("take_section.list_separator").join(left_out)
+        return self.tr("take_section.notes_excluded").format(count=kept, faults=faults)
 
     # Edits
 

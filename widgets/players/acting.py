@@ -85,7 +85,7 @@ class ActingRows(Retranslated, QWidget):
             count = sum(name in each for each in had)
             chip.setChecked(bool(had) and count == len(had))
             tip = known[name].description.in_language(language()) if name in known else ""
-            some = self.tr("acting_rows.some_of_the_selected").format(count=count) if 0 < count < len(had) else ""
+            some = self.tr("acting_rows.players_with_habit").format(count=count) if 0 < count < len(had) else ""
             chip.setToolTip("\n".join(filter(None, (tip, some))))
 
     def _chip(self, name: str) -> Chip:

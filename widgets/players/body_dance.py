@@ -40,7 +40,7 @@ class BodyDanceRows(Retranslated, QWidget):
         """Those of the players that are shown."""
         self._choreography = named(Combo(), "parameter_choreography")
         self._sliders = {one.name: ParameterSlider(session, one) for one in rows_of("dance")}
-        self._dice = IconButton(session, "dice", "body_dance_rows.another_dance_for_each", self._vary, "dance_dice")
+        self._dice = IconButton(session, "dice", "body_dance_rows.vary_each", self._vary, "dance_dice")
         self._build()
         self._choreography.chosen.connect(self._choose)
         for name, slider in self._sliders.items():

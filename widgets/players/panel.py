@@ -102,7 +102,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._variety = Section(session, "players_variety")
         self._spread = self.texted(
             named(NumberSlider(session, 0.0, 1.0, default=session.variety, step=0.05), "spread"),
-            words=("players_panel.spread", "", "players_panel.how_far_apart_players_become"),
+            words=("players_panel.spread", "", "players_panel.difference_tip"),
         )
         throw = (
             "players_panel.randomise",

@@ -78,7 +78,7 @@ class ParameterSections(Retranslated, QWidget):
         self._body_dance = BodyDanceRows(session)
         self._acting = ActingRows(session)
         self._acting.shown.connect(self._show_acting)
-        dice_tip = "parameter_sections.another_seed_for_each"
+        dice_tip = "parameter_sections.vary_seeds"
         self._dice = IconButton(session, "dice", dice_tip, self.dice_thrown.emit, "seed_dice")
         outer = in_column(of=self, margins=0, spacing=0)
         for section, text_id in zip(self._sections.values(), _TITLES, strict=True):

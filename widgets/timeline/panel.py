@@ -123,7 +123,7 @@ class TimelinePanel(Retranslated, QWidget):
         self._set_limits()
         self.axis.fit()
         self._theme_set()
-        self.texted(self.lanes_button, text="timeline_panel.lanes", tip="timeline_panel.which_lanes_are_shown_and")
+        self.texted(self.lanes_button, text="timeline_panel.lanes", tip="timeline_panel.lanes_tip")
         session.timeline_view = self
 
     def _make_foot(self) -> QHBoxLayout:

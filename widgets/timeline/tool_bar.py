@@ -23,7 +23,7 @@ TOOL_TIPS = {
     Tool.SPLIT: "tool_bar.split_click_where_note_shall",
 }
 MODES = {
-    Ghosts.GHOSTS: "tool_bar.others_as_ghosts",
+    Ghosts.GHOSTS: "tool_bar.ghost_notes",
     Ghosts.SELECTED: "tool_bar.selected_as_ghosts",
     Ghosts.ALL: "tool_bar.all_players",
     Ghosts.ALONE: "tool_bar.only_this_player",
@@ -57,7 +57,7 @@ class ToolBar(Retranslated, QWidget):
             row.addWidget(button)
         group.buttonClicked.connect(self._choose_tool)
         row.addSpacing(8)
-        self.player_box = self.texted(named(ComboBox(self), "front_player"), tip="tool_bar.player_in_front")
+        self.player_box = self.texted(named(ComboBox(self), "front_player"), tip="tool_bar.active_player_tip")
         self.player_box.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.player_box.setMinimumWidth(150)
         self.player_box.setMaximumWidth(280)

@@ -28,7 +28,7 @@ from widgets.transport.fields import BarsField, ClockField, FramesField
 
 BUTTONS = (
     ("play.to_start", "to_start", "transport_bar.to_start"),
-    ("play.toggle", "play", "transport_bar.play_or_stop_here"),
+    ("play.toggle", "play", "transport_bar.play_tip"),
     ("play.stop", "stop", "transport_bar.stop_once_more_to_start"),
     ("play.loop", "loop", "transport_bar.loop_selection_else_bar"),
     ("record.toggle", "record", "transport_bar.record_player_in_front_or"),

@@ -137,11 +137,11 @@ class ViewportHeader(Retranslated, QWidget):
         session = self._session
         self.texted(self._folded, explained="header.view")
         self.texted(self._cameras, explained=with_keys(session, "cameras.keep", "header.saved_cameras"))
-        self.texted(self._show, explained="header.show_beside_players")
+        self.texted(self._show, explained="header.overlays_tip")
         pose_tip = with_keys(session, "viewport.pose", "header.hold_bell_head_elbows_or")
         self.texted(self._pose, text="header.pose", explained=pose_tip)
         self.texted(self._frame, explained=with_keys(session, "viewport.frame", "header.frame_selected_players"))
-        self.texted(self._full, explained=with_keys(session, FULL_SCREEN, "header.viewport_alone_on_whole_screen"))
+        self.texted(self._full, explained=with_keys(session, FULL_SCREEN, "header.full_screen_tip"))
 
     def _list_cameras(self) -> None:
         """Fill the menu of the cameras that are kept."""

@@ -273,7 +273,7 @@ class ViewportScene(QObject):
             return ""
         if loaded.left_out and not loaded.stage.members:
             return "\n".join(message_text(one.message(message_text)) for one in loaded.left_out)
-        return self.tr("scene.making_first_motion")
+        return self.tr("scene.generating")
 
     def _reading(self) -> str:
         """The angles of the pose in hand."""

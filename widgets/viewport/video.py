@@ -159,7 +159,7 @@ class VideoStrip(Retranslated, QWidget):
                 NumberSlider(session, *OFFSET_S, step=0.01, decimals=DECIMALS, slides=False, resets=False, parent=self),
                 "video_offset",
             ),
-            words=("video_strip.offset", "s", "video_strip.where_it_begins"),
+            words=("video_strip.offset", "s", "video_strip.offset_tip"),
         )
         self._offset.changed.connect(self._move)
         self._offset.released.connect(session.document.end_gesture)
@@ -167,7 +167,7 @@ class VideoStrip(Retranslated, QWidget):
             slider.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
             slider.setFixedWidth(150)
         self._estimate = self.texted(
-            self._button("video_estimate"), text="video_strip.find_by_sound", tip="video_strip.place_by_sound"
+            self._button("video_estimate"), text="video_strip.estimate_offset", tip="video_strip.estimate_offset_tip"
         )
         on_click(self._estimate, lambda: actions(session)["video.estimate_offset"].trigger())
         self._hide = self.texted(self._button("video_hide"), tip="video_strip.hide", name="video_strip.hide")

@@ -175,7 +175,7 @@ class CutPanel(Retranslated, QWidget):
             if self._found.analysis is None
             else self.tr("cut_panel.segments_found").format(n=count)
             if self._draft.cuts is None
-            else self.tr("cut_panel.segments_set_by_hand").format(n=count)
+            else self.tr("cut_panel.manual_segments").format(n=count)
         )
 
     def retranslate(self) -> None:

@@ -336,13 +336,11 @@ class LearnDialog(WorkingDialog):
             text = message_text(summary(result.model, result.path))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)
-            text = "\n".join(
-                filter(None, (self.tr("learn_dialog.neither_motion_nor_midi").format(files=names), missing))
-            )
+            text = "\n".join(filter(None, (self.tr("learn_dialog.unknown_files").format(files=names), missing)))
         elif missing:
             text = missing
         elif path is not None and os.path.isfile(path):
-            text = self.tr("learn_dialog.this_file_is_there_and")
+            text = self.tr("learn_dialog.replaces_file")
         else:
             text = ""
         self._state.setText(text)

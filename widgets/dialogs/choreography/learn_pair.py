@@ -102,7 +102,7 @@ class PairForm(Retranslated, QWidget):
         grid.setRowStretch(len(_FILES) + 2, 1)
         self.texted(self._offset.check, text="pair_form.automatic")
         self.texted(self._offset.number, suffix="pair_form.seconds")
-        self.texted(self._fps.check, text="pair_form.as_in_file")
+        self.texted(self._fps.check, text="pair_form.from_file")
         self.texted(self._fps.number, suffix="pair_form.frames_s")
         self.retranslate()
 
@@ -142,7 +142,7 @@ class PairForm(Retranslated, QWidget):
             if self._draft.offset_s is None:
                 confidence = f"{analysis.offset.confidence:.2f}"
                 notes.append(
-                    self.tr("pair_form.offset_found_with_confidence").format(confidence=confidence)
+                    self.tr("pair_form.offset_detected").format(confidence=confidence)
                     if analysis.offset.confidence >= CONFIDENT
                     else self.tr("pair_form.offset_found_with_confidence_another").format(confidence=confidence)
                 )

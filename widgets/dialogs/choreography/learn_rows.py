@@ -108,9 +108,9 @@ def missing_text(rows: Sequence[PairRow]) -> str:
         return tr("learn_dialog.add_motion_files_and_midi")
     for at, row in enumerate(rows):
         if row.draft.motion is None:
-            return tr("learn_dialog.pair_choose_its_motion").format(n=at + 1)
+            return tr("learn_dialog.motion_missing").format(n=at + 1)
         if row.draft.music is None:
-            return tr("learn_dialog.pair_choose_its_music").format(n=at + 1)
+            return tr("learn_dialog.music_missing").format(n=at + 1)
         if row.found.error is not None:
             return tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
         bounds = offset_range_s(row.found)

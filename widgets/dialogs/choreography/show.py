@@ -127,8 +127,8 @@ class ChoreographyDialog(Retranslated, QDialog):
         for view, title in zip((*views, self.credits), titles, strict=True):
             self.texted(view, name=title)
         self.texted(self._hints["motions"], text="choreography_dialog.most_typical_segment_of_each")
-        self.texted(self._hints["transitions"], text="choreography_dialog.what_follows_what_in_percent")
-        self.texted(self._hints["graph"], text="choreography_dialog.arrow_for_each_transition_that")
+        self.texted(self._hints["transitions"], text="choreography_dialog.transition_table_hint")
+        self.texted(self._hints["graph"], text="choreography_dialog.transitions_hint")
         bottom = in_row(HelpButton(), STRETCH, self._close)
         in_column(self._heading, self._use, (self.tabs, 1), bottom, of=self, margins=14, spacing=8)
 
@@ -227,7 +227,7 @@ class ChoreographyDialog(Retranslated, QDialog):
     def _followed(self, transition: FloatArray) -> Callable[[int, int], str]:
         def text(row: int, column: int) -> str:
             words = (
-                self.tr("choreography_dialog.basic_motion_is_danced_again")
+                self.tr("choreography_dialog.repeat_probability")
                 if row == column
                 else self.tr("choreography_dialog.basic_motion_is_followed_by")
             )
@@ -280,7 +280,7 @@ class ChoreographyDialog(Retranslated, QDialog):
 
     def _percussion_hint(self, derived: bool) -> str:
         if derived:
-            return self.tr("choreography_dialog.what_is_struck_during_each")
+            return self.tr("choreography_dialog.percussion_hint")
         return self.tr("choreography_dialog.what_is_struck_during_each_basic_motion_in")
 
 

@@ -78,7 +78,7 @@ class DancersSection(Retranslated, QWidget):
             named(Check("dancers_section.mirrored"), "dancer_mirrored"), tip="dancers_section.left_and_right_exchanged"
         )
         look_tip, dice_tip = (
-            "dancers_section.show_what_choreography_has_learned",
+            "dancers_section.show_choreography",
             "dancers_section.another_dance_to_same_music",
         )
         self._look = IconButton(session, "information", look_tip, self._show_choreography, "dancer_look")

@@ -137,7 +137,7 @@ class CurvesLane(Lane):
         self._drag: DragCurve | DragController | DrawCurve | None = None
         self.choice = self.texted(
             named(ComboBox(self.header), "curve_choice"),
-            tip="curves_lane.curve_that_is_edited_or",
+            tip="curves_lane.active_curve_tip",
             name="curves_lane.curve",
         )
         self.choice.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)

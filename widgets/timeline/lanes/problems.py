@@ -118,7 +118,7 @@ class ProblemsLane(Lane):
         self.title_row.addWidget(self.count)
         self.marks = _Marks(self)
         self.refresh()
-        self.texted(self.title, text="problems_lane.problems", tip="problems_lane.what_player_in_front_cannot")
+        self.texted(self.title, text="problems_lane.problems", tip="problems_lane.tip")
 
     def refresh(self) -> None:
         """Show the problems of the player in front."""

@@ -374,7 +374,7 @@ class RegionLane(Lane):
         """Describe a region under the mouse."""
         lines = [region.label or self.kind_name(region.kind)]
         if region.removed:
-            lines = [self.kind_name(region.kind), self.tr("region_lane.deleted_by_hand")]
+            lines = [self.kind_name(region.kind), self.tr("region_lane.deleted")]
         elif region.reason is not None:
             lines.append(message_text(region.reason, self.session, region.player_id))
         return "\n".join(lines)

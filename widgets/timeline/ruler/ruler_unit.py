@@ -42,7 +42,7 @@ class UnitButton(Retranslated, QToolButton):
         self.setMenu(menu)
         session.time_display_changed.connect(self._show_unit)
         session.theme_changed.connect(self._show_icon)
-        self.texted(self, tip="unit_button.what_ruler_counts")
+        self.texted(self, tip="unit_button.tip")
         self._show_unit()
         self._show_icon()
 

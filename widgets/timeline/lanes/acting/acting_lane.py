@@ -180,7 +180,7 @@ class ActingLane(RegionLane):
 
     def tip(self, region: Region) -> str:
         if region.kind == VARIED:
-            return self.tr("acting_lane.these_bars_are_performed_anew")
+            return self.tr("acting_lane.regenerated_bars_tip")
         return super().tip(region)
 
     def _guests(self, plan: PlayerPlan) -> list[Region]:

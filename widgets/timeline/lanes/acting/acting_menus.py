@@ -85,7 +85,7 @@ def add_styles_menus(menu: QMenu, session: Session, region: Region | None, tick:
             entry.setCheckable(True)
             entry.setChecked(entry.text() == verbatim(region.label))
     everyone = tuple(player.id for player in session.project.players)
-    own, of_all = tr("acting_lane.style_here"), tr("acting_lane.style_of_all_here")
+    own, of_all = tr("acting_lane.style_here"), tr("acting_lane.style_for_everyone")
     for title, name, players in ((own, "style_here", session.players), (of_all, "style_of_all_here", everyone)):
         bars = partial(bars_of, session, players, tick)
         _add_styles(menu, title, name, session, lambda style, bars=bars: add_styles(session, style, bars()))  # type: ignore[misc]

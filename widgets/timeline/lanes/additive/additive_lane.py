@@ -66,7 +66,7 @@ class AdditiveLane(CurveEditing):
         self.controls.addWidget(self.choice)
         self.item = CurvesItem(self)
         self.fold_changed.connect(self.refresh)
-        self.texted(self.title, text="additive_lane.title", tip="additive_lane.what_to_do")
+        self.texted(self.title, text="additive_lane.title", tip="additive_lane.hint")
         self.retranslate()
         self.refresh()
 

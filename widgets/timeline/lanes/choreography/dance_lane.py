@@ -208,7 +208,7 @@ class DanceLane(RowLane):
         if dance.pinned[number]:
             lines.append(self.tr("dance_lane.pinned_backspace_returns_it_to"))
         for item in dance.barred(number):
-            lines.append(self.tr("dance_lane.basic_motion_is_not_danced").format(number=item.state + 1))
+            lines.append(self.tr("dance_lane.basic_motion_disabled").format(number=item.state + 1))
         return "\n".join(lines)
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:

@@ -68,7 +68,7 @@ class DanceMenu(QMenu):
         self.addSeparator()
         self._add(
             self,
-            self.tr("dance_menu.do_not_dance_basic_motion").format(number=motion),
+            self.tr("dance_menu.disable_basic_motion").format(number=motion),
             lambda: lane.forbid(dancer_id, number),
         )
         self._add(
@@ -80,9 +80,9 @@ class DanceMenu(QMenu):
             text = self.tr("dance_menu.allow_basic_motion_again").format(number=item.state + 1)
             self._add(self, text, partial(lane.take_back, dancer_id, (item,)))
         self.addSeparator()
-        self._add(
-            self, self.tr("dance_menu.return_to_generator"), lambda: lane.take_back(dancer_id, pinned)
-        ).setEnabled(bool(pinned))
+        self._add(self, self.tr("dance_menu.revert"), lambda: lane.take_back(dancer_id, pinned)).setEnabled(
+            bool(pinned)
+        )
         corrections = lane.session.project.dance_corrections.get(dancer_id, ())
         self._add(
             self, self.tr("dance_menu.return_whole_dance_to_generator"), lambda: lane.clear(dancer_id)
@@ -104,7 +104,7 @@ class DanceMenu(QMenu):
     def _add_segments(self) -> None:
         from app.choreography.performed.dance_steps import segments_of
 
-        menu = self._submenu(self.tr("dance_menu.other_segment_of_this_motion"), "dance_segments")
+        menu = self._submenu(self.tr("dance_menu.change_segment"), "dance_segments")
         model, step = self._dance.model, self._dance.steps[self._number]
         others = np.array([one for one in segments_of(model, step.state) if one != step.segment], np.int64)
         far = np.linalg.norm(self._figures[others] - self._figures[step.segment], axis=-1).sum(axis=-1)

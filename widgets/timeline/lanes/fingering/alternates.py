@@ -86,7 +86,7 @@ class Alternates(QFrame):
             back.setFlat(True)
             back.setMinimumHeight(LEAST_TARGET_PX)
             back.setIconSize(QSize(16, 16))
-            back.setToolTip(self.tr("alternates.back_to_generators_choice"))
+            back.setToolTip(self.tr("alternates.revert_tip"))
             on_click(back, self.give_back)
             self._row.addWidget(back)
         self._row.addStretch(1)

@@ -107,7 +107,7 @@ class WaveformLane(Lane):
 
     def empty_text(self) -> str:
         """Say what can be done where there is no recording."""
-        return self.tr("waveform_lane.drop_recording_here_until_then")
+        return self.tr("waveform_lane.empty")
 
     def offset_text(self) -> str:
         """The offset, and where it is from."""
@@ -116,7 +116,7 @@ class WaveformLane(Lane):
             return ""
         number = number_text(audio.offset_s, DECIMALS)
         if self.session.listening.waveform is None:
-            return self.tr("waveform_lane.offset_s_recording_is_not").format(offset=number)
+            return self.tr("waveform_lane.loading").format(offset=number)
         if audio.confidence is None:
             return self.tr("waveform_lane.offset_s").format(offset=number)
         return self.tr("waveform_lane.offset_s_estimated").format(offset=number, confidence=audio.confidence)

@@ -83,7 +83,7 @@ class TakeHeads(Retranslated, QWidget):
     def tip(self, row: TakeRow) -> str:
         """Say when and with what a take was played, and what can be done with it."""
         if row.take is None:
-            return self.tr("take_heads.what_was_there_before_first")
+            return self.tr("take_heads.original_part_tip")
         take = row.take
         when = when_text(take.recorded)
         seconds = (take.end_us - take.start_us) / 1e6

@@ -51,7 +51,7 @@ class TakesLane(RowLane):
         self.item = TakesItem(self)
         session.listening.changed.connect(self.heads.update)
         self.refresh()
-        self.texted(self.title, tip="takes_lane.what_was_recorded_of_player")
+        self.texted(self.title, tip="takes_lane.tip")
         self.retranslate()
 
     def retranslate(self) -> None:
@@ -66,8 +66,8 @@ class TakesLane(RowLane):
         """Say how a take is made."""
         player = self.session.player
         if player is None:
-            return self.tr("takes_lane.no_player_is_in_front")
-        return self.tr("takes_lane.nothing_is_recorded_of_yet").format(player=player.name, keys=self._record_keys())
+            return self.tr("takes_lane.no_active_player")
+        return self.tr("takes_lane.empty").format(player=player.name, keys=self._record_keys())
 
     def _record_keys(self) -> str:
         action = actions(self.session).get("record.toggle")
@@ -273,7 +273,7 @@ class TakesLane(RowLane):
         reach_s = 3.0 / self.axis.px_per_s
         for index in row.left_out.between(mouse.time_s - reach_s, mouse.time_s + reach_s).tolist():
             name = pitch_text(self.session.pitch_display, int(row.left_out_pitches[index]), self._transposition())
-            return self.tr("takes_lane.is_left_out").format(note=name, why=self.why(row.faults[index]))
+            return self.tr("takes_lane.excluded_note").format(note=name, why=self.why(row.faults[index]))
         return self.heads.tip(row)
 
     def _transposition(self) -> int:
@@ -287,8 +287,8 @@ class TakesLane(RowLane):
             "": "",
             "ghost": self.tr("takes_lane.short_and_soft_ghost_note"),
             "silent": self.tr("takes_lane.blown_too_softly_to_be"),
-            "slip": self.tr("takes_lane.finger_was_late_it_lies"),
-            "double": self.tr("takes_lane.same_note_twice_key_sprang"),
+            "slip": self.tr("takes_lane.late_finger"),
+            "double": self.tr("takes_lane.key_bounce"),
         }[fault]
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
