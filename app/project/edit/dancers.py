@@ -153,14 +153,15 @@ def _front_m(project: Project) -> float:
 
 
 def _rows(front_m: float) -> Iterator[StagePosition]:
-    """Places row by row towards the audience, from the middle: 0, to the right, to the left and so on. Where the stage
-    ends they go on in its last row."""
+    """Places row by row towards the audience, from the middle to both sides; every other row stands in the gaps of the
+    one behind it. Where the stage ends they go on in its last row."""
     row = 0
     while True:
         z_m = min(front_m + row * DANCER_ROOM_M, limits.STAGE_M[1])
         wide = z_m == limits.STAGE_M[1]
-        for place in range(int(limits.STAGE_M[1] / DANCER_ROOM_M) if wide else MOST_IN_ROW):
-            x_m = (place + 1) // 2 * DANCER_ROOM_M * (1.0 if place % 2 else -1.0)
+        shifted = row % 2 == 1 and not wide
+        for place in range(int(limits.STAGE_M[1] / DANCER_ROOM_M) if wide else MOST_IN_ROW - shifted):
+            x_m = ((place + 1 - shifted) // 2 + 0.5 * shifted) * DANCER_ROOM_M * (1.0 if place % 2 else -1.0)
             yield StagePosition(round(x_m, 3) + 0.0, round(z_m, 3), 0.0)
         row += 1
 

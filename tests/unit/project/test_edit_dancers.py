@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -75,6 +76,22 @@ def test_a_new_player_stands_beside_dancers_who_were_put_among_players(pair: Pro
     pair = edit_players.place(pair, {trumpet.id: StagePosition(-2.0, 0.0, 0.0), trombone.id: StagePosition(0.0, 0, 0)})
     pair = edit.place_dancers(pair, {"dancer:1": StagePosition(1.3, 0.0, 0.0)})
     assert edit_players.add_player(pair, MAPS["flute"], MAPS, "x")[0].players[2].stage.x_m > 2.5
+
+
+def test_a_dancer_of_a_row_is_seen_between_those_of_the_row_before() -> None:
+    project = replace(small_project(), players=())
+    for _ in range(14):
+        project, _ = edit.add_dancer(project, "salsa", "x")
+    rows: dict[float, list[float]] = {}
+    for dancer in project.dancers:
+        rows.setdefault(dancer.stage.z_m, []).append(dancer.stage.x_m)
+    assert [len(row) for _, row in sorted(rows.items())] == [5, 4, 5]
+    for row, behind in itertools.pairwise(x_m for _, x_m in sorted(rows.items())):
+        gaps = [abs(one - other) for one in row for other in behind]
+        # From the front no one stands before anyone of the row behind, and both rows are about the middle.
+        assert min(gaps) == pytest.approx(0.5 * DANCER_ROOM_M)
+        assert sum(row) == pytest.approx(0.0)
+        assert sum(behind) == pytest.approx(0.0)
 
 
 def test_the_stage_ends_and_its_last_row_goes_on() -> None:
