@@ -41,7 +41,7 @@ class SegmentStep:
     segment : int
         In the model.
     place : int
-        Of its accent in the grid of beats and half beats.
+        Of its accent in the grid of beats and their divisions.
     start_s, accent_s, end_s : float
         In the piece.
     """

@@ -75,6 +75,7 @@ def derived_rhythm(score: Score) -> Rhythm:
         symbols=np.array([symbol for _, symbol in hits], np.int64),
         strengths=moments.velocities[at] / 127.0,
         derived=True,
+        divisions=beats.divisions,
     )
 
 

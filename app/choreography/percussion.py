@@ -29,7 +29,7 @@ def score_rhythm(score: Score) -> Rhythm:
             hit = (struck.tick, symbol)
             strongest[hit] = max(strongest.get(hit, 0), struck.velocity)
     hits = sorted(strongest)
-    beats_s, bar_beats = piece_beats(score)
+    beats_s, bar_beats, divisions = piece_beats(score)
     return Rhythm(
         beats_s=beats_s,
         bar_beats=bar_beats,
@@ -37,18 +37,19 @@ def score_rhythm(score: Score) -> Rhythm:
         symbols=np.array([symbol for _, symbol in hits], np.int64),
         strengths=np.array([strongest[hit] for hit in hits], np.float64) / 127.0,
         derived=False,
+        divisions=divisions,
     )
 
 
-def piece_beats(score: Score) -> tuple[FloatArray, IntArray]:
-    """Felt beats to the end of the bar in which the piece ends, and the place of each in its bar.
+def piece_beats(score: Score) -> tuple[FloatArray, IntArray, IntArray]:
+    """Felt beats to the end of the bar in which the piece ends, the place of each in its bar, and how it is divided.
 
     Every bar begins with a beat; the beats of a pickup are counted back from the first whole bar, as its last ones.
 
     Returns
     -------
     beats_s : (N,) float64
-    bar_beats : (N,) int64
+    bar_beats, divisions : (N,) int64
     """
     end = score.sounding_end_tick
     first = 0 if score.pickup_ticks else 1
@@ -61,4 +62,7 @@ def piece_beats(score: Score) -> tuple[FloatArray, IntArray]:
     if score.pickup_ticks and len(ticks) > 1:
         ticks[0] = np.arange(lines[1] - beat_ticks[1], -1, -beat_ticks[1])[::-1]
         counts[0] = len(ticks[1]) - np.arange(len(ticks[0]), 0, -1)
-    return score.tempo_map.seconds(np.concatenate(ticks).astype(np.float64)), np.concatenate(counts)
+    # Twelve quarters over the lower number are three of what the metre counts.
+    threes = [12 * score.ticks_per_quarter / metre_map.metre_at(bar).denominator for bar in bars.tolist()]
+    divisions = np.repeat(np.where(np.abs(beat_ticks - threes) < 1.0, 3, 2), [len(bar) for bar in ticks])
+    return score.tempo_map.seconds(np.concatenate(ticks).astype(np.float64)), np.concatenate(counts), divisions

@@ -11,11 +11,11 @@ from typing import Final
 
 from app.choreography.cuts import angular_acceleration
 from app.choreography.cuts_by_hand import cuts_at, read_times
+from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.learn import Pair, stored
-from app.choreography.percussion import score_rhythm
-from app.choreography.read_motion import ReadMotion, read_motion
+from app.choreography.read_motion import ReadMotion, guesses, read_motion
 from app.encoding import guessed, shown
-from app.errors import FileError
+from app.errors import FileError, Message
 from app.formats.files import read_file
 from app.score.contents import uncast_score
 from app.score.model import Score
@@ -50,7 +50,7 @@ def read_pair(
     motion : Path
         A BVH, FBX or glTF file.
     music : Path
-        A MIDI file with percussion.
+        A MIDI file or a score; without percussion its melody, bass and accents are heard.
     offset_s : float, optional
         The music's first tick is at this time of the motion's file, of which the pair's clip may be a later part
         (`ReadMotion.start_s`); without it the offset is to be found.
@@ -70,9 +70,9 @@ def read_pair(
     """
     read = read_motion(motion, fps)
     score = uncast_score(read_contents(music))
-    rhythm = score_rhythm(score)
+    rhythm = audible_rhythm(score)
     if not len(rhythm.hits_s):
-        raise FileError("learn.no_percussion", file=str(music))
+        raise FileError("learn.no_notes", file=str(music))
     beside = motion.with_suffix(CREDITS_SUFFIX)
     if credits is None and os.path.isfile(beside):
         credits = beside
@@ -80,6 +80,12 @@ def read_pair(
     of_clip_s = None if offset_s is None else offset_s - read.start_s
     pair = Pair(read.clip, shown(motion.name), rhythm, shown(music.name), of_clip_s, text, unfit=read.cleaned.unfit)
     return ReadPair(pair if cuts is None else _cut(pair, read, read_times(cuts)), read, score)
+
+
+def to_check(read: ReadPair) -> list[Message]:
+    """Guesses about the motion, and the note that its music has no percussion."""
+    music = [Message("learn.derived", {"music": read.pair.music_name})] if read.pair.rhythm.derived else []
+    return [*guesses(read.motion), *music]
 
 
 def _cut(pair: Pair, read: ReadMotion, times_s: Sequence[Sequence[float]]) -> Pair:

@@ -31,6 +31,8 @@ class Rhythm:
         0..1, the velocity of each hit.
     derived : bool
         The piece has no percussion: the symbols were derived from melody, bass and accents.
+    divisions : (N,) int, optional
+        Of each beat, as the metre divides it: 3 of a dotted quarter of six eighths; 2 without.
     """
 
     beats_s: FloatArray
@@ -39,6 +41,7 @@ class Rhythm:
     symbols: IntArray
     strengths: FloatArray
     derived: bool
+    divisions: IntArray | None = None
 
 
 def delayed(rhythm: Rhythm, beats: float) -> Rhythm:

@@ -1,7 +1,7 @@
 """Sequence of segments for a piece: the Viterbi algorithm over segments with their accents on the beats (H5).
 
-A state of the search is a segment whose accent is at a place of the grid of beats and half beats. Going from one to
-the next counts
+A state of the search is a segment whose accent is at a place of the grid: a beat, or between two as the metre divides
+them. Going from one to the next counts
 
 - the model: transition and emission probabilities, as logarithms of how much likelier than by chance they are, so that
   few long motions and many short ones are compared fairly; every hit counts in the segment during which it sounds, as
@@ -20,6 +20,8 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -31,8 +33,8 @@ from app.choreography.rhythm import Rhythm
 SPEEDS: Final = (0.67, 1.5)
 """A motion is danced no slower and no faster than this from one arrival to the next, beside the speed it was captured
 at; in between its speed goes over smoothly and was up to 1.75 for a moment."""
-MOST_STEPS: Final = 8
-"""From one accent to the next there are at most so many places of the grid."""
+MOST_BEATS: Final = 4
+"""From one accent to the next there are at most so many beats."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,12 @@ class AccentGrid:
     times_s: FloatArray
     on_beat: BoolArray
 
+    @cached_property
+    def beats(self) -> FloatArray:
+        """(G,) places in beats from the first one."""
+        on_beat = np.flatnonzero(self.on_beat)
+        return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
+
 
 @dataclass(frozen=True, eq=False)
 class SegmentCandidates:
@@ -130,13 +138,14 @@ class Constraints:
 
 
 def grid_of(rhythm: Rhythm) -> AccentGrid:
-    """Beats, and the middles between them."""
+    """Beats, and the places between them that divide them as the metre does."""
     beats = rhythm.beats_s
     if len(beats) < 2:
         return AccentGrid(beats, np.ones(len(beats), bool))
-    times = np.empty(2 * len(beats) - 1)
-    times[::2], times[1::2] = beats, 0.5 * (beats[1:] + beats[:-1])
-    return AccentGrid(times, np.arange(len(times)) % 2 == 0)
+    divisions = np.full(len(beats), 2) if rhythm.divisions is None else rhythm.divisions
+    places = np.concatenate([at + np.arange(parts) / parts for at, parts in enumerate(divisions[:-1].tolist())])
+    places = np.append(places, len(beats) - 1.0)
+    return AccentGrid(np.interp(places, np.arange(len(beats)), beats), places % 1.0 == 0.0)
 
 
 def choose(
@@ -173,11 +182,10 @@ def choose(
     random = np.random.default_rng(seed)
     search = _Search(grid, candidates, heard, weights, constraints, usual, initial)
     chosen: list[tuple[int, int]] = []
-    step = 2 * PHRASE_BEATS
-    for first in range(0, count, step):
-        stop = min(count, first + step)
+    phrases = np.flatnonzero(grid.on_beat)[::PHRASE_BEATS].tolist()
+    for first, stop in pairwise((*phrases, count)):
         # What comes next is looked at too, so that a phrase does not end where nothing goes on.
-        seen = min(count, stop + MOST_STEPS)
+        seen = search.latest(stop - 1) + 1
         noise = weights.chance * (random.gumbel(size=segments) + random.gumbel(size=(seen - first, segments)))
         since_s = grid.times_s[first] - LATELY_S
         lately = np.zeros(segments)
@@ -207,6 +215,7 @@ class _Search:
     ) -> None:
         self._grid, self._candidates, self._weights, self._constraints = grid, candidates, weights, constraints
         self._heard = replace(heard, summed=weights.model * weights.heard * heard.summed)
+        self._earliest = np.searchsorted(grid.beats, grid.beats - MOST_BEATS - 1e-6).tolist()
         self._constrained = sorted({*constraints.pinned, *constraints.segments})
         self._forbidden: dict[int, list[int]] = {}
         for place, state in constraints.forbidden:
@@ -255,7 +264,7 @@ class _Search:
                     better = reached > best[row]
                     best[row, better] = reached[better]
                     came[row, better] = -1
-            for earlier in range(max(first, place - MOST_STEPS), place):
+            for earlier in range(max(first, self._earliest[place]), place):
                 gap_s = times[place] - times[earlier]
                 if not self._possible(gap_s) or self._skips(earlier, place):
                     continue
@@ -268,9 +277,13 @@ class _Search:
                 came[row, better, 0], came[row, better, 1] = earlier, from_segment[better]
         return self._way_back(best + ends, came, first, stop)
 
+    def latest(self, place: int) -> int:
+        """The last place within `MOST_BEATS`."""
+        return bisect_right(self._grid.beats, self._grid.beats[place] + MOST_BEATS + 1e-6) - 1
+
     def reaches(self, place: int, later: int) -> bool:
         """Return whether an accent at a place can be followed by one from ``later`` on."""
-        gaps_s = self._grid.times_s[later : place + MOST_STEPS + 1] - self._grid.times_s[place]
+        gaps_s = self._grid.times_s[later : self.latest(place) + 1] - self._grid.times_s[place]
         return any(self._possible(gap_s) for gap_s in gaps_s)
 
     def _way_back(self, best: FloatArray, came: IntArray, first: int, stop: int) -> list[tuple[int, int]]:

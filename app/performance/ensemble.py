@@ -174,8 +174,8 @@ class Performance:
             return self._players[player.id].of(with_style)
 
     @cached_property
-    def time_frame(self) -> TimeFrame:
-        """The span that every player's motion covers."""
+    def span_ticks(self) -> tuple[int, int]:
+        """Onset of the first note that someone plays or dances to, and end of the last one."""
         players = [self.project.player(line.player_id) for line in self.lines]
         played = [part for part in map(self.project.part, players) if part.notes]
         first_ticks = [part.notes[0].onset_tick for part in played]
@@ -184,7 +184,12 @@ class Performance:
             # They move to all that sounds.
             first_ticks += [hit.tick for hit in self.project.score.percussion[:1]]
             last_ticks.append(self.project.score.sounding_end_tick)
-        first_tick, last_tick = min(first_ticks, default=0), max(last_ticks, default=0)
+        return min(first_ticks, default=0), max(last_ticks, default=0)
+
+    @cached_property
+    def time_frame(self) -> TimeFrame:
+        """The span that every player's motion covers."""
+        first_tick, last_tick = self.span_ticks
         beat_ticks = self.project.metre_map.felt_ticks_at(first_tick)
         frame = frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
         return frame if self._before is None or self._before.time_frame != frame else self._before.time_frame

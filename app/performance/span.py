@@ -58,7 +58,7 @@ def bars_span(performance: Performance, fps: Fraction, bars: tuple[int, int], pr
     preroll_ticks = preroll_beats * performance.project.metre_map.felt_ticks_at(first_tick)
     first_s = clock.seconds(float(first_tick))
     start_s = min(clock.seconds(first_tick - preroll_ticks), first_s - PREROLL_LEAST_S)
-    end_s = frame.end_s if end_tick >= score.end_tick else clock.seconds(float(end_tick))
+    end_s = frame.end_s if end_tick >= performance.span_ticks[1] else clock.seconds(float(end_tick))
     return cut_span(frame, fps, start_s, end_s)
 
 

@@ -253,7 +253,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
         """Spans of ticks, in order, in which something sounds that no one plays."""
         return sounding_spans((span for part in self.unplayed for span in part.sounding), self.ticks_per_quarter)
 
-    @property
+    @cached_property
     def sounding_end_tick(self) -> int:
         """Return where the last note of the piece ends, whether it has a player or not; 0 without notes. Of percussion
         hits alone it is known where they begin."""
@@ -274,16 +274,16 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def last_bar(self) -> int:
-        """The number of the bar in which the last note ends."""
-        return self.metre_map.bar_of_tick(max(self.end_tick - 1, 0))
+        """The number of the bar in which the last note ends, whether it has a player or not."""
+        return self.metre_map.bar_of_tick(max(self.sounding_end_tick - 1, 0))
 
     @property
     def bar_starts(self) -> IntArray:
-        """Ticks at which the bars begin, to the bar in which the last note ends.
+        """Ticks at which the bars begin, to the bar in which the last note ends, whether it has a player or not.
 
         The first is the pickup (bar 0) if there is one, else bar 1.
         """
-        return self.metre_map.bars(0, max(self.end_tick, 1))
+        return self.metre_map.bars(0, max(self.sounding_end_tick, 1))
 
 
 def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:

@@ -349,6 +349,7 @@ def first_part(rhythm: Rhythm, longest_s: float = LONGEST_S) -> Rhythm:
         rhythm,
         beats_s=rhythm.beats_s[beats],
         bar_beats=rhythm.bar_beats[beats],
+        divisions=None if rhythm.divisions is None else rhythm.divisions[beats],
         hits_s=rhythm.hits_s[hits],
         symbols=rhythm.symbols[hits],
         strengths=rhythm.strengths[hits],

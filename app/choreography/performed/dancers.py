@@ -372,4 +372,4 @@ def _same_rhythm(rhythm: Rhythm) -> Rhythm:
         return rhythm
 
 
-_RHYTHM_FIELDS: Final = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths")
+_RHYTHM_FIELDS: Final = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions")

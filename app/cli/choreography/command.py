@@ -83,7 +83,7 @@ def _add_learn(actions: Actions) -> None:
         "learn",
         help="learn a choreography from motion capture and its music",
         description="Learns basic motions and their grammar from pairs of a motion (a BVH, FBX or GLB file of a human "
-        "body) and the MIDI file with the percussion that it was danced to, and writes them, with the motion and its "
+        "body) and the MIDI file or score that it was danced to, and writes them, with the motion and its "
         "credits, into one file. Options of a pair are written behind it.",
     )
     command.add_argument(
@@ -142,8 +142,7 @@ def learn(arguments: argparse.Namespace) -> None:
     """Learn from the pairs, write the file and print what it holds."""
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
-    from app.choreography.read_motion import guesses
-    from app.choreography.read_pair import read_pair
+    from app.choreography.read_pair import read_pair, to_check
     from app.project.choreography_files import SUFFIX
 
     files: Sequence[PairFiles] = arguments.pairs
@@ -167,9 +166,7 @@ def learn(arguments: argparse.Namespace) -> None:
     finally:
         progress.clear()
     say(*learned_table(model, target, [one.motion.start_s for one in read]))
-    notes = [
-        f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := guesses(one.motion))
-    ]
+    notes = [f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := to_check(one))]
     if notes:
         say("", "to look at:", *notes)
     for source in model.sources:

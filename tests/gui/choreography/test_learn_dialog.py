@@ -17,7 +17,7 @@ from app.choreography.read_pair import read_pair
 from app.editor.session import Session
 from tests.support.dances import stepping
 from tests.support.windows import child, show_in_front
-from tests.unit.choreography.test_command import write_clip, write_drums
+from tests.unit.choreography.test_command import write_clip, write_drums, write_silence
 from tests.unit.choreography.test_cuts import arm_swings
 from widgets.common.paths import PathEdit, url_of
 from widgets.dialogs.choreography import learn as learn_dialog
@@ -32,7 +32,7 @@ def folder(tmp_path: Path) -> Path:
     write_clip(tmp_path / "steps.bvh", stepping(12))
     write_drums(tmp_path / "drums.mid")
     write_drums(tmp_path / "steps.mid")
-    write_drums(tmp_path / "melody.mid", channel=0)
+    write_silence(tmp_path / "silent.mid")
     (tmp_path / "steps.txt").write_text("Danced for this test", encoding="utf-8")
     return tmp_path
 
@@ -171,9 +171,9 @@ def test_a_bad_pair_is_named_and_the_others_stay(
 ) -> None:
     drop(dialog, folder / "swings.bvh", folder / "drums.mid")
     type_number(dialog, "learn_offset", "1")
-    drop(dialog, folder / "steps.bvh", folder / "melody.mid")
+    drop(dialog, folder / "steps.bvh", folder / "silent.mid")
     assert "Pair 2" in state(dialog)
-    assert "melody.mid has no percussion" in state(dialog)
+    assert "silent.mid has no notes" in state(dialog)
     assert not child(dialog, QPushButton, "learn_start").isEnabled()
     assert dialog.drafts[0].offset_s == 1.0
     # The remedy: its music.

@@ -202,7 +202,7 @@ def test_no_offset_beyond_the_clip_is_offered(dialog: LearnDialog, tmp_path: Pat
     assert dialog.drafts[0].offset_s == pytest.approx(8.4)
     assert number.value() == pytest.approx(8.4)
     assert "from -7.900 to 2.0" in child(dialog, QLabel, "learn_pair_notes").text()
-    assert "Pair 1: no percussion sounds during the motion" in state(dialog)
+    assert "Pair 1: no music sounds during the motion" in state(dialog)
     assert not child(dialog, QPushButton, "learn_start").isEnabled()
     type_number(dialog, "learn_offset", "1")
     assert (number.minimum(), number.maximum()) == pytest.approx((-7.9, 2.0), abs=0.1)

@@ -12,6 +12,7 @@ import pytest
 
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
+from app.choreography.derived_rhythm import derived_rhythm
 from app.choreography.model_file import read_model, write_model
 from app.choreography.read_motion import read_motion
 from app.cli import main, parser
@@ -20,6 +21,8 @@ from app.cli.status import BAD_INPUT, BAD_USE, DONE
 from app.formats.bvh.clip import BvhClip
 from app.formats.bvh.write import write_bvh
 from app.rig import quaternion
+from app.score.contents import uncast_score
+from app.score.read import read_contents
 from tests.support.dances import model
 from tests.unit.choreography.test_cuts import arm_swings
 
@@ -39,6 +42,12 @@ def write_clip(path: Path, clip: MotionClip) -> Path:
         clip.rotations,
     )
     write_bvh(path, written)
+    return path
+
+
+def write_silence(path: Path) -> Path:
+    """A MIDI file without a note."""
+    mido.MidiFile(tracks=[mido.MidiTrack([mido.MetaMessage("track_name", name="x", time=480)])]).save(path)
     return path
 
 
@@ -169,20 +178,33 @@ def test_an_offset_that_is_not_certain_is_marked(
     assert (tmp_path / "a.choreography").exists()
 
 
+def test_a_piece_without_percussion_is_learned_as_it_is_danced_to(
+    swings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tune = write_drums(tmp_path / "tune.mid", channel=0)
+    typed = ["choreography", "learn", "--pair", str(swings), str(tune), "--offset", "0", "--to", str(tmp_path / "a")]
+    assert main(typed) == DONE
+    assert "tune.mid has no percussion: melody" in capsys.readouterr().out
+    heard = derived_rhythm(uncast_score(read_contents(tune)))
+    sounds = [one for segment in read_model(tmp_path / "a.choreography").segments for one in segment.sounds]
+    assert len(sounds) > 10
+    assert sounds == heard.symbols[: len(sounds)].tolist()
+
+
 def test_what_cannot_be_learned_from_is_named(
     swings: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     target = tmp_path / "x.choreography"
-    flute = write_drums(tmp_path / "flute.mid", channel=0)
+    silent = write_silence(tmp_path / "silent.mid")
     other = tmp_path / "dance.mp4"
     other.write_bytes(b"")
     for motion, music, options, status, said in [
-        (swings, flute, [], BAD_INPUT, "flute.mid has no percussion"),
+        (swings, silent, [], BAD_INPUT, "silent.mid has no notes"),
         (other, drums, [], BAD_INPUT, "dance.mp4 is not a supported motion file"),
         (tmp_path / "none.bvh", drums, [], BAD_INPUT, "none.bvh cannot be read"),
         (swings, drums, ["--credits", str(tmp_path / "none.txt")], BAD_INPUT, "none.txt cannot be read"),
         (swings, drums, ["--states", "11"], BAD_USE, "11 basic motions"),
-        (swings, drums, ["--offset", "1000"], BAD_USE, "no percussion of drums.mid"),
+        (swings, drums, ["--offset", "1000"], BAD_USE, "nothing of drums.mid"),
     ]:
         command = ["choreography", "learn", "--pair", str(motion), str(music), *options]
         assert main([*command, "--to", str(target)]) == status

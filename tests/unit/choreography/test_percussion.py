@@ -11,6 +11,7 @@ import pytest
 
 from app.choreography.percussion import score_rhythm
 from app.choreography.rhythm import SYMBOLS, Rhythm
+from app.choreography.sequence import grid_of
 from app.score.contents import uncast_score
 from app.score.read import read_contents
 
@@ -76,22 +77,29 @@ def test_other_tracks_are_no_percussion(tmp_path: Path, channel: int, name: str)
 
 
 @pytest.mark.parametrize(
-    ("metre", "bpm", "places", "beat_s"),
+    ("metre", "bpm", "places", "beat_s", "parts"),
     [
-        ((4, 4), 120.0, [0, 1, 2, 3], 0.5),
-        ((6, 8), 120.0, [0, 1], 0.75),
-        ((3, 4), 200.0, [0], 0.9),
-        ((5, 4), 110.0, [0, 1, 2, 3, 4], 60 / 110),
+        ((4, 4), 120.0, [0, 1, 2, 3], 0.5, 2),
+        ((6, 8), 120.0, [0, 1], 0.75, 3),
+        ((6, 8), 50.0, [0, 1, 2, 3, 4, 5], 0.6, 2),
+        ((12, 8), 150.0, [0, 1, 2, 3], 0.6, 3),
+        ((3, 4), 200.0, [0], 0.9, 3),
+        ((2, 2), 160.0, [0, 1], 0.75, 2),
+        ((5, 4), 110.0, [0, 1, 2, 3, 4], 60 / 110, 2),
     ],
 )
 def test_beats_are_those_felt_and_each_bar_begins_with_one(
-    tmp_path: Path, metre: tuple[int, int], bpm: float, places: list[float], beat_s: float
+    tmp_path: Path, metre: tuple[int, int], bpm: float, places: list[float], beat_s: float, parts: int
 ) -> None:
     bar = QUARTER * 4 * metre[0] // metre[1]
     rhythm = rhythm_of(tmp_path, [(0, 36, 90), (2 * bar - 10, 36, 90)], metres=[(0, *metre)], bpm=bpm)
     assert rhythm.bar_beats.tolist() == 2 * places
     np.testing.assert_allclose(np.diff(rhythm.beats_s), beat_s, atol=1e-5)
     assert rhythm.beats_s[0] == 0.0
+    # Between beats are the places that the metre counts.
+    grid = grid_of(rhythm)
+    assert np.flatnonzero(grid.on_beat).tolist() == (parts * np.arange(len(rhythm.beats_s))).tolist()
+    np.testing.assert_allclose(np.diff(grid.times_s), beat_s / parts, atol=1e-5)
 
 
 def test_a_pickup_has_the_last_beats_of_its_bar(tmp_path: Path) -> None:

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.performance.span import cut_span, whole_span
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span, cut_span, whole_span
 from app.plan.model import TimeFrame
+from app.project.casting import StagePosition
+from app.project.performers import Dancer
+from app.score.model import PercussionHit, Score
+from app.score.tempo import TempoMap
+from tests.unit.project.pieces import small_project
 
 rates = st.sampled_from([Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)])
 
@@ -34,3 +41,17 @@ def test_a_cut_is_on_the_grid(fps: Fraction, first_s: float, length_s: float, st
 def test_whole_frames_are_whole() -> None:
     assert whole_span(TimeFrame(-2.0, 3.0), Fraction(60)).count == 300
     assert whole_span(TimeFrame(-0.1, 0.2), Fraction(10)).count == 3
+
+
+def test_bars_of_drums_that_someone_dances_to_are_bars_of_the_piece() -> None:
+    hits = tuple(PercussionHit(480 * beat, 36, 90) for beat in range(32))
+    project = small_project()
+    score = Score("drums", 480, TempoMap.of_changes(480, []), percussion=hits)
+    dancer = Dancer("dancer:1", "One", "salsa", "woman_adult", StagePosition(0.0, 0.0, 0.0))
+    performance = Performance(replace(project, score=score, players=(), dancers=(dancer,)))
+    assert score.last_bar == 8
+    assert score.bar_starts.tolist() == [1920 * bar for bar in range(8)]
+    third = bars_span(performance, Fraction(30), (3, 3), 0.0)
+    assert third.first_frame_s + third.count / 30 == pytest.approx(6.0, abs=0.04)
+    last = bars_span(performance, Fraction(30), (8, 8), 0.0)
+    assert last.first + last.count == whole_span(performance.time_frame, Fraction(30)).count

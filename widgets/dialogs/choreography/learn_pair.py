@@ -11,8 +11,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QScrollArea, QWidget
 
 from app.choreography.music_offset import CONFIDENT
-from app.choreography.read_motion import guesses
-from app.choreography.read_pair import CREDITS_SUFFIX
+from app.choreography.read_pair import CREDITS_SUFFIX, to_check
 from app.encoding import shown
 from app.formats.rates import exact_rate
 from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
@@ -146,7 +145,7 @@ class PairForm(Retranslated, QWidget):
                     if analysis.offset.confidence >= CONFIDENT
                     else self.tr("pair_form.offset_found_with_confidence_another").format(confidence=confidence)
                 )
-            guessed = [message_text(message) for message in guesses(read.motion)]
+            guessed = [message_text(message) for message in to_check(read)]
             if guessed:
                 notes.append(self.tr("pair_form.to_check").format(notes="; ".join(guessed)))
             if not read.pair.credits:
