@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
@@ -103,6 +104,19 @@ def test_a_cut_that_is_dragged_is_in_the_choreography(dialog: LearnDialog, folde
     assert plot(dialog).cuts == FOUND
     assert dialog.drafts[0].cuts is None
     assert not child(dialog, QToolButton, "cut_undo").isEnabled()
+
+
+def test_the_mouse_shows_where_a_line_can_be_dragged(dialog: LearnDialog) -> None:
+    view = plot(dialog).plot.viewport()
+    lines = sorted({frame for cut in FOUND for frame in (cut.start, cut.accent, cut.end)})
+    # Two lines that have room between them for a place that is near neither.
+    first, second = max(pairwise(lines), key=lambda pair: pair[1] - pair[0])
+    on_line, beside = at(dialog, first), at(dialog, (first + second) / 2)
+    for place, shape in ((on_line, Qt.CursorShape.SplitHCursor), (beside, Qt.CursorShape.ArrowCursor)) * 2:
+        none, keys = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+        local, screen = QPointF(place), QPointF(view.mapToGlobal(place))
+        QApplication.sendEvent(view, QMouseEvent(QEvent.Type.MouseMove, local, screen, none, none, keys))
+        assert view.cursor().shape() == shape
 
 
 def test_a_dragged_line_stops_at_what_is_near(dialog: LearnDialog) -> None:

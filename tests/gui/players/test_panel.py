@@ -382,6 +382,21 @@ def test_a_player_is_dragged_on_the_stage(panel: PlayersPanel, session: Session)
     assert tuple(one.stage for one in session.project.players) == stage_arc(4)
 
 
+def test_a_place_that_shows_another_number_than_the_arc_is_marked_as_set_by_hand(
+    panel: PlayersPanel, session: Session
+) -> None:
+    control = slider(panel, "stage_x_m")
+    assert not control.by_hand
+    for by_m, by_hand in ((0.008, True), (0.003, False)):
+        arc = stage_arc(4)[0]
+        moved = replace_struct(arc, x_m=arc.x_m + by_m)
+        session.attempt(
+            Message("edit.place_players", {"count": 1}),
+            lambda project, to=moved: players_edit.place(project, {ids(session)[0]: to}),
+        )
+        assert control.by_hand is by_hand
+
+
 def test_the_nose_turns(panel: PlayersPanel, session: Session) -> None:
     view = stage(panel)
     player = session.project.players[0]
