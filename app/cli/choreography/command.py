@@ -142,6 +142,7 @@ def learn(arguments: argparse.Namespace) -> None:
     """Learn from the pairs, write the file and print what it holds."""
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
+    from app.choreography.pairing import report
     from app.choreography.read_pair import read_pair, to_check
     from app.project.choreography_files import SUFFIX
 
@@ -165,7 +166,7 @@ def learn(arguments: argparse.Namespace) -> None:
         write_model(target, model)
     finally:
         progress.clear()
-    say(*learned_table(model, target, [one.motion.start_s for one in read]))
+    say(*learned_table(model, target, [one.motion.start_s for one in read]), "", text(report(model)))
     notes = [f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := to_check(one))]
     if notes:
         say("", "to look at:", *notes)

@@ -116,6 +116,8 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
         "",
         "motion          music  seconds  segments  states  offset s  confidence",
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",
+        "",
+        "There are too few motions (at least 20 are needed) to test whether the music tells anything about them.",
     ]
     model = read_model(target)
     assert (model.name, model.sources[0].credits) == ("swings", "Danced by no one, public domain")

@@ -333,7 +333,7 @@ class LearnDialog(WorkingDialog):
         elif self._failure is not None:
             text = sentence(self._failure)
         elif result is not None:
-            text = message_text(summary(result.model, result.path))
+            text = "\n".join(map(message_text, (summary(result.model, result.path), result.pairing)))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)
             text = "\n".join(filter(None, (self.tr("learn_dialog.unknown_files").format(files=names), missing)))

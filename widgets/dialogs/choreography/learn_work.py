@@ -10,9 +10,10 @@ from pathlib import Path
 from app.choreography.learn import analyse, learn
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
+from app.choreography.pairing import report
 from app.choreography.read_pair import read_pair
 from app.encoding import shown
-from app.errors import AppError, Cancelled, Progress, StopRequested
+from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
 from widgets.dialogs.choreography.learn_rows import PairRead, PairRow, training_pair
 from widgets.dialogs.working import stopping
@@ -20,11 +21,12 @@ from widgets.dialogs.working import stopping
 
 @dataclass(frozen=True, eq=False)
 class LearnedChoreography:
-    """A choreography that was learned and written, and the pairs it is of."""
+    """A choreography that was learned and written, the pairs it is of, and what its music tells about its motion."""
 
     path: Path
     model: ChoreographyModel
     rows: tuple[PairRow, ...]
+    pairing: Message
 
 
 def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callable[[Progress, StopRequested], PairRead]:
@@ -68,6 +70,6 @@ def learning(
         model = learn(pairs, states=states, seed=seed, name=shown(path.stem), progress=went)
         went(1.0, "")
         write_model(path, model)
-        return LearnedChoreography(path, model, rows)
+        return LearnedChoreography(path, model, rows, report(model))
 
     return work
