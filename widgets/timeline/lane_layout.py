@@ -38,6 +38,10 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
         Whether slurs, articulations and dynamics are seen.
     stacked : bool
         Whether lanes of several selected players stand one under another.
+    stacked_heights : dict of int
+        Of those lanes, where the user set one, pixels.
+    stacked_folded : dict of tuple of str
+        Those lanes that are folded, by player.
     """
 
     order: tuple[str, ...] = ()
@@ -48,6 +52,8 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
     ghosts: Ghosts = Ghosts.GHOSTS
     marks: bool = True
     stacked: bool = False
+    stacked_heights: dict[str, int] = {}
+    stacked_folded: dict[str, tuple[str, ...]] = {}
 
 
 class LaneLayout(QObject):
@@ -110,6 +116,8 @@ class LaneLayout(QObject):
             ghosts=self._roll.ghosts_mode,
             marks=self._roll.marks.marks.shown,
             stacked=self._players.requested,
+            stacked_heights=self._players.heights_px,
+            stacked_folded=self._players.folded,
         )
 
     def set_state(self, state: LaneState) -> None:
@@ -121,6 +129,7 @@ class LaneLayout(QObject):
         for id, lane in self._lanes.items():
             lane.set_folded(id in state.folded)
         self._stack.set_heights(state.heights)
+        self._players.set_layout(state.stacked_heights, state.stacked_folded)
         self._stack.verticalScrollBar().setValue(0)
 
     # What the user does

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from functools import partial
 from typing import Final
 
 from PySide6.QtCore import QEvent, QObject, QRect, Qt, Signal
@@ -12,12 +13,14 @@ from PySide6.QtWidgets import QToolButton, QWidget
 from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts
+from app.messages import filled
 from app.project.document import Change
 from instrument_maps.library import all_maps
 from widgets.common.clicks import on_switch
 from widgets.common.controls import Retranslated, named
 from widgets.common.instrument_name import instrument_name
 from widgets.common.layouts import STRETCH, in_column, in_row
+from widgets.common.plain import Label
 from widgets.timeline.lane import FOLDED_PX, Lane
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
@@ -144,7 +147,7 @@ class PlayerLanes(QObject):
         return super().eventFilter(watched, event)
 
 
-class StackedPlayers(QWidget):
+class StackedPlayers(Retranslated, QWidget):
     """The stack: of the selected players, in their order, as soon as there are several.
 
     Selecting one of them only puts that one in front; selecting one player who is not among them ends the stack until
@@ -169,9 +172,14 @@ class StackedPlayers(QWidget):
         self._ids: tuple[str, ...] = ()
         self._chosen: frozenset[str] = frozenset()
         self._open: tuple[str, ...] = STACKED_IDS
-        self._heights = dict(HEIGHTS_PX)
+        self._set_px: dict[str, int] = {}
+        self._folded: set[tuple[str, str]] = set()
+        """Players and ids of the lanes that are folded."""
         self._places: list[PlayerLanes] = []
-        self._column = in_column(STRETCH, of=self, margins=0, spacing=0)
+        self._left_out = named(Label(), "stacked_players_left_out")
+        self._left_out.setContentsMargins(12, 0, 8, 0)
+        self._left_out.setFixedHeight(CAPTION_PX)
+        self._column = in_column(self._left_out, STRETCH, of=self, margins=0, spacing=0)
         self.hide()
         session.players_changed.connect(self._choose)
         session.changed.connect(self._session_changed)
@@ -193,6 +201,23 @@ class StackedPlayers(QWidget):
     def active(self) -> bool:
         """True while lanes are stacked."""
         return len(self._ids) > 1
+
+    @property
+    def heights_px(self) -> dict[str, int]:
+        """The heights that the user set, by lane id."""
+        return dict(self._set_px)
+
+    @property
+    def folded(self) -> dict[str, tuple[str, ...]]:
+        """Ids of the lanes that are folded, by player."""
+        ids = sorted({id for id, _ in self._folded})
+        return {id: tuple(lane_id for lane_id in STACKED_IDS if (id, lane_id) in self._folded) for id in ids}
+
+    def set_layout(self, heights_px: Mapping[str, int], folded: Mapping[str, Collection[str]]) -> None:
+        """Let lanes stand as `heights_px` and `folded` said."""
+        self._set_px = {id: _within(id, heights_px[id]) for id in STACKED_IDS if id in heights_px}
+        self._folded = {(id, lane_id) for id, lane_ids in folded.items() for lane_id in lane_ids}
+        self._show()
 
     @property
     def shown(self) -> tuple[PlayerLanes, ...]:
@@ -265,6 +290,9 @@ class StackedPlayers(QWidget):
             place.caption.setVisible(bool(id))
             for lane_id, lane in place.lanes.items():
                 lane.setVisible(bool(id) and lane_id in self._open)
+                if id:
+                    lane.set_folded((id, lane_id) in self._folded)
+        self._left_out.setVisible(self._left_out_count > 0)
         self._show_captions()
         self.setVisible(self.active)
         self.changed.emit()
@@ -275,41 +303,66 @@ class StackedPlayers(QWidget):
         self._column.insertWidget(at, place.caption)
         for offset, lane in enumerate(place.lanes.values()):
             self._column.insertWidget(at + 1 + offset, lane)
-            lane.fold_changed.connect(self.changed)
+            lane.fold_changed.connect(partial(self._note_fold, place, lane))
             lane.resized_by_hand.connect(self._resize)
         self._places.append(place)
         self.made.emit(place)
 
+    def _note_fold(self, place: PlayerLanes, lane: Lane) -> None:
+        key = (place.session.player_id, lane.id)
+        if lane.folded:
+            self._folded.add(key)
+        else:
+            self._folded.discard(key)
+        self.changed.emit()
+
+    @property
+    def _left_out_count(self) -> int:
+        """The number of selected players that are too many to stack."""
+        return len(self._chosen - {*self._ids}) if self.active else 0
+
     def _show_captions(self) -> None:
         for place in self.shown:
             place.caption.show_player()
+        self._left_out.setText(
+            filled(self.tr("stacked_players.left_out"), {"count": self._left_out_count, "most": MOST_STACKED})
+        )
+
+    def retranslate(self) -> None:
+        self._show_captions()
 
     # Heights
 
     def _resize(self, by_px: int) -> None:
         lane = self.sender()
         if isinstance(lane, Lane):
-            least = HEIGHTS_PX[lane.id] // 2
-            self._heights[lane.id] = min(max(self._heights[lane.id] + by_px, least), MOST_PX)
+            self._set_px[lane.id] = _within(lane.id, self._height_px(lane.id) + by_px)
             self.changed.emit()
 
     @property
     def needed_px(self) -> int:
         """Height with all rolls as low as they may be."""
-        return sum(self._lane_px(lane) for lane in self._lanes_in_sight()) + CAPTION_PX * len(self._ids)
+        return sum(self._lane_px(lane) for lane in self._lanes_in_sight()) + self._captions_px
+
+    @property
+    def _captions_px(self) -> int:
+        return CAPTION_PX * (len(self._ids) + (self._left_out_count > 0))
 
     def _lanes_in_sight(self) -> list[Lane]:
         return [lane for one in self.shown for id, lane in one.lanes.items() if id in self._open]
 
     def _lane_px(self, lane: Lane) -> int:
-        return FOLDED_PX if lane.folded else self._heights[lane.id]
+        return FOLDED_PX if lane.folded else self._height_px(lane.id)
+
+    def _height_px(self, lane_id: str) -> int:
+        return self._set_px.get(lane_id, HEIGHTS_PX[lane_id])
 
     def set_room(self, room_px: int) -> None:
         """Take at least `needed_px`; rolls share what there is more."""
         lanes = self._lanes_in_sight()
         rolls = [lane for lane in lanes if isinstance(lane, PianoRoll) and not lane.folded]
         more = max(room_px - self.needed_px, 0) // max(len(rolls), 1)
-        total = CAPTION_PX * len(self._ids)
+        total = self._captions_px
         for lane in lanes:
             height = self._lane_px(lane)
             if lane in rolls:
@@ -317,3 +370,8 @@ class StackedPlayers(QWidget):
             lane.setFixedHeight(height)
             total += height
         self.setFixedHeight(total)
+
+
+def _within(lane_id: str, height_px: int) -> int:
+    """The height nearest to one that a stacked lane may have."""
+    return min(max(height_px, HEIGHTS_PX[lane_id] // 2), MOST_PX)

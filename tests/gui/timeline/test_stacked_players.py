@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QToolButton
+from PySide6.QtWidgets import QApplication, QLabel, QToolButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -204,6 +204,13 @@ def test_of_many_players_the_first_and_the_one_in_front_are_stacked(stacked: Tim
     assert len(ids) == 16
     session.set_players((ids[-1], *ids[:-1]))
     assert [place.session.player_id for place in stacked.players.shown] == [*ids[: MOST_STACKED - 1], ids[-1]]
+    left_out = child(stacked, QLabel, "stacked_players_left_out")
+    assert left_out.isVisible()
+    assert left_out.text().startswith("8 more of the selected players")
+    stacked.stack.verticalScrollBar().setValue(stacked.stack.verticalScrollBar().maximum())
+    assert left_out.geometry().bottom() <= stacked.players.height()
+    session.set_players(ids[:8])
+    assert not left_out.isVisible()
 
 
 def test_open_lanes_tools_and_zoom_are_those_of_the_timeline(
@@ -265,10 +272,27 @@ def test_the_keyboard_goes_with_the_player_in_front(
 
 
 def test_stacking_is_kept_with_the_lanes(stacked: TimelinePanel, session: Session, qtbot: QtBot) -> None:
+    ids = player_ids(session)
+    breaths = of(stacked, ids[2]).lanes[BreathLane.id]
+    before = breaths.height()
+    breaths.resized_by_hand.emit(30)
+    of(stacked, ids[3]).lanes[FingeringLane.id].set_folded(True)
+    QApplication.processEvents()
+    assert breaths.height() == before + 30
     state = lane_state(stacked.save_state())
     assert state is not None
     assert state.stacked
+
+    # Others have lanes of their own.
+    session.set_players((ids[0], ids[1]))
+    assert not any(place.lanes[FingeringLane.id].folded for place in stacked.players.shown)
+    of(stacked, ids[0]).lanes[BreathLane.id].resized_by_hand.emit(-30)
     stacked.set_stacked(False)
     assert not stacked.players.active
     stacked.restore_state(state)
+    session.set_players((ids[2], ids[1], ids[3]))
+    QApplication.processEvents()
     assert child(stacked, StackedPlayers).isVisible()
+    assert of(stacked, ids[1]).lanes[BreathLane.id].height() == before + 30
+    folded = {place.session.player_id: place.lanes[FingeringLane.id].folded for place in stacked.players.shown}
+    assert folded == {ids[1]: False, ids[2]: False, ids[3]: True}
