@@ -131,9 +131,9 @@ class ProblemList(Retranslated, QWidget):
         self._ignored.setVisible(bool(left))
         self._ignored.setText(self.tr("problem_list.show_ignored").format(count=left))
         shows_ignored = self._ignored.isChecked() and bool(left)
-        self._deeds.setVisible(bool(found) or shows_ignored)
+        for controls in (self._filters, self._deeds):
+            controls.setVisible(bool(found) or shows_ignored)
         requested = self._requested(by_player, False) + (self._requested(ignored, True) if shows_ignored else [])
-        self._filters.setVisible(len(requested) > 1 or self._filter != ProblemFilter())
         requested.sort(key=lambda group: group.problems[0].start_s)
         current = {one.id: one for one in session.project.performers}
         before, self._known = self._known, {}

@@ -156,9 +156,15 @@ def dolly(camera: Camera, steps: float) -> Camera:
 def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: float, margin: float = 1.1) -> Camera:
     """Look, in the same direction, at a box so that all of it is in the picture."""
     low, high = np.asarray(low_m, np.float64), np.asarray(high_m, np.float64)
-    middle = (low + high) / 2.0
     corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    away = corners - middle
+    return frame_around(camera, (low + high) / 2.0, corners, aspect, margin)
+
+
+def frame_around(camera: Camera, middle_m: npt.ArrayLike, points_m: FloatArray, aspect: float, margin: float) -> Camera:
+    """Look, in the same direction, at a point (3,) so that some points (N, 3) are in the picture, in which they take
+    one part in ``margin`` of a side at most."""
+    middle = np.asarray(middle_m, np.float64)
+    away = points_m - middle
     tangent = math.tan(math.radians(camera.fov_deg) / 2.0) / margin
     across, over, before = away @ camera.right, away @ camera.up, away @ camera.backward
     needed = before + np.maximum(np.abs(across) / (tangent * aspect), np.abs(over) / tangent)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
 from app.arrays import FloatArray
 from app.project.cameras import View
-from app.rig.grip.body_size import face_size, hand_size
-from widgets.viewport.camera import Camera, frame
+from app.rig.grip.body_size import face_size
+from widgets.viewport.camera import Camera, frame, frame_around
 from widgets.viewport.cast import Stage
 from widgets.viewport.finger_visibility import clearest, directions, fingers_seen
 from widgets.viewport.limbs import model_bounds
@@ -26,8 +27,24 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
     "mouth": (-58.0, 4.0),
     "feet": (-28.0, 16.0),
 }
-_HALF_M: dict[View, float] = {"hands": 0.21, "mouth": 0.115, "feet": 0.30}
+_HALF_M: dict[View, float] = {"mouth": 0.115, "feet": 0.30}
 """Half the height of a close-up's picture, at least."""
+_HANDS_MARGIN = 1.25
+"""Height of the picture over that of the hands' bones, so that their flesh and some of the instrument is in it."""
+_FINGERS = tuple(
+    f"{side}{name}"
+    for side in ("left", "right")
+    for name in (
+        "Hand",
+        "ThumbDistal",
+        *(
+            f"{finger}{bone}"
+            for finger in ("Index", "Middle", "Ring", "Little")
+            for bone in ("Proximal", "Intermediate", "Distal")
+        ),
+    )
+)
+"""Joints that a close-up of the hands shows."""
 HEAD_M = 0.16
 """From a head's joint to its crown."""
 _BUST_M = 0.3
@@ -61,7 +78,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
     posed : iterable of Stage
         The same stage, in another pose each time that it is given out.
     """
-    clear, halves, boxes = list[FloatArray](), list[FloatArray](), list[tuple[FloatArray, FloatArray]]()
+    clear, around, boxes = list[FloatArray](), list[FloatArray](), list[tuple[FloatArray, FloatArray]]()
     turn, middle, usual = 0.0, None, _DIRECTIONS_DEG[view]
     for stage in posed:
         everyone = [row for row in range(len(stage.members)) if stage.shown[row]]
@@ -75,15 +92,15 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
         if middle is None:
             boxes.append(_bust(stage, chosen) if view == "front" else bounds(stage, chosen))
         else:
-            halves.append(_half(view, stage, chosen[0]))
-    if not boxes and not halves:
+            around.append(_around(view, stage, chosen[0], middle))
+    if not boxes and not around:
         return camera
     side_deg, pitch_deg = clearest(np.mean(clear, axis=0), usual) if clear else usual
     yaw = math.radians(side_deg) + turn
     camera = replace(camera, yaw_rad=math.remainder(yaw, 2.0 * math.pi), pitch_rad=math.radians(pitch_deg))
     if middle is not None:
-        half = np.max(halves, axis=0)
-        return frame(camera, middle - half, middle + half, aspect, 1.0)
+        margin = _HANDS_MARGIN if view == "hands" else 1.0
+        return frame_around(camera, middle, middle + np.concatenate(around), aspect, margin)
     low = np.min([box[0] for box in boxes], axis=0)
     high = np.max([box[1] for box in boxes], axis=0)
     return frame(camera, low, high, aspect, 1.04 if view == "ensemble" else 1.08)
@@ -184,13 +201,11 @@ def _hands(stage: Stage, row: int) -> FloatArray:
     return np.array([stage.joint_m(row, name) for name in names])
 
 
-def _half(view: View, stage: Stage, row: int) -> FloatArray:
-    kit = stage.members[row].assets
-    half = _HALF_M[view]
-    if view == "mouth":
-        half *= face_size(kit.character)
+def _around(view: View, stage: Stage, row: int, middle: FloatArray) -> FloatArray:
+    """Points that a close-up shows, from its middle (N, 3)."""
     if view == "hands":
-        hands = _hands(stage, row)
-        half *= min(hand_size(kit.character.skeleton), 1.5)
-        half = max(half, 0.5 * float(np.linalg.norm(hands[1] - hands[3])) + 0.12)
-    return np.full(3, half * 0.58)
+        return np.array([stage.joint_m(row, name) for name in _FINGERS]) - middle
+    half = 0.58 * _HALF_M[view]
+    if view == "mouth":
+        half *= face_size(stage.members[row].assets.character)
+    return half * np.array(list(product((-1.0, 1.0), repeat=3)))

@@ -20,6 +20,7 @@ from widgets.viewport.finger_visibility import fingers_seen
 from widgets.viewport.framing import tracked, turn_rad, view_camera
 
 USUAL = (-48.0, 14.0)
+BONES = ("Proximal", "Intermediate", "Distal")
 
 
 @cache
@@ -95,3 +96,21 @@ def test_the_instrument_hides_what_is_behind_it() -> None:
     behind, before = fingers_seen(stage, 0, [USUAL, (0.0, 34.0)], turn)
     assert hidden[0] > hidden[1]
     assert behind < before - 0.3
+
+
+@pytest.mark.parametrize(
+    "map_id", ["trumpet_Bb", "clarinet_Bb", "flute", "bassoon", "horn_double_F_Bb", "sax_baritone_Eb", "tuba_BBb"]
+)
+@pytest.mark.parametrize("aspect", [1.0, 2.3])
+def test_both_hands_fill_the_picture(map_id: str, aspect: float) -> None:
+    """By a projection of its own: every finger is in the picture, and the hands take most of its height or width."""
+    stage = playing(map_id)
+    camera = view_camera("hands", stage, [0], Camera(), aspect)
+    names = ["Hand", *(f"{finger}{bone}" for finger in ("Index", "Middle", "Ring", "Little") for bone in BONES)]
+    joints_m = np.array([stage.joint_m(0, side + name) for side in ("left", "right") for name in names])
+    away = joints_m - camera.eye_m
+    tangent = math.tan(math.radians(camera.fov_deg) / 2.0)
+    seen = np.stack([away @ camera.right / aspect, away @ camera.up], axis=1) / (-away @ camera.backward)[:, None]
+    share = np.abs(seen).max(axis=0) / tangent
+    assert share.max() < 0.95
+    assert share.max() > 0.7
