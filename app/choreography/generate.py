@@ -17,6 +17,7 @@ from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.arrivals import FPS, arrival_frames, best_arrival_map, joint_speed_m_s, smoothed
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
+from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.feet import planted, stands
 from app.choreography.hands import out_of_body
@@ -33,6 +34,7 @@ from app.choreography.sequence import (
     choose,
     grid_of,
 )
+from app.choreography.spins import hips_rad, without_haste
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from app.rig import quaternion
@@ -95,6 +97,9 @@ class Choreographer:
         self._speeds = [joint_speed_m_s(clip) for clip in model.clips]
         self._hits_s = self._slowest_s()
         self._usual_rad_s: dict[Fraction, float] = {}
+        captured = [hips_rad(model.clips[one.clip].span(one.start, one.end + 1)) for one in model.segments]
+        fps = float(model.clips[0].fps)
+        self._fastest_rad_s = max(FASTEST_HIPS_RAD_S, fps * max(float(one.max(initial=0.0)) for one in captured))
 
     @cached_property
     def candidates(self) -> SegmentCandidates:
@@ -149,7 +154,7 @@ class Choreographer:
         clip = _sized(clip, manner.size)
         if manner.mirrored:
             clip, contacts = mirrored(clip), contacts[:, ::-1]
-        clip = out_of_body(clip)
+        clip = out_of_body(without_haste(clip, self._fastest_rad_s))
         standing = stands(clip, contacts)
         return Dance(planted(clip, standing, manner.weight), first_s, plan.steps, speeds, seams, standing)
 

@@ -1,4 +1,4 @@
-"""Visible flaws of a dance: joins that jerk, and standing feet that slide.
+"""Visible flaws of a dance: joins that jerk, jolts anywhere else, and standing feet that slide.
 
 Judged on the captured body, before the dance is put onto a character.
 """
@@ -14,6 +14,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import tips_m
+from app.choreography.damage import Damage, damage
 from app.choreography.feet import FootPlant
 from app.choreography.resample import resampled
 from app.rig import quaternion
@@ -23,6 +24,8 @@ JERKS: Final = 1.25
 USUAL_PERCENTILE: Final = 99.9
 AROUND: Final = (-1, 2)
 """First and last frame about a seam that are looked at; a change is seen in the frame before and the one after."""
+NEAR_S: Final = 0.1
+"""A jolt no farther from a seam than this is that of the seam."""
 SLIDES_M_S: Final = 0.005
 """A standing foot whose tip goes faster than this slides."""
 
@@ -49,6 +52,14 @@ def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) ->
     changes = _changes(clip.rotations[np.clip(frames, 0, len(clip) - 1)], clip.fps)
     worst = changes.reshape(len(seams), -1).max(axis=1)
     return tuple(seam for seam, change in zip(seams, worst.tolist(), strict=True) if change > JERKS * usual_rad_s)
+
+
+def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
+    """Places anywhere in a dance, but at its seams, where a body moves as none does."""
+    apart = round(NEAR_S * float(clip.fps))
+    return tuple(
+        one for one in damage(clip) if all(seam < one.start - apart or one.stop + apart < seam for seam in seams)
+    )
 
 
 def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:

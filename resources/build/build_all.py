@@ -1,10 +1,11 @@
 """Makes the generated files again that are committed, in the order in which one is made from another.
 
-    python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--soundfont FluidR3_GM.sf2]
+    python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--captures FOLDER]
+                                        [--soundfont FluidR3_GM.sf2]
 
 Run from the repository, in the environment of the tests. Without steps: all of them. A step that lacks what it needs
-is left out and said to be: the characters need a Python with anny, the soundfont its source (`README.md` says how to
-get both), the pictures a display or ``xvfb-run``.
+is left out and said to be: the characters need a Python with anny, the choreography its captures, the soundfont its
+source (`README.md` says how to get them), the pictures a display or ``xvfb-run``.
 """
 
 from __future__ import annotations
@@ -74,6 +75,16 @@ STEPS = (
         _modules("resources.build.arrange_example", "resources.build.compose_dance_example"),
     ),
     Step(
+        "choreography",
+        ("resources/choreographies/*.choreography",),
+        lambda arguments: (
+            (("-m", "resources.build.build_choreography", str(arguments.captures)),)
+            if arguments.captures is not None
+            else ()
+        ),
+        "--captures: a folder with the captures and rhythms",
+    ),
+    Step(
         "soundfont",
         ("resources/soundfont/*.sf2",),
         lambda arguments: (
@@ -106,6 +117,7 @@ def main(texts: list[str] | None = None) -> int:
     parser.add_argument(
         "--characters-python", type=Path, help="of the environment that resources/build/README.md sets up"
     )
+    parser.add_argument("--captures", type=Path, help="a folder with the captures and rhythms of the choreography")
     parser.add_argument("--soundfont", type=Path, help="FluidR3_GM.sf2")
     arguments = parser.parse_args(texts)
     unknown = set(arguments.steps) - {step.name for step in STEPS}

@@ -22,7 +22,7 @@ from app.chance import chance, performed_seed
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
-from app.choreography.judge import jerking_seams, sliding_stands
+from app.choreography.judge import jerking_seams, jolts, sliding_stands
 from app.choreography.performed.choreographers import choreographer_of, too_long_to_dance
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, delayed
@@ -304,7 +304,7 @@ def not_held(
 
 
 def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
-    """A problem for every join that shows, and for every standing foot that slides (`app.choreography.judge`)."""
+    """Problems of a dance that show (`app.choreography.judge`): joins, jolts, and standing feet that slide."""
     fps = float(dance.clip.fps)
     found = []
     for seam in jerking_seams(dance.clip, dance.seams, usual_rad_s):
@@ -315,6 +315,10 @@ def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
         )
         message = Message("dance.seam_shows", {"before": before, "after": after})
         found.append(Problem(message, None, time_s, time_s))
+    for jolt in jolts(dance.clip, dance.seams):
+        start_s, end_s = (dance.first_s + frame / fps for frame in (jolt.start, jolt.stop))
+        state = next((step.state for step in dance.steps if step.end_s > start_s), dance.steps[-1].state)
+        found.append(Problem(Message("dance.jolts", {"number": state + 1}), None, start_s, end_s))
     for stand in sliding_stands(dance.clip, dance.standing):
         side = ("left", "right")[stand.foot]
         start_s, end_s = (dance.first_s + frame / fps for frame in (stand.start, stand.stop))

@@ -10,7 +10,7 @@ import pytest
 
 from app.choreography.dance import Dance, Manner
 from app.choreography.generate import Choreographer
-from app.choreography.judge import jerking_seams, sliding_stands, usual_change_rad_s
+from app.choreography.judge import jerking_seams, jolts, sliding_stands, usual_change_rad_s
 from app.rig import quaternion
 from tests.support.dance_measures import seam_jumps_rad_s, usual_jump_rad_s
 from tests.support.dances import beaten, model
@@ -58,3 +58,15 @@ def test_a_foot_that_slides_is_found(dance: Dance) -> None:
     found = sliding_stands(replace(dance.clip, hips_m=hips), dance.standing)
     assert stand in found
     assert all(one.start < stand.stop and stand.start < one.stop for one in found)
+
+
+def test_a_jolt_is_found_anywhere_in_the_dance(dance: Dance) -> None:
+    assert jolts(dance.clip, dance.seams) == ()
+    free = next(frame for frame in range(200, len(dance.clip)) if all(abs(frame - seam) > 15 for seam in dance.seams))
+    rotations = dance.clip.rotations.copy()
+    rotations[free : free + 3, 0] = quaternion.multiply(
+        quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), 0.6), rotations[free : free + 3, 0]
+    )
+    (found,) = jolts(replace(dance.clip, rotations=rotations), dance.seams)
+    assert (found.start, found.stop, found.parts) == (free - 1, free + 3, ("hips",))
+    assert jolts(replace(dance.clip, rotations=rotations), (*dance.seams, free)) == ()

@@ -40,7 +40,8 @@ def test_limbs_are_where_another_reader_has_them(name: str) -> None:
     import bvhio  # warns at its first import
 
     names, side, tolerance_m, up = KNOWN[name]
-    read = read_motion(CLIPS / f"{name}.bvh")
+    # At the rate that its file says it would be faster than a body.
+    read = read_motion(CLIPS / f"{name}.bvh", Fraction(60) if "salsa" in name else None)
     assert read.up == up
     # The neck moves the head by up to 26 mm.
     assert read.apart_m < 0.03 + tolerance_m

@@ -1,0 +1,50 @@
+"""Spins that are danced too fast slow down, arrive when they did, and nothing else changes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.spins import hips_rad, without_haste
+from app.rig import quaternion
+from tests.support.dances import stepping
+
+
+def spinning(fps: int, peak_rad_s: float, turn_rad: float, tilt_rad: float = 0.1) -> MotionClip:
+    """A body that turns by so much in its middle, at up to this speed, a little tilted."""
+    clip = stepping(8, fps=fps)
+    lasts_s = 2.0 * turn_rad / peak_rad_s
+    share = np.clip((np.arange(len(clip)) / fps - 2.0) / lasts_s + 0.5, 0.0, 1.0)
+    angles = turn_rad * (share - np.sin(2.0 * np.pi * share) / (2.0 * np.pi))
+    rotations = clip.rotations.copy()
+    tilted = quaternion.from_axis_angle((1.0, 0.0, 0.0), tilt_rad)
+    rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle((0.0, 1.0, 0.0), angles), tilted)
+    return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+@settings(max_examples=12, deadline=None)
+@given(fps=st.sampled_from((30, 60, 120)), peak=st.floats(15.5, 26.0), turn=st.floats(1.5, 7.0))
+def test_no_spin_is_faster_than_a_bodys(fps: int, peak: float, turn: float) -> None:
+    clip = spinning(fps, peak, turn)
+    calm = without_haste(clip)
+    assert hips_rad(calm).max() * fps <= 15.0
+    assert calm.rotations[:, 1:] == pytest.approx(clip.rotations[:, 1:])
+    assert np.array_equal(calm.hips_m, clip.hips_m)
+    # The body faces where it did before and after, and leans as it did throughout.
+    ends = np.abs(np.einsum("fi,fi->f", calm.rotations[:, 0], clip.rotations[:, 0]))[[0, -1]]
+    assert ends == pytest.approx(1.0, abs=1e-3)
+    up = [quaternion.rotate(one.rotations[:, SEGMENTS.index("hips")], (0.0, 1.0, 0.0))[:, 1] for one in (calm, clip)]
+    assert up[0] == pytest.approx(up[1], abs=1e-6)
+
+
+def test_an_ordinary_dance_is_the_same_value() -> None:
+    clip = spinning(60, 13.0, 6.0)
+    assert without_haste(clip) is clip
+    fast = spinning(60, 22.0, 6.0)
+    assert without_haste(fast, 30.0) is fast
