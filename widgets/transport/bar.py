@@ -96,7 +96,7 @@ class TransportBar(Retranslated, QWidget):
         self.texted(
             self.frames,
             words=("transport_bar.frame", "", "transport_bar.frame_click_to_type_drag"),
-            name="transport_bar.frame_2",
+            name="transport_bar.frame",
         )
         sources = {str(source): f"transport_bar.{source}" for source in SOURCES}
         self.texted(self.source, explained="transport_bar.playback_source", options=sources)
@@ -141,7 +141,7 @@ class TransportBar(Retranslated, QWidget):
         widths_px: dict[QWidget, tuple[int, int]] = {
             self.bars: (78, 112),
             self.clock: (84, 112),
-            self.frames: (66, 92),
+            self.frames: (112, 140),
             self.source: (100, 190),
             self.snap: (66, 90),
         }
