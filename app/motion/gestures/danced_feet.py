@@ -56,7 +56,7 @@ IN_HIPS: Final = ("over", "sunk")
 """Samples that move hips, not feet."""
 CLEAR_S: Final = 0.3
 """Time for which feet stand before and after what the animator has them do."""
-GROWTH: Final = 0.7
+GROWTH: Final = 0.55
 """Power of the amount with which feet move: half of a dance shows in them too."""
 
 
