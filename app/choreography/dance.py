@@ -21,6 +21,8 @@ class Manner:
         Number of the model's source whose motion is preferred.
     size : float
         Of trunk and arms about their usual pose, 1 as captured.
+    melody : float
+        0..1: how much melody, bass and accents count beside percussion.
     weight : float
         -1 to 1: how light or heavy it is danced; knees bend by `app.choreography.feet.DEEPER` of a leg more at 1.
     """
@@ -30,6 +32,7 @@ class Manner:
     size: float = 1.0
     weight: float = 0.0
     mirrored: bool = False
+    melody: float = 0.5
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ Matching", ACM Multimedia 1998). Every hit is at the onset of a note and as stro
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -45,9 +46,12 @@ LONGER: Final = 2.0
 
 
 def audible_rhythm(score: Score) -> Rhythm:
-    """The rhythm a dancer follows in a piece: its percussion, or without any what `derived_rhythm` finds."""
-    rhythm = score_rhythm(score)
-    return rhythm if len(rhythm.hits_s) else derived_rhythm(score)
+    """The rhythm a dancer follows in a piece: its percussion with its melody, or without any what `derived_rhythm`
+    finds."""
+    rhythm, melody = score_rhythm(score), derived_rhythm(score)
+    if not len(rhythm.hits_s):
+        return melody
+    return replace(rhythm, melody=melody) if len(melody.hits_s) else rhythm
 
 
 def derived_rhythm(score: Score) -> Rhythm:

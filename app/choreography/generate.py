@@ -21,7 +21,7 @@ from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.feet import planted, stands
 from app.choreography.hands import out_of_body
-from app.choreography.heard import heard_hits, log_emission
+from app.choreography.heard import Hearing, hearing
 from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
@@ -121,9 +121,9 @@ class Choreographer:
         )
 
     @cached_property
-    def log_emission(self) -> FloatArray:
-        """See `app.choreography.heard.log_emission`."""
-        return log_emission(self.model)
+    def hearing(self) -> Hearing:
+        """Sounds of its segments."""
+        return hearing(self.model)
 
     def dance(
         self,
@@ -182,7 +182,7 @@ class Choreographer:
         chosen = choose(
             grid,
             candidates,
-            heard_hits(rhythm, self.log_emission),
+            self.hearing.hits(rhythm, manner.melody),
             seed=manner.seed,
             weights=weights,
             constraints=constraints,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
+from app.choreography.hidden_markov import count
 from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import SYMBOLS, Rhythm
 
@@ -42,21 +44,55 @@ class HeardHits:
         return np.asarray(self.summed[stop, segments] - self.summed[first, segments])
 
 
-def heard_hits(rhythm: Rhythm, log_emission: FloatArray) -> HeardHits:
-    """The hits of a piece, each counted by its strength wherever in a segment it is, as when they are learned.
+@dataclass(frozen=True, eq=False)
+class Hearing:
+    """Log odds of a sound during each segment of a model, against how often it sounds at all.
 
-    Parameters
+    Attributes
     ----------
-    log_emission : (S, 47) float64
-        See `log_emission`.
+    percussion, melody : (S, 47) float64
+        Melody, bass and accents stand for drums (`app.choreography.derived_rhythm`): those of a piece without
+        percussion count as percussion, those beside percussion as ``melody``.
     """
-    summed = np.zeros((len(rhythm.hits_s) + 1, len(log_emission)))
-    np.cumsum(rhythm.strengths[:, None] * log_emission[:, rhythm.symbols].T, axis=0, out=summed[1:])
-    return HeardHits(rhythm.hits_s, summed)
+
+    percussion: FloatArray
+    melody: FloatArray
+
+    def hits(self, rhythm: Rhythm, melody: float) -> HeardHits:
+        """The hits of a piece, each counted by its strength wherever in a segment it is, as when they are learned.
+
+        Parameters
+        ----------
+        melody : float
+            How much melody, bass and accents count beside percussion.
+        """
+        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * self.percussion[:, rhythm.symbols].T
+        tune = rhythm.melody
+        if tune is not None and melody:
+            beside = melody * tune.strengths[:, None] * self.melody[:, tune.symbols].T
+            order = np.argsort(np.concatenate([times_s, tune.hits_s]), kind="stable")
+            times_s = np.concatenate([times_s, tune.hits_s])[order]
+            scores = np.concatenate([scores, beside])[order]
+        return HeardHits(times_s, np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)]))
 
 
-def log_emission(model: ChoreographyModel) -> FloatArray:
-    """(S, 47) log odds of each symbol during each segment, against how often it sounds at all.
+def hearing(model: ChoreographyModel) -> Hearing:
+    """Learn how segments sound; a model without melodies hears them as the percussion that they stand for."""
+    percussion = _log_odds(model, [one.sounds for one in model.segments], model.emission, learned_symbols(model))
+    melodies = [one.melody for one in model.segments]
+    known = tuple(set().union(*melodies))
+    if not known:
+        return Hearing(percussion, percussion)
+    states = np.array([one.state for one in model.segments], np.int64)
+    symbols = [np.array(own, np.int64) for own in melodies]
+    _, emission, _ = count([states], [symbols], model.states, smoothing=1.0)
+    return Hearing(percussion, _log_odds(model, melodies, emission, known))
+
+
+def _log_odds(
+    model: ChoreographyModel, symbols: Sequence[Sequence[int]], emission: FloatArray, known: Sequence[int]
+) -> FloatArray:
+    """(S, 47) log odds of each symbol during each segment.
 
     A basic motion of several dancers sounded to the drums of each: those of its own dancer count most. A symbol that
     was never heard tells nothing; smoothing alone would have it of the motions that heard least.
@@ -64,13 +100,12 @@ def log_emission(model: ChoreographyModel) -> FloatArray:
     states = np.array([one.state for one in model.segments], np.int64)
     clips = np.array([one.clip for one in model.segments], np.int64)
     counts = np.zeros((model.states, len(model.clips), len(SYMBOLS)))
-    for one in model.segments:
-        np.add.at(counts[one.state, one.clip], list(one.sounds), 1.0)
-    own = counts + OF_ALL * model.emission[:, None, :]
-    emission = (own / own.sum(axis=-1, keepdims=True))[states, clips]
-    log_odds = np.zeros(emission.shape)
-    known = list(learned_symbols(model))
-    log_odds[:, known] = np.log(emission / emission.mean(axis=0))[:, known]
+    for one, sounding in zip(model.segments, symbols, strict=True):
+        np.add.at(counts[one.state, one.clip], list(sounding), 1.0)
+    own = counts + OF_ALL * emission[:, None, :]
+    shares = (own / own.sum(axis=-1, keepdims=True))[states, clips]
+    log_odds = np.zeros(shares.shape)
+    log_odds[:, list(known)] = np.log(shares / shares.mean(axis=0))[:, list(known)]
     return log_odds
 
 

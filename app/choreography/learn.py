@@ -212,10 +212,16 @@ def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
 def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[MotionSegment]:
     """The motions of a clip with the symbols that sound during each."""
     bounds = np.array([(one.start, one.end) for one in segments], np.float64).reshape(-1, 2) / float(FPS)
-    first, last = np.searchsorted(pair.rhythm.hits_s, bounds - source.offset_s).T
-    if segments and not (last > first).any():
+
+    def during(rhythm: Rhythm) -> list[tuple[int, ...]]:
+        symbols = rhythm.symbols.tolist()
+        spans = np.searchsorted(rhythm.hits_s, bounds - source.offset_s).tolist()
+        return [tuple(symbols[start:stop]) for start, stop in spans]
+
+    if segments and not any(during(pair.rhythm)):
         raise UsageError("learn.no_overlap", motion=pair.motion_name, music=pair.music_name)
-    symbols = pair.rhythm.symbols.tolist()
+    melody = [()] * len(segments) if pair.rhythm.melody is None else during(pair.rhythm.melody)
     return [
-        replace(one, sounds=tuple(symbols[start:stop])) for one, start, stop in zip(segments, first, last, strict=True)
+        replace(one, sounds=own, melody=tune)
+        for one, own, tune in zip(segments, during(pair.rhythm), melody, strict=True)
     ]

@@ -47,6 +47,8 @@ class MotionSegment:
         The basic motion that it is an instance of.
     sounds : tuple of int
         Percussion symbols that sounded during it, in time order. Files of version 1 do not say them.
+    melody : tuple of int
+        Symbols for melody, bass and accents (`app.choreography.derived_rhythm`) beside percussion.
     """
 
     clip: int
@@ -55,6 +57,7 @@ class MotionSegment:
     end: int
     state: int
     sounds: tuple[int, ...] = ()
+    melody: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -70,6 +70,8 @@ class _File(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
     """Clip, start, accent, end, state."""
     sounds: list[list[int]] = []
     """Symbols during each segment."""
+    melodies: list[list[int]] = []
+    """Symbols of the melody beside percussion."""
     bodies: list[_Body]
     motions: list[_Motion]
 
@@ -114,6 +116,7 @@ def encode_model(model: ChoreographyModel) -> bytes:
         emission=model.emission.tolist(),
         segments=[(one.clip, one.start, one.accent, one.end, one.state) for one in model.segments],
         sounds=[list(one.sounds) for one in model.segments],
+        melodies=[list(one.melody) for one in model.segments],
         bodies=[_Body(clip.shape.offsets_m.tolist(), clip.shape.ends_m.tolist()) for clip in model.clips],
         motions=[
             _Motion(len(clip), clip.hips_m.astype("<f4").tobytes(), clip.rotations.astype("<f4").tobytes())
@@ -158,9 +161,11 @@ def decode_model(content: bytes, file: str) -> ChoreographyModel:
     )
     segments = tuple(MotionSegment(*row) for row in raw.segments)
     check.segments(segments, clips, states)
-    if raw.sounds:
-        check.sounds(raw.sounds, len(segments))
-        segments = tuple(replace(one, sounds=tuple(own)) for one, own in zip(segments, raw.sounds, strict=True))
+    for place, symbols in (("sounds", raw.sounds), ("melodies", raw.melodies)):
+        check.symbols(place, symbols, len(segments))
+    missing: list[list[int]] = [[]] * len(segments)
+    heard = zip(segments, raw.sounds or missing, raw.melodies or missing, strict=True)
+    segments = tuple(replace(one, sounds=tuple(sounds), melody=tuple(melody)) for one, sounds, melody in heard)
     return ChoreographyModel(
         name=raw.name,
         sources=tuple(raw.sources),
@@ -222,10 +227,10 @@ class _Check:
         missing = set(range(states)) - {one.state for one in segments}
         self.is_true("segments", not missing, f"no motion of state {min(missing, default=0)}")
 
-    def sounds(self, sounds: Sequence[Sequence[int]], segments: int) -> None:
-        self.is_true("sounds", len(sounds) == segments, f"{len(sounds)} of {segments}")
-        for number, own in enumerate(sounds):
-            self.is_true(f"sounds[{number}]", all(0 <= one < len(SYMBOLS) for one in own), "no percussion symbol")
+    def symbols(self, place: str, symbols: Sequence[Sequence[int]], segments: int) -> None:
+        self.is_true(place, len(symbols) in (0, segments), f"{len(symbols)} of {segments}")
+        for number, own in enumerate(symbols):
+            self.is_true(f"{place}[{number}]", all(0 <= one < len(SYMBOLS) for one in own), "no percussion symbol")
 
     def probabilities(self, place: str, rows: Sequence[Any], shape: tuple[int, ...]) -> FloatArray:
         lengths = {len(row) for row in rows} if len(shape) > 1 else {shape[-1]}

@@ -33,6 +33,8 @@ class Rhythm:
         The piece has no percussion: the symbols were derived from melody, bass and accents.
     divisions : (N,) int, optional
         Of each beat, as the metre divides it: 3 of a dotted quarter of six eighths; 2 without.
+    melody : Rhythm, optional
+        Beside percussion, what melody, bass and accents stand for.
     """
 
     beats_s: FloatArray
@@ -42,6 +44,16 @@ class Rhythm:
     strengths: FloatArray
     derived: bool
     divisions: IntArray | None = None
+    melody: Rhythm | None = None
+
+
+def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
+    """Return whether two rhythms are the same to a dancer."""
+    if one is None or other is None:
+        return one is other
+    arrays = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions")
+    same = all(np.array_equal(getattr(one, name), getattr(other, name)) for name in arrays)
+    return same and are_alike(one.melody, other.melody)
 
 
 def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
@@ -57,4 +69,9 @@ def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
     def later_s(places: FloatArray) -> FloatArray:
         return np.asarray(np.interp(places + beats, numbers, all_s))
 
-    return replace(rhythm, beats_s=later_s(count), hits_s=later_s(np.interp(rhythm.hits_s, rhythm.beats_s, count)))
+    def later(one: Rhythm) -> Rhythm:
+        melody = None if one.melody is None else later(one.melody)
+        hits_s = later_s(np.interp(one.hits_s, rhythm.beats_s, count))
+        return replace(one, beats_s=later_s(count), hits_s=hits_s, melody=melody)
+
+    return later(rhythm)

@@ -186,7 +186,10 @@ def _dancer(dancer: Dancer) -> Table:
         "x_m": dancer.stage.x_m,
         "z_m": dancer.stage.z_m,
         "turn_deg": math.degrees(dancer.stage.turn_rad),
-        **{field: getattr(dancer, field) for field in ("seed", "delay_beats", "mirrored", "source", "size", "weight")},
+        **{
+            field: getattr(dancer, field)
+            for field in ("seed", "delay_beats", "mirrored", "source", "size", "weight", "melody")
+        },
     }
 
 

@@ -66,6 +66,8 @@ class Dancer(msgspec.Struct, frozen=True):
         Of the motion, 0..1.5; 1: as captured.
     weight : float
         -1..1, from light to heavy: how deep the knees bend; 0: as captured.
+    melody : float
+        0..1: how much melody, bass and accents count beside percussion; a piece without percussion is danced by them.
     colour : str
         ``"#rrggbb"``; empty: the theme's.
     """
@@ -96,5 +98,9 @@ class Dancer(msgspec.Struct, frozen=True):
         "dancer_parameter.weight", "dancer_parameter.weight_tip",
         section="dancer", bounds=(-1.0, 1.0), since=8,
     )] = 0.0
+    melody: Annotated[float, Parameter(
+        "dancer_parameter.melody", "dancer_parameter.melody_tip",
+        section="dancer", bounds=(0.0, 1.0), since=16,
+    )] = 0.5
     # fmt: on
     colour: str = ""

@@ -353,6 +353,7 @@ def first_part(rhythm: Rhythm, longest_s: float = LONGEST_S) -> Rhythm:
         hits_s=rhythm.hits_s[hits],
         symbols=rhythm.symbols[hits],
         strengths=rhythm.strengths[hits],
+        melody=None if rhythm.melody is None else first_part(rhythm.melody, longest_s),
     )
 
 

@@ -25,7 +25,7 @@ from app.choreography.generate import Choreographer
 from app.choreography.judge import jerking_seams, jolts, sliding_stands
 from app.choreography.performed.choreographers import choreographer_of, too_long_to_dance
 from app.choreography.retarget import retarget
-from app.choreography.rhythm import Rhythm, delayed
+from app.choreography.rhythm import Rhythm, are_alike, delayed
 from app.choreography.sequence import AccentGrid, Constraints, grid_of
 from app.errors import AppError, Message
 from app.identity_cache import IdentityCache, LargeResults
@@ -204,7 +204,7 @@ class _Made(NamedTuple):
 def manner_of(dancer: Dancer, sources: int) -> Manner:
     """Style of a dancer; a source that the choreography does not have counts as none."""
     source = dancer.source if 0 <= dancer.source < sources else None
-    return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored)
+    return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored, dancer.melody)
 
 
 def dancing_of(performance: Performance, dancer: Dancer) -> GeneratedDance:
@@ -224,7 +224,8 @@ def dancing_of(performance: Performance, dancer: Dancer) -> GeneratedDance:
     # Another seed of the piece is another performance by everyone.
     dancer = msgspec.structs.replace(dancer, seed=performed_seed(dancer.seed, project.seed))
     rhythm = delayed(rhythm_of(performance), dancer.delay_beats) if dancer.delay_beats else rhythm_of(performance)
-    rhythm = _same_rhythm(rhythm)
+    # Who does not listen to the melody dances on as before when it is edited.
+    rhythm = _same_rhythm(rhythm if dancer.melody else replace(rhythm, melody=None))
     corrections = project.dance_corrections.get(dancer.id, ())
     tempo_map, frame = project.score.tempo_map, dance_frame(performance)
     return _DANCING.step(
@@ -370,10 +371,7 @@ def _same_rhythm(rhythm: Rhythm) -> Rhythm:
     """One object for equal rhythms: an edit of notes seldom changes the rhythm."""
     with _recent_rhythms_lock:
         for known in _recent_rhythms:
-            if all(np.array_equal(getattr(known, name), getattr(rhythm, name)) for name in _RHYTHM_FIELDS):
+            if are_alike(known, rhythm):
                 return known
         _recent_rhythms.append(rhythm)
         return rhythm
-
-
-_RHYTHM_FIELDS: Final = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions")

@@ -259,6 +259,13 @@ def _add_generate(actions: Actions) -> None:
         help="from -1, light, to 1, heavy: how deep knees bend (default: 0, as captured)",
     )
     command.add_argument(
+        "--melody",
+        type=bounded_number(0.0, 1.0, "an amount", float),
+        default=0.5,
+        metavar="AMOUNT",
+        help="how much melody, bass and accents count beside percussion, from 0 to 1 (default: 0.5)",
+    )
+    command.add_argument(
         "--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
     )
     command.set_defaults(run=generate)
@@ -288,7 +295,8 @@ def generate(arguments: argparse.Namespace) -> None:
     name: str = arguments.choreography
     model = read_model(choreography_path(name) if name in bundled_choreographies() else Path(name))
     rhythm = audible_rhythm(uncast_score(read_contents(arguments.piece)))
-    manner = Manner(arguments.seed, _source(model, arguments.prefer), arguments.size, arguments.weight)
+    source = _source(model, arguments.prefer)
+    manner = Manner(arguments.seed, source, arguments.size, arguments.weight, melody=arguments.melody)
     cast = roles(arguments.formation, arguments.dancers, manner, len(model.sources))
     progress = Progress(sys.stderr)
     try:

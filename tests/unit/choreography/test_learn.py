@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.choreography.cuts import segment
-from app.choreography.heard import log_emission
+from app.choreography.heard import hearing
 from app.choreography.hidden_markov import count
 from app.choreography.learn import FPS, SMOOTHING, Pair, learn
 from app.choreography.model_file import encode_model
@@ -80,13 +80,31 @@ def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
     other = replace(SWINGS.rhythm, symbols=SWINGS.rhythm.symbols + 10)
     model = learn([SWINGS, replace(SWINGS, rhythm=other)], states=4, seed=0, name="")
     clips = np.array([one.clip for one in model.segments])
-    log_odds = log_emission(model)
+    log_odds = hearing(model).percussion
     assert {one.state for one in model.segments if one.clip == 0} == {one.state for one in model.segments if one.clip}
     for symbol, own in ((1, 0), (2, 0), (11, 1), (12, 1)):
         best = np.sort(log_odds[clips == own, symbol])[-5:]
         assert best.min() > 0.5 + log_odds[clips != own, symbol].max()
     # Sounds that no one heard tell nothing between two motions.
     assert np.ptp(log_odds[:, 30]) < 1e-6
+
+
+def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:
+    rhythms = [
+        replace(SWINGS.rhythm, melody=replace(SWINGS.rhythm, symbols=SWINGS.rhythm.symbols + by)) for by in (5, 9)
+    ]
+    model = learn([replace(SWINGS, rhythm=one) for one in rhythms], states=4, seed=0, name="")
+    alone = learn([SWINGS, SWINGS], states=4, seed=0, name="")
+    # What is counted of the percussion is counted without the melody.
+    assert model.emission.tolist() == alone.emission.tolist()
+    assert [one.melody for one in model.segments] == [(one.sounds[0] + (5, 9)[one.clip],) for one in model.segments]
+    clips, heard = np.array([one.clip for one in model.segments]), hearing(model)
+    summed = [heard.hits(rhythms[0], amount).summed[-1] for amount in (0.0, 0.5, 1.0)]
+    assert summed[0][clips == 0] == pytest.approx(summed[0][clips == 1])
+    own, other = (np.array([one[clips == clip].mean() for one in summed]) for clip in (0, 1))
+    assert (np.diff(own - other) > 1.0).all()
+    # Without melodies of its own a model hears them as the drums that they stand for.
+    assert hearing(alone).melody.tolist() == hearing(alone).percussion.tolist()
 
 
 def test_offsets_are_found_where_none_is_given() -> None:

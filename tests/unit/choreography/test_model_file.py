@@ -137,6 +137,7 @@ def changed(*path: str | int, to: Any) -> bytes:
         (("segments",), [[0, 1, 2, 3, 0]] * 50, "segments[1]"),
         (("sounds",), [[0]], "sounds"),
         (("sounds", 3), [46, 47], "sounds[3]"),
+        (("melodies", 3), [-1], "melodies[3]"),
         (("initial",), [], "initial"),
         (("initial", 0), 2.0, "initial"),
         (("transition", 0, 0), -0.5, "transition"),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hmmlearn.base import BaseHMM
 
-from app.choreography.heard import HeardHits, heard_hits
+from app.choreography.heard import HeardHits, Hearing
 from app.choreography.rhythm import Rhythm
 from app.choreography.sequence import (
     AccentGrid,
@@ -137,7 +137,7 @@ def test_a_sound_is_heard_wherever_it_is_in_a_beat(where: float) -> None:
     # Four beats of the one sound, then four of the other.
     symbols = 20 + np.arange(64) // 4 % 2
     music = Rhythm(beats, np.arange(64) % 4, beats + 0.5 * where, symbols, np.ones(64), derived=False)
-    found = choose(grid_of(music), own, heard_hits(music, log_odds), seed=0)
+    found = choose(grid_of(music), own, Hearing(log_odds, log_odds).hits(music, 0.0), seed=0)
     # Motions meet half way from accent to accent.
     accents_s = 0.25 * np.array([place for place, _ in found])
     danced = np.searchsorted(0.5 * (accents_s[1:] + accents_s[:-1]), music.hits_s, side="right")
@@ -148,7 +148,7 @@ def test_a_sound_is_heard_wherever_it_is_in_a_beat(where: float) -> None:
 def test_constraints_are_met_and_solved_around() -> None:
     own, rhythm = candidates(8, 3, spread=0.3), beaten(32)
     grid = grid_of(rhythm)
-    heard = heard_hits(rhythm, emission(len(own.states), 9))
+    heard = Hearing(odds := emission(len(own.states), 9), odds).hits(rhythm, 0.0)
     free = choose(grid, own, heard, seed=5)
     # A phrase that is not asked for anything begins on the beat.
     place = 16
@@ -167,7 +167,7 @@ def test_constraints_are_met_and_solved_around() -> None:
 def test_the_same_seed_is_the_same_dance_and_another_is_another() -> None:
     own, rhythm = candidates(12, 4, spread=0.3), beaten(64)
     grid = grid_of(rhythm)
-    heard = heard_hits(rhythm, emission(len(own.states), 9))
+    heard = Hearing(odds := emission(len(own.states), 9), odds).hits(rhythm, 0.0)
     assert choose(grid, own, heard, seed=1) == choose(grid, own, heard, seed=1)
     assert choose(grid, own, heard, seed=1) != choose(grid, own, heard, seed=2)
 

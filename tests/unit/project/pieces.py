@@ -222,6 +222,7 @@ def full_project(folder: str = "/music") -> Project:
                 2,
                 0.75,
                 0.5,
+                0.25,
                 "#00ff7f",
             ),
             Dancer("dancer:2", "Dancer 2", "not_bundled", "nobody", StagePosition(-0.5, 2.25, 0.0)),
