@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QCheckBox, QPushButton, QToolButton
+from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
 
 from app.choreography.body import SEGMENTS
@@ -20,6 +20,7 @@ from app.choreography.model_file import read_model
 from app.choreography.read_motion import read_motion
 from app.editor.session import Session
 from tests.gui.choreography.test_learn_dialog import drop, press, row_texts, select, shown, type_number
+from tests.support.damaged import damaged
 from tests.support.dances import stepping
 from tests.support.windows import child
 from tests.unit.choreography.test_command import write_clip, write_drums
@@ -241,3 +242,18 @@ def test_the_pose_under_the_mouse_is_drawn(dialog: LearnDialog) -> None:
     assert after[hand, 1] > before[hand, 1] + 0.2
     clip = read_motion(dialog.drafts[0].motion).clip
     assert after == pytest.approx(pose_of(clip, plot(dialog).frame_at(place.x())), abs=1e-4)
+
+
+def test_sections_that_are_left_out_are_shaded(session: Session, qtbot: QtBot, folder: Path) -> None:
+    clip = arm_swings(60)
+    spoilt = damaged(clip, "flip", "rightUpperLeg", 300, 40, np.array((1.0, 0.0, 0.0)))
+    write_clip(folder / "spoilt.bvh", spoilt)
+    dialog = shown(session, qtbot, folder)
+    drop(dialog, folder / "spoilt.bvh", folder / "drums.mid")
+    ((start, stop),) = plot(dialog).unfit
+    assert 294 <= start < 300 < 340 <= stop < 346
+    assert 0 < len(plot(dialog).cuts) < len(FOUND)
+    assert not any(cut.start < stop and start < cut.end for cut in plot(dialog).cuts)
+    notes = child(dialog, QLabel, "learn_pair_notes").text()
+    assert "left out: 4.9" in notes
+    assert "rightUpperLeg" in notes

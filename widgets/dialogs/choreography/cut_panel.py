@@ -110,11 +110,13 @@ class CutPanel(Retranslated, QWidget):
             self._place.setText("")
             if before.analysis is not None:
                 self.plot.show_motion(*_EMPTY)
+                self.plot.show_unfit(())
         else:
             start_s = read.motion.start_s
             hits_s = read.pair.rhythm.hits_s + offset_s_of(draft, found)
             if before.analysis is not analysis:
                 self.plot.show_motion(analysis.segmentation.curve_rad_s2, analysis.clip.fps, start_s, hits_s)
+                self.plot.show_unfit(analysis.unfit)
                 self.plot.show_playhead(start_s)
                 self._point(0)
             else:

@@ -7,6 +7,7 @@ zooms with Ctrl, the middle button pans.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final, Literal
@@ -111,6 +112,8 @@ class CutPlot(QWidget):
             for name in ("hits", "curve", "bound", "accent", "selected", "playhead")
         }
         self._dots: Any = pg.ScatterPlotItem(size=7, pen=None)
+        self._unfit_spans: tuple[tuple[int, int], ...] = ()
+        self._unfit: Any = pg.BarGraphItem(x0=[], x1=[], height=[], pen=None)
         in_column(self.plot, of=self, margins=0)
         self._build()
         self._apply_theme()
@@ -126,7 +129,7 @@ class CutPlot(QWidget):
         self.plot.setCentralItem(area)
         self.plot.setMinimumHeight(120)
         self.plot.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        for item in (*self._items.values(), self._dots):
+        for item in (self._unfit, *self._items.values(), self._dots):
             self.view.addItem(item)
         for axis in self._axes:
             axis.enableAutoSIPrefix(False)
@@ -144,6 +147,11 @@ class CutPlot(QWidget):
     def cuts(self) -> Cuts:
         """The cuts that are shown."""
         return self._cuts
+
+    @property
+    def unfit(self) -> tuple[tuple[int, int], ...]:
+        """Spans of frames that are shaded."""
+        return self._unfit_spans
 
     @property
     def selected(self) -> CutLine | None:
@@ -172,6 +180,12 @@ class CutPlot(QWidget):
         self.show_hits(hits_s)
         self._draw()
         self.fit()
+
+    def show_unfit(self, spans: Sequence[tuple[int, int]]) -> None:
+        """Shade spans of frames from which nothing is learned."""
+        self._unfit_spans = tuple(spans)
+        starts, stops = (self.time_s([span[end] for span in spans]) for end in (0, 1))
+        self._unfit.setOpts(x0=starts, x1=stops, height=np.full(len(spans), self._top))
 
     def show_hits(self, hits_s: FloatArray) -> None:
         """Show the music elsewhere."""
@@ -416,6 +430,9 @@ class CutPlot(QWidget):
         for name, pen in pens.items():
             self._items[name].setPen(pen)
         self._dots.setBrush(pg.mkBrush(tokens.players[1]))
+        shade = QColor(tokens.warning)
+        shade.setAlphaF(0.3)
+        self._unfit.setOpts(brush=pg.mkBrush(shade))
 
     # Qt's own names
 
