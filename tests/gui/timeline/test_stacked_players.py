@@ -206,7 +206,7 @@ def test_of_many_players_the_first_and_the_one_in_front_are_stacked(stacked: Tim
     assert [place.session.player_id for place in stacked.players.shown] == [*ids[: MOST_STACKED - 1], ids[-1]]
     left_out = child(stacked, QLabel, "stacked_players_left_out")
     assert left_out.isVisible()
-    assert left_out.text().startswith("8 more of the selected players")
+    assert left_out.text().startswith("8 more players are selected")
     stacked.stack.verticalScrollBar().setValue(stacked.stack.verticalScrollBar().maximum())
     assert left_out.geometry().bottom() <= stacked.players.height()
     session.set_players(ids[:8])
