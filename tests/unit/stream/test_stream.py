@@ -149,9 +149,11 @@ def ours(character: Character, pose: Pose, stage: StagePosition) -> dict[str, tu
 def test_a_dancer_is_received_without_an_instrument(tmp_path: Path) -> None:
     project = with_dancers(played()[0].project, tmp_path, "Ana")
     dancing, stage = dancing_of(Performance(project), project.dancers[0]), project.dancers[0].stage
-    motion = dancing.motion(Fraction(30), 300, 90)
+    motion = dancing.motion(Fraction(30), 150, 300)
+    aside_m = motion.hips_m[:, 0]
     hips = []
-    for frame_index in (0, 40, 89):
+    # Frames in which the dance is farthest from itself, whatever it is.
+    for frame_index in (0, int(aside_m.argmin()), int(aside_m.argmax())):
         pose = Pose(
             rotations=motion.rotations[frame_index],
             hips_m=motion.hips_m[frame_index],
