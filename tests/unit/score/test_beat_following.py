@@ -26,6 +26,11 @@ def test_the_bar_line_at_the_end_is_no_bar() -> None:
     assert following(9, (8,)).doubtful_bars(METRES) == []
 
 
+def test_neighbouring_doubtful_bars_are_one_run_and_others_are_their_own() -> None:
+    bars = [bar for doubtful in (2, 3, 4, 7) for bar in range(4 * doubtful - 4, 4 * doubtful)]
+    assert following(33, tuple(bars)).doubtful_bars(METRES) == [(2, 4, 10), (7, 7, 10)]
+
+
 def test_a_piece_that_ends_within_a_bar_has_that_bar() -> None:
     assert [bar for bar, _ in following(10, ()).bars(METRES)] == [1, 2, 3]
 

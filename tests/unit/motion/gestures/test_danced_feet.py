@@ -9,7 +9,7 @@ from app.errors import Message
 from app.motion.gestures.danced_feet import IN_HIPS, LIFT_M, MOVE_KINDS, PEELS_S, DancedFeet
 from app.plan.model import GestureEvent
 
-STEP, HEEL, TOES = range(3)
+STEP, HEEL, TOES = map(MOVE_KINDS.index, ("step", "heel", "toes"))
 TIMES_S = np.arange(0.0, 8.0, 1 / 120)
 
 
@@ -33,10 +33,6 @@ WALK = feet((0, STEP, 2, 0.05, 0.0), (1, STEP, 4, -0.03, 0.04), (0, STEP, 6, -0.
 
 def correction(kind: str, start_s: float, end_s: float, *, corrected: bool) -> GestureEvent:
     return GestureEvent("x", kind, 0, 480, start_s, end_s, 1.0, Message("gesture.tap", {}), corrected)
-
-
-def test_kinds_are_numbered_as_here() -> None:
-    assert MOVE_KINDS == ("step", "heel", "toes")
 
 
 def test_a_foot_is_put_on_its_beat_and_stays_to_the_bit() -> None:

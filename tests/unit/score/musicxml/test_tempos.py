@@ -42,6 +42,16 @@ def test_a_ritardando_slows_down_until_a_tempo(tmp_path: Path) -> None:
     assert 60 < ramp[-1] < 80
 
 
+@pytest.mark.parametrize(("said", "mark"), [("rit.", 90), ("rit.", 40), ("accel.", 108), ("accel.", 200)])
+def test_a_gradual_change_never_goes_past_the_tempo_that_it_leads_to(said: str, mark: int, tmp_path: Path) -> None:
+    start = metronome("quarter", "100") + BAR
+    tempi = bpm(tmp_path, start, words(said) + BAR, metronome("quarter", str(mark)) + BAR)
+    ramp = [tempo for place, tempo in tempi if place < 8]
+    assert ramp == sorted(ramp, reverse=mark < 100)
+    assert min(100, mark) <= min(ramp) < max(ramp) <= max(100, mark)
+    assert tempi[-1][1] == mark
+
+
 def test_a_fermata_holds_its_note(tmp_path: Path) -> None:
     held = note("C4", 8) + note("D4", 8, notations="<fermata/>")
     assert bpm(tmp_path, held, BAR) == [(0, 120), (2, 60), (4, 120)]
