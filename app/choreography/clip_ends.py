@@ -22,7 +22,8 @@ HELD_RAD: Final = 0.05
 HELD_M: Final = 0.02
 """A pose is held while no segment and no place is farther from it."""
 JUMP_RAD_S: Final = 20.0
-"""A body that leaves the pose that it began with faster than this was put into it."""
+JUMP_M_S: Final = 8.0
+"""A body that leaves the pose or the place that it began with faster than this was put there."""
 LEAD_S: Final = 0.15
 """Swings that the jump to the motion leaves are over within this time."""
 AFTER_S: Final = 0.5
@@ -101,7 +102,9 @@ def _settled(clip: MotionClip, frame: int) -> int:
     fps = float(clip.fps)
     steps, later = round(LEAD_S * fps), round((LEAD_S + AFTER_S) * fps)
     some = clip.rotations[frame : frame + later + 1]
-    speeds = angle(some[:-1], some[1:]).max(axis=1, initial=0.0) * fps
+    ways = np.linalg.norm(np.diff(clip.hips_m[frame : frame + later + 1], axis=0), axis=1)
+    turned = angle(some[:-1], some[1:]).max(axis=1, initial=0.0)
+    speeds = fps * np.maximum(turned, ways * (JUMP_RAD_S / JUMP_M_S))
     fast = np.flatnonzero(speeds[:2] > JUMP_RAD_S)
     if not len(fast):
         return frame

@@ -74,6 +74,19 @@ def test_arms_lowered_from_a_t_pose_are_no_dance(length_s: float, at_end: bool) 
     assert done.mended == done.left_out == ()
 
 
+@pytest.mark.parametrize("kind", ["root_zero", "all_zero", "root"])
+@pytest.mark.parametrize("frames", [1, 2])
+@pytest.mark.parametrize("at_end", [False, True])
+def test_bad_first_and_last_frames_are_no_part_of_the_motion(kind: str, frames: int, at_end: bool) -> None:
+    clip = dancing(60)
+    spoilt = damaged(clip, kind, "hips", len(clip) - frames if at_end else 0, frames, np.array((0.6, 0.0, 0.8)))
+    done = cleaned(spoilt)
+    taken = (done.trail, done.lead_in) if at_end else (done.lead_in, done.trail)
+    assert frames <= taken[0] <= frames + 10
+    assert taken[1] == 0
+    assert done.left_out == ()
+
+
 def test_a_dance_is_no_rest_pose() -> None:
     for fps in (30, 60, 120):
         for clip in (dancing(fps), backwards(dancing(fps)), stepping(16, fps=fps)):
