@@ -1,9 +1,8 @@
 """Motion capture of others as a motion of the 16 segments.
 
-Bones are found by `app.rig.characters.joint_mapping`; the rest pose is turned upright, ahead and into the T-pose by
-`app.rig.characters.t_pose`. Joints between two segments (collars, buttocks, neck, further vertebrae) are folded into
-the segment beyond them: its world rotation is that of the file, its offset the mean over the clip of where its joint is
-on the segment that carries it.
+Bones and the T-pose are found by `app.choreography.captured_body`. Joints between two segments (collars, buttocks,
+neck, further vertebrae) are folded into the segment beyond them: its world rotation is that of the file, its offset the
+mean over the clip of where its joint is on the segment that carries it.
 """
 
 from __future__ import annotations
@@ -16,21 +15,18 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, FEET, PARENT_OF, SEGMENTS
+from app.choreography.body_check import report
+from app.choreography.captured_body import captured_body
 from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.formats.motion_limits import require_frames, require_rate
 from app.rig import quaternion
-from app.rig.characters.joint_mapping import JointMapping, map_joints
-from app.rig.characters.t_pose import Rest, facing_ahead, rest_of, turned_figure, turns_to_t_pose, upright
-from app.rig.figure import Figure
 from app.rig.motion_file import read_motion_file
-from metadata.model import REQUIRED_JOINTS
 
 UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45, "mm": 0.001}
 """Lengths that BVH files are written in, metres; CMU: a 0.45th of an inch (its ASF files, and BVH made of them)."""
@@ -73,6 +69,8 @@ class ReadMotion:
         The clip, and what was taken from the file's and changed in it.
     joints_doubtful : tuple of str
         Whose bones were guessed.
+    checked : Message
+        By how much the T-pose of the body that was found is off.
     rate_guess, file_guesses
         See `BvhClip`; also how the unit of the hips' positions was understood.
     apart_m : float
@@ -88,6 +86,7 @@ class ReadMotion:
     file_fps: Fraction
     joints_doubtful: tuple[str, ...]
     apart_m: float
+    checked: Message
     rate_guess: Message | None = None
     file_guesses: tuple[Message, ...] = ()
 
@@ -149,29 +148,17 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     lengths = (bvh.offsets_cm, bvh.root_translation_cm, *bvh.end_sites_cm.values(), *bvh.translations_cm.values())
     if any((np.abs(one) > FARTHEST_CM).any() for one in lengths):
         raise FileError("motion.far", file=file)
-    figure, mapping = _mapped(_figure(bvh, file))
-    _require_whole(mapping, file)
-    world = _world(bvh)
-    turn, up = _up(world.positions, mapping.bones)
-    factor = _places_factor(quaternion.rotate(turn, world.positions), mapping.bones)
+    found = captured_body(bvh, file)
+    factor = _places_factor(found.body.positions, found.body.joints)
     if factor != 1.0:
-        bvh = _with_places(bvh, mapping.bones["hips"], factor)
-        world = _world(bvh)
-    standing = upright(figure, mapping.bones)
-    standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
-    if standing is not figure:
-        # Which side is left depends on where ahead is.
-        mapping = map_joints(standing)
-        _require_whole(mapping, file)
-    bones = _segment_bones(mapping.bones)
-    rest = rest_of(standing)
-    t_turns = _t_turns(standing, mapping.bones, bones)
-    t_pose = np.array([quaternion.multiply(t_turns[name], rest.rotations[bone]) for name, bone in bones.items()])
-    held = list(bones.values())
-    rotations = quaternion.multiply(turn, quaternion.multiply(world.rotations[:, held], quaternion.conjugate(t_pose)))
-    positions = quaternion.rotate(turn, world.positions[:, held])
+        bvh = _with_places(bvh, found.body.joints["hips"], factor)
+        found = captured_body(bvh, file)
+    held = list(found.body.segments.values())
+    t_pose = np.array([found.t_pose[name] for name in SEGMENTS])
+    rotations = quaternion.multiply(found.body.rotations[:, held], quaternion.conjugate(t_pose))
+    positions = found.body.positions[:, held]
     offsets = _offsets(positions, rotations)
-    ends = _ends(bvh, bones, rest, t_turns)
+    ends = np.array([_end(name, quaternion.rotate(found.t_pose[name], found.hanging[name])) for name in ENDS])
     offsets[0] = 0.0
     high = _height(offsets, ends)
     unit, unit_m = _unit(high)
@@ -187,93 +174,9 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     apart_m = _apart(whole.span(proper.start, proper.stop), (positions - positions[:, :1])[proper])
     clip = replace(done.clip, hips_m=done.clip.hips_m - done.clip.hips_m[0] * (1.0, 0.0, 1.0))
     return ReadMotion(
-        replace(done, clip=clip), mapping.profile, unit, unit_m, up, bvh.fps, mapping.doubtful, apart_m,
-        bvh.rate_guess, bvh.guesses,
+        replace(done, clip=clip), found.profile, unit, unit_m, found.up, bvh.fps, found.doubtful, apart_m,
+        report(found.checked), bvh.rate_guess, (*bvh.guesses, *found.guesses),
     )  # fmt: skip
-
-
-@dataclass(frozen=True, eq=False)
-class _World:
-    positions: FloatArray
-    rotations: FloatArray
-
-
-def _figure(bvh: BvhClip, file: str) -> Figure:
-    """The rest pose, in the file's unit: nothing that reads it depends on the size."""
-    still = np.zeros((len(bvh.names), 4))
-    still[:, 3] = 1.0
-    return Figure(file, "bvh", bvh.names, bvh.parents, np.asarray(bvh.offsets_cm, np.float64), still, ())
-
-
-def _require_whole(mapping: JointMapping, file: str) -> None:
-    missing = [joint for joint in SEGMENTS if joint not in ("spine", "chest") and joint not in mapping.bones]
-    if missing:
-        raise FileError("motion.incomplete", file=file, joints=", ".join(missing))
-
-
-def _mapped(figure: Figure) -> tuple[Figure, JointMapping]:
-    """Joints of the figure; where bones are found by shape and not all are, of the figure turned as it stands best."""
-    mapping = map_joints(figure)
-    if set(REQUIRED_JOINTS) <= set(mapping.bones):
-        return figure, mapping
-    found = []
-    for turn in Rotation.create_group("O").as_matrix():
-        turned = turned_figure(figure, turn)
-        other = map_joints(turned)
-        if set(REQUIRED_JOINTS) <= set(other.bones):
-            places = rest_of(turned).positions_m
-            way = places[other.bones["head"]] - 0.5 * sum(places[other.bones[name]] for name in FEET)
-            found.append((float(way[1] / max(float(np.linalg.norm(way)), 1e-9)), turned, other))
-    _, figure, mapping = max(found, key=lambda one: one[0], default=(0.0, figure, mapping))
-    return figure, mapping
-
-
-def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """Return where feet without toes end: at their end sites or at the farthest of what hangs from them."""
-    rest = rest_of(figure)
-    tips = {}
-    for side in ("left", "right"):
-        foot = bones[f"{side}Foot"]
-        ankle = rest.positions_m[foot]
-        ends = [rest.positions_m[bone] for bone, parent in enumerate(figure.parents) if parent == foot]
-        if foot in bvh.end_sites_cm:
-            ends.append(ankle + quaternion.rotate(rest.rotations[foot], bvh.end_sites_cm[foot]))
-        if ends:
-            tips[side] = max(ends, key=lambda end: float(np.linalg.norm((end - ankle)[[0, 2]])))
-    return tips
-
-
-def _world(bvh: BvhClip) -> _World:
-    """Places of the file's joints in each frame, in its own space."""
-    rotations = np.array(bvh.rotations_xyzw, np.float64)
-    positions = np.empty((*rotations.shape[:2], 3))
-    for joint, parent in enumerate(bvh.parents):
-        if parent < 0:
-            positions[:, joint] = bvh.root_translation_cm
-        else:
-            way = bvh.translations_cm.get(joint, bvh.offsets_cm[joint])
-            moved = quaternion.rotate(rotations[:, parent], way)
-            positions[:, joint] = positions[:, parent] + moved
-            rotations[:, joint] = quaternion.multiply(rotations[:, parent], rotations[:, joint])
-    return _World(positions, rotations)
-
-
-def _up(positions: FloatArray, bones: Mapping[str, int]) -> tuple[FloatArray, str]:
-    """Turn that takes the motion's up to +Y, and the axis that it was: where heads are above feet most of the time."""
-    feet = 0.5 * (positions[:, bones["leftFoot"]] + positions[:, bones["rightFoot"]])
-    way = np.median(positions[:, bones["head"]] - feet, axis=0)
-    axis = int(np.argmax(np.abs(way)))
-    sign = 1.0 if way[axis] >= 0.0 else -1.0
-    names = f"{'+' if sign > 0 else '-'}{'XYZ'[axis]}"
-    turns = {
-        "+Y": Rotation.identity(),
-        "-Y": Rotation.from_euler("z", 180.0, degrees=True),
-        "+Z": Rotation.from_euler("x", -90.0, degrees=True),
-        "-Z": Rotation.from_euler("x", 90.0, degrees=True),
-        "+X": Rotation.from_euler("z", 90.0, degrees=True),
-        "-X": Rotation.from_euler("z", -90.0, degrees=True),
-    }
-    return np.asarray(turns[names].as_quat(), np.float64), names
 
 
 def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
@@ -311,19 +214,6 @@ def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
     return replace(bvh, root_translation_cm=root, translations_cm=moved, guesses=(*bvh.guesses, guess))
 
 
-def _segment_bones(bones: Mapping[str, int]) -> dict[str, int]:
-    """The bone of each segment; the chest is the highest of the trunk, which arms and head hang from."""
-    column = [bones[name] for name in ("spine", "chest", "upperChest") if name in bones]
-    chest = column[-1] if column else bones["hips"]
-    spine = column[0] if len(column) > 1 else bones["hips"]
-    return {name: {"spine": spine, "chest": chest}.get(name, bones.get(name, -1)) for name in SEGMENTS}
-
-
-def _t_turns(figure: Figure, joints: Mapping[str, int], bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    turns = turns_to_t_pose(figure, rest_of(figure), joints)
-    return {name: turns.get(name, quaternion.IDENTITY) for name in bones}
-
-
 def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
     """(16, 3) mean place of each segment's joint on the segment that carries it."""
     offsets = np.zeros((len(SEGMENTS), 3))
@@ -334,24 +224,12 @@ def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
     return offsets
 
 
-def _ends(bvh: BvhClip, bones: Mapping[str, int], rest: Rest, turns: Mapping[str, FloatArray]) -> FloatArray:
-    """(5, 3) the farthest point that hangs from each last segment, in the T-pose; zero where nothing does."""
-    places, upright_turn = rest.positions_m, rest.rotations[0]  # Bones of these files have no turns of their own.
-    ends = np.zeros((len(ENDS), 3))
-    for at, name in enumerate(ENDS):
-        below = {bones[name]}
-        for bone, parent in enumerate(bvh.parents):
-            if parent in below:
-                below.add(bone)
-        points = [places[bone] for bone in sorted(below)]
-        hanging = [(bone, end) for bone, end in bvh.end_sites_cm.items() if bone in below]
-        points += [places[bone] + quaternion.rotate(upright_turn, end) for bone, end in hanging]
-        ways = quaternion.rotate(turns[name], np.array(points) - places[bones[name]])
-        along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
-        reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
-        # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
-        ends[at] = ways[int(np.argmax(reach))] if name != "head" else (0.0, float(reach.max()), 0.0)
-    return ends
+def _end(name: str, ways: FloatArray) -> FloatArray:
+    """The farthest point (3,) that hangs from a last segment, of those (N, 3) in the T-pose."""
+    along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
+    reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
+    # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
+    return ways[int(np.argmax(reach))] if name != "head" else np.array([0.0, float(reach.max()), 0.0])
 
 
 def _apart(clip: MotionClip, seen: FloatArray) -> float:

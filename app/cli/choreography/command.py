@@ -168,6 +168,7 @@ def learn(arguments: argparse.Namespace) -> None:
         progress.clear()
     say(*learned_table(model, target, [one.motion.start_s for one in read]), "", text(report(model)))
     notes = [f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := to_check(one))]
+    say("", "body:", *(f"  {one.pair.motion_name}: {text(one.motion.checked)}" for one in read))
     if notes:
         say("", "to look at:", *notes)
     for source in model.sources:

@@ -229,7 +229,7 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     before = path[: path.index(start)]
     if before:
         found[f"{side}Shoulder"] = before[0]
-    return found | _fingers(tree, side, hand)
+    return found | fingers(tree, side, hand)
 
 
 def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
@@ -244,7 +244,7 @@ def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, 
     )
 
 
-def _fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
+def fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
     """Chains from the hand: the one that leads away most is the thumb, the others follow by their distance from it."""
     tips = [bone for bone, above in enumerate(tree.above) if hand in above and not tree.children[bone]]
     paths = [tree.path(hand, tip) for tip in tips]

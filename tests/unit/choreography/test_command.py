@@ -118,6 +118,10 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",
         "",
         "There are too few motions (at least 20 are needed) to test whether the music tells anything about them.",
+        "",
+        "body:",
+        "  swings.bvh: T-pose: hip line 0°, shoulder line 0° off level; spine 0° off upright; knees 0°, elbows 0°, "
+        "toes 0° off ahead",
     ]
     model = read_model(target)
     assert (model.name, model.sources[0].credits) == ("swings", "Danced by no one, public domain")

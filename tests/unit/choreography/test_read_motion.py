@@ -186,10 +186,12 @@ def test_joints_beyond_any_body_are_damage(tmp_path: Path) -> None:
     assert caught.value.message.id == "motion.far"
 
 
-def test_a_body_without_size_is_read_without_a_fault(tmp_path: Path) -> None:
+def test_a_body_without_size_is_refused(tmp_path: Path) -> None:
     text = re.sub("OFFSET .*", "OFFSET 0 0 0", bvh(np.eye(3), 0.01))
     (tmp_path / "a.bvh").write_text(text, encoding="utf-8")
-    assert np.isfinite(read_motion(tmp_path / "a.bvh").clip.world().positions_m).all()
+    with pytest.raises(FileError) as caught:
+        read_motion(tmp_path / "a.bvh")
+    assert caught.value.message.id == "motion.no_size"
 
 
 def test_a_frame_of_hours_is_refused_unless_the_rate_is_given(tmp_path: Path) -> None:

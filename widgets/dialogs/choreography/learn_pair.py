@@ -148,6 +148,7 @@ class PairForm(Retranslated, QWidget):
             guessed = [message_text(message) for message in to_check(read)]
             if guessed:
                 notes.append(self.tr("pair_form.to_check").format(notes="; ".join(guessed)))
+            notes.append(message_text(read.motion.checked))
             if not read.pair.credits:
                 notes.append(self.tr("pair_form.no_credits_say_where_motion"))
         self._notes.setText("\n".join(notes))

@@ -1,0 +1,138 @@
+"""The check that every reading of a captured body ends in: what of it is not as a body is in the T-pose.
+
+Message: ``motion.checked``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.choreography.captured import ARM, LEG, SIDES, Captured, X, Y, Z, angle_deg, unit
+from app.errors import Message
+from app.rig import quaternion
+
+ASKEW_DEG: Final = 60.0
+"""A zero pose stands if every part of it is nearer than this to where the motion has it in the mean."""
+STRAIGHT_DEG: Final = 45.0
+"""And if the legs of it are nearer than this to hanging down."""
+SURE: Final = 0.5
+"""A hinge less sure than this says nothing."""
+MOST_DEG: Final = {"hips": 5.0, "shoulders": 5.0, "spine": 35.0, "knees": 45.0, "elbows": 80.0, "toes": 45.0}
+"""The lines of hips and shoulders agree with +X to this in the T-pose, the trunk with +Y, knees and toes with ahead."""
+MOST_TURNED_DEG: Final = {"shoulders": 60.0, "knees": 75.0, "toes": 75.0}
+"""And in the mean of the motion, as the hips have them."""
+LEVEL: Final = np.array([1.0, 0.0, 1.0])
+UNLIKE: Final = 0.4
+"""Less than this part of the other, and a bone is no upper or lower part of a limb."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """An angle by which the T-pose of a captured body is off.
+
+    Attributes
+    ----------
+    kind : str
+        Key of `MOST_DEG`.
+    joint : str
+        VRM 1.0 joint.
+    """
+
+    kind: str
+    joint: str
+    off_deg: float
+
+    most_deg: float
+
+    @property
+    def wrong(self) -> bool:
+        """True if a body is not like this."""
+        return self.off_deg > self.most_deg
+
+
+def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, ...]:
+    """Measure the T-pose of a body: level lines, an upright trunk, knees, elbows and toes ahead.
+
+    Parameters
+    ----------
+    turns : mapping of str to ndarray, shape (4,)
+        Rotation of each segment's bone in the T-pose.
+    """
+    found = []
+
+    def off(kind: str, joint: str, way: FloatArray, target: FloatArray, limits: Mapping[str, float] = MOST_DEG) -> None:
+        if np.linalg.norm(way):
+            found.append(Checked(kind, joint, angle_deg(way, target), limits[kind]))
+
+    def turned(segment: str, ways: FloatArray) -> FloatArray:
+        return quaternion.rotate(turns[segment], body.within(segment, ways).mean(axis=0))
+
+    off("hips", "hips", turned("hips", body.hip_line), X)
+    off("shoulders", "chest", turned("chest", body.shoulder_line), X)
+    trunk = ("hips", "spine", "chest")
+    ways = pairwise([*map(body.start, trunk), body.top])
+    column = [turned(name, end - start) for name, (start, end) in zip(trunk, ways, strict=True)]
+    off("spine", "spine", np.sum(column, axis=0), Y)
+    off("shoulders", "chest", turned("hips", unit(body.shoulder_line)), X, MOST_TURNED_DEG)
+    for side, sign in SIDES:
+        for kind, limb, ahead in (("knees", LEG, X), ("elbows", ARM, Y)):
+            bend = body.bend([side + name for name in limb], sign)
+            for segment in limb[:2]:
+                axis, sure = body.hinge(side + segment, bend)
+                if sure > SURE:
+                    off(kind, side + segment, quaternion.rotate(turns[side + segment], axis), ahead)
+            if kind == "knees" and sure > SURE:
+                off(kind, f"{side}LowerLeg", turned("hips", bend), X, MOST_TURNED_DEG)
+        foot = f"{side}Foot"
+        off("toes", foot, quaternion.rotate(turns[foot], body.tips[foot]) * LEVEL, Z)
+        toes = quaternion.rotate(body.rotations[:, body.segments[foot]], body.tips[foot])
+        off("toes", foot, turned("hips", toes * LEVEL) * LEVEL, Z, MOST_TURNED_DEG)
+    return tuple(found)
+
+
+def unlike(body: Captured) -> tuple[str, ...]:
+    """Lower parts of limbs that are much shorter or longer than the upper ones."""
+    wrong = []
+    for side, _ in SIDES:
+        for limb in (LEG, ARM):
+            ways = np.diff([body.at(side + name)[0] for name in limb], axis=0)
+            short, long = sorted(np.linalg.norm(ways, axis=1))
+            if short <= UNLIKE * long:
+                wrong.append(side + limb[1])
+    return tuple(wrong)
+
+
+def report(found: Sequence[Checked]) -> Message:
+    """Largest angle of each kind, for the user."""
+    most = dict.fromkeys(MOST_DEG, 0.0)
+    for one in found:
+        if one.most_deg == MOST_DEG[one.kind]:
+            most[one.kind] = max(most[one.kind], one.off_deg)
+    return Message("motion.checked", {kind: round(off_deg) for kind, off_deg in most.items()})
+
+
+def stands(body: Captured, rest: Mapping[str, FloatArray], legs: Sequence[FloatArray]) -> bool:
+    """Return whether a zero pose is a standing body, as the motion has it.
+
+    Parameters
+    ----------
+    rest : mapping of str to ndarray, shape (4,)
+        As in `checked`.
+    legs : sequence of ndarray, shape (3,)
+        Direction of each part of the legs in the zero pose.
+    """
+    if any(angle_deg(way, -Y) > STRAIGHT_DEG for way in legs):
+        return False
+    ahead = np.cross(unit(body.hip_line), body.up)
+    for name in ("hips", "spine", "chest", "head"):
+        upright = quaternion.rotate(rest[name], body.mean(name, body.up))
+        facing = quaternion.rotate(rest[name], body.mean(name, ahead))
+        if max(angle_deg(upright, Y), angle_deg(facing, Z)) > ASKEW_DEG:
+            return False
+    return True

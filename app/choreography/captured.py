@@ -1,0 +1,139 @@
+"""A captured body in the world: where its joints are, and what about its bones no zero pose changes.
+
+A knee or an elbow bends about an axis that is fixed in the bones beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray, IntArray
+from app.rig import quaternion
+
+X: Final = np.array([1.0, 0.0, 0.0])
+Y: Final = np.array([0.0, 1.0, 0.0])
+Z: Final = np.array([0.0, 0.0, 1.0])
+LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
+ARM: Final = ("UpperArm", "LowerArm", "Hand")
+SIDES: Final = (("left", 1.0), ("right", -1.0))
+BENT_DEG: Final = (8.0, 20.0)
+"""A joint that bends less in nine of ten frames says nothing about its hinge, one that bends more says it for sure."""
+FIXED: Final = (0.9, 0.97)
+"""Length of the mean of a hinge's unit axes, seen from a bone: less and it is no hinge, more and it is one for sure."""
+
+
+@dataclass(frozen=True, eq=False)
+class Captured:
+    """A motion in the world, Y up.
+
+    Attributes
+    ----------
+    positions, rotations : ndarray, shapes (F, J, 3) and (F, J, 4)
+    joints : mapping of str to int
+        Bones by VRM 1.0 joint.
+    segments : mapping of str to int
+        Bones by segment.
+    tips : mapping of str to ndarray, shape (3,)
+        From the joint of each of `app.choreography.body.ENDS` to the next joint or the end of its bone, in the bone's
+        own axes: of a hand to the middle of these, of the others to the farthest; zero where there is none.
+    """
+
+    positions: FloatArray
+    rotations: FloatArray
+    joints: Mapping[str, int]
+    segments: Mapping[str, int]
+    tips: Mapping[str, FloatArray]
+
+    def at(self, joint: str) -> FloatArray:
+        """Places (F, 3) of a joint."""
+        places: FloatArray = self.positions[:, self.joints[joint]]
+        return places
+
+    def start(self, segment: str) -> FloatArray:
+        """Places (F, 3) of a segment's own joint."""
+        places: FloatArray = self.positions[:, self.segments[segment]]
+        return places
+
+    def within(self, segment: str, ways: FloatArray) -> FloatArray:
+        """Directions (F, 3) of the world in the axes of a segment's bone."""
+        return quaternion.rotate(quaternion.conjugate(self.rotations[:, self.segments[segment]]), ways)
+
+    def mean(self, segment: str, ways: FloatArray) -> FloatArray:
+        """Mean (3,) of the unit directions, in the axes of a segment's bone."""
+        mean: FloatArray = self.within(segment, unit(ways)).mean(axis=0)
+        return mean
+
+    def bend(self, limb: Sequence[str], sign: float) -> FloatArray:
+        """Axis (F, 3) that the middle joint of a limb bends about, as long as the sine of the bend; in the T-pose +X of
+        legs, +Y of arms.
+
+        Parameters
+        ----------
+        limb : sequence of str
+            Its three joints.
+        sign : float
+            1 of a left limb, -1 of a right one.
+        """
+        upper, lower, end = (self.at(name) for name in limb)
+        axes = np.cross(unit(lower - upper), unit(end - lower))
+        return axes if limb[0].endswith("Leg") else -sign * axes
+
+    def hinge(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
+        """Return the axis (3,) of a hinge in a bone, and how sure it is, 0 to 1."""
+        axes = self.within(segment, bend)
+        sizes = np.linalg.norm(axes, axis=1)
+        total = axes.sum(axis=0)
+        fixed = float(np.linalg.norm(total) / max(sizes.sum(), 1e-12))
+        return unit(total), min(self.bent(bend), _share(fixed, FIXED))
+
+    def bent(self, bend: FloatArray) -> float:
+        """Return how surely a joint bends at all, 0 to 1."""
+        sine = min(1.0, float(np.percentile(np.linalg.norm(bend, axis=1), 90)))
+        return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
+
+    @property
+    def up(self) -> FloatArray:
+        """+Y in every frame, (F, 3)."""
+        return np.tile(Y, (len(self.positions), 1))
+
+    @cached_property
+    def hip_line(self) -> FloatArray:
+        """From the right to the left hip joint, (F, 3)."""
+        return self.at("leftUpperLeg") - self.at("rightUpperLeg")
+
+    @cached_property
+    def shoulder_line(self) -> FloatArray:
+        """From the right to the left shoulder, (F, 3)."""
+        return self.at("leftUpperArm") - self.at("rightUpperArm")
+
+    @cached_property
+    def top(self) -> FloatArray:
+        """Joint on top of the chest, (F, 3)."""
+        return self.at("neck" if "neck" in self.joints else "head")
+
+    @cached_property
+    def standing(self) -> IntArray:
+        """Frames in which the head is as high as in the upper half of them: the body stands up."""
+        height = self.at("head")[:, 1]
+        frames: IntArray = np.flatnonzero(height >= np.median(height))
+        return frames
+
+
+def _share(value: float, bounds: tuple[float, float]) -> float:
+    return float(np.clip((value - bounds[0]) / (bounds[1] - bounds[0]), 0.0, 1.0))
+
+
+def unit(vectors: FloatArray) -> FloatArray:
+    """Vectors of length 1 (zero ones stay zero)."""
+    result: FloatArray = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
+    return result
+
+
+def angle_deg(a: FloatArray, b: FloatArray) -> float:
+    """Angle between two vectors (3,), degrees."""
+    return float(np.degrees(np.arccos(np.clip(unit(a) @ unit(b), -1.0, 1.0))))

@@ -1,0 +1,283 @@
+"""The body in a captured skeleton: its joints, and how each of its bones is turned in the T-pose.
+
+Joints are found by `app.rig.characters.joint_mapping`, by their names, or by `app.choreography.joints_by_lengths`;
+`app.choreography.anatomy` finds the T-pose, and `app.choreography.body_check` checks it.
+
+Messages: ``motion.incomplete`` and ``motion.misread`` (joints), ``motion.no_size``; guess ``motion.rest``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from app.arrays import FloatArray
+from app.choreography.anatomy import t_pose
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.body_check import Checked, checked, stands, unlike
+from app.choreography.captured import Captured
+from app.choreography.joints_by_lengths import joints_by_lengths
+from app.choreography.sides import exchanged, joints_by_side
+from app.errors import FileError, Message
+from app.formats.bvh.clip import BvhClip
+from app.rig import quaternion
+from app.rig.characters.joint_mapping import JointMapping, map_joints
+from app.rig.characters.t_pose import facing_ahead, rest_of, turns_to_t_pose, upright
+from app.rig.figure import Figure
+
+UPS: Final = {
+    "+Y": Rotation.identity(),
+    "-Y": Rotation.from_euler("z", 180.0, degrees=True),
+    "+Z": Rotation.from_euler("x", -90.0, degrees=True),
+    "-Z": Rotation.from_euler("x", 90.0, degrees=True),
+    "+X": Rotation.from_euler("z", 90.0, degrees=True),
+    "-X": Rotation.from_euler("z", -90.0, degrees=True),
+}
+"""Turns that take an axis of a file to +Y."""
+
+
+@dataclass(frozen=True, eq=False)
+class CapturedBody:
+    """A body and its T-pose.
+
+    Attributes
+    ----------
+    profile : str
+        Table of bone names; empty where the joints were found by shape.
+    doubtful : tuple of str
+        Joints whose bones were guessed.
+    t_pose : mapping of str to ndarray, shape (4,)
+        Rotation of each segment's bone in the T-pose.
+    hanging : mapping of str to ndarray, shape (N, 3)
+        Points that hang from each of `app.choreography.body.ENDS`, in its bone's axes; the joint itself is the first.
+    up : str
+        Axis of the file that points up, e.g. ``"+Z"``.
+    guesses : tuple of Message
+    checked : tuple of Checked
+        By how much the T-pose is off.
+    """
+
+    body: Captured
+    profile: str
+    doubtful: tuple[str, ...]
+    t_pose: Mapping[str, FloatArray]
+    hanging: Mapping[str, FloatArray]
+    up: str
+    guesses: tuple[Message, ...]
+    checked: tuple[Checked, ...]
+
+
+def captured_body(bvh: BvhClip, file: str) -> CapturedBody:
+    """Find the body in a clip; ``file`` is for messages.
+
+    Raises
+    ------
+    FileError
+        ``motion.incomplete`` if a leg, an arm, the hips or the head cannot be found; ``motion.misread`` if what was
+        found is no body, ``motion.no_size`` if all of it is at one place.
+    """
+    motion = _Motion(bvh, file)
+    named = map_joints(motion.figure)
+    wrong: tuple[str, ...] = ()
+    if named.profile and not _missing(named.bones):
+        for found in (motion.by_zero_pose(named, True), motion.by_motion(_by_names(motion.figure), True)):
+            if isinstance(found, CapturedBody):
+                return found
+            wrong = found or wrong
+    by_lengths = motion.by_lengths()
+    if not _missing(by_lengths.bones):
+        for found in (motion.by_zero_pose(by_lengths, False), motion.by_motion(by_lengths, False)):
+            if isinstance(found, CapturedBody):
+                return found
+            wrong = wrong or found
+    if wrong and not np.ptp(motion.places, axis=1).any():
+        raise FileError("motion.no_size", file=file)
+    if wrong:
+        raise FileError("motion.misread", file=file, joints=", ".join(wrong))
+    raise FileError("motion.incomplete", file=file, joints=", ".join(_missing(named.bones)))
+
+
+class _Motion:
+    """A clip in its own space, and ways of finding the body in it."""
+
+    def __init__(self, bvh: BvhClip, file: str) -> None:
+        self._bvh = bvh
+        self.places, self._rotations = _world(bvh)
+        self.figure = _figure(bvh, file)
+
+    def by_zero_pose(self, mapping: JointMapping, named: bool) -> CapturedBody | tuple[str, ...]:
+        """The body whose T-pose the zero pose says; what of it is wrong where that is no standing body."""
+        bvh, figure = self._bvh, self.figure
+        standing = upright(figure, mapping.bones)
+        standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
+        if named and standing is not figure:
+            # Which side is left depends on where ahead is.
+            mapping = map_joints(standing)
+            if _missing(mapping.bones):
+                return ()
+        body, up = self._captured(mapping.bones)
+        rest = rest_of(standing)
+        t_turns = turns_to_t_pose(standing, rest, mapping.bones)
+        zero = {
+            name: quaternion.multiply(t_turns.get(name, quaternion.IDENTITY), rest.rotations[bone])
+            for name, bone in body.segments.items()
+        }
+        legs = [
+            rest.positions_m[mapping.bones[side + end]] - rest.positions_m[mapping.bones[side + start]]
+            for side in ("left", "right")
+            for start, end in (("UpperLeg", "LowerLeg"), ("LowerLeg", "Foot"))
+        ]
+        if joints_by_side(body, named) != mapping.bones or not stands(body, zero, legs):
+            return ()
+        return self._checked(body, up, mapping, zero, (rest.positions_m[None], rest.rotations[None]))
+
+    def by_motion(self, mapping: JointMapping, named: bool) -> CapturedBody | tuple[str, ...]:
+        """The body whose T-pose its motion says; what of it is wrong where that is no body."""
+        if _missing(mapping.bones):
+            return ()
+        body, up = self._captured(mapping.bones)
+        joints = joints_by_side(body, named)
+        if joints != mapping.bones:
+            body, up = self._captured(joints)
+        return self._checked(body, up, mapping, None, (self.places, self._rotations))
+
+    def by_lengths(self) -> JointMapping:
+        """Joints by the lengths of bones, their sides as the names say that are known, or as the motion does."""
+        ends = {joint: float(np.linalg.norm(end)) for joint, end in self._bvh.end_sites_cm.items()}
+        bones = joints_by_lengths(self._bvh.parents, self.places, ends)
+        if not _missing(bones):
+            known = _by_names(self.figure).bones.items()
+            sides = [one for one in (bones, exchanged(bones)) if any(one.get(joint) == bone for joint, bone in known)]
+            bones = joints_by_side(self._captured(sides[0] if len(sides) == 1 else bones)[0], len(sides) == 1)
+        return JointMapping("", bones, (), tuple(bones))
+
+    def _checked(
+        self,
+        body: Captured,
+        up: str,
+        mapping: JointMapping,
+        zero: Mapping[str, FloatArray] | None,
+        poses: tuple[FloatArray, FloatArray],
+    ) -> CapturedBody | tuple[str, ...]:
+        turns = t_pose(body, zero)
+        found = checked(body, turns)
+        wrong = {one.joint: f"{one.joint} {one.off_deg:.0f}°" for one in found if one.wrong}
+        wrong = {joint: joint for joint in unlike(body)} | wrong
+        if wrong:
+            return tuple(wrong.values())
+        hanging = {name: _hanging(self._bvh, *poses, body.segments[name]) for name in ENDS}
+        guesses = () if zero is not None else (Message("motion.rest"),)
+        return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found)
+
+    def _captured(self, bones: Mapping[str, int]) -> tuple[Captured, str]:
+        """Return the body with Y up, and the axis of the file that points up."""
+        up = _up(self.places, bones)
+        turn = np.asarray(UPS[up].as_quat(), np.float64)
+        segments = _segment_bones(self._bvh.parents, bones)
+        turned = quaternion.rotate(turn, self.places), quaternion.multiply(turn, self._rotations)
+        return Captured(*turned, bones, segments, {name: _tip(self._bvh, name, segments[name]) for name in ENDS}), up
+
+
+def _by_names(figure: Figure) -> JointMapping:
+    """Joints by names alone: a figure without size has no shape that could gainsay them."""
+    mapping = map_joints(replace(figure, translations_m=np.zeros_like(figure.translations_m)))
+    bones = {joint: bone for joint, bone in mapping.bones.items() if joint not in mapping.doubtful}
+    return replace(mapping, bones=bones, doubtful=())
+
+
+def _figure(bvh: BvhClip, file: str) -> Figure:
+    """The zero pose, in the file's unit: nothing that reads it depends on the size."""
+    still = np.zeros((len(bvh.names), 4))
+    still[:, 3] = 1.0
+    return Figure(file, "bvh", bvh.names, bvh.parents, np.asarray(bvh.offsets_cm, np.float64), still, ())
+
+
+def _missing(bones: Mapping[str, int]) -> list[str]:
+    return [joint for joint in SEGMENTS if joint not in ("spine", "chest") and joint not in bones]
+
+
+def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
+    """Return where feet without toes end: at their end sites or at the farthest of what hangs from them."""
+    rest = rest_of(figure)
+    tips = {}
+    for side in ("left", "right"):
+        foot = bones[f"{side}Foot"]
+        ankle = rest.positions_m[foot]
+        ends = [rest.positions_m[bone] for bone, parent in enumerate(figure.parents) if parent == foot]
+        if foot in bvh.end_sites_cm:
+            ends.append(ankle + quaternion.rotate(rest.rotations[foot], bvh.end_sites_cm[foot]))
+        if ends:
+            tips[side] = max(ends, key=lambda end: float(np.linalg.norm((end - ankle)[[0, 2]])))
+    return tips
+
+
+def _world(bvh: BvhClip) -> tuple[FloatArray, FloatArray]:
+    """Places (F, J, 3) and rotations (F, J, 4) of the file's joints in its own space."""
+    rotations = np.array(bvh.rotations_xyzw, np.float64)
+    positions = np.empty((*rotations.shape[:2], 3))
+    for joint, parent in enumerate(bvh.parents):
+        if parent < 0:
+            positions[:, joint] = bvh.root_translation_cm
+        else:
+            way = bvh.translations_cm.get(joint, bvh.offsets_cm[joint])
+            moved = quaternion.rotate(rotations[:, parent], way)
+            positions[:, joint] = positions[:, parent] + moved
+            rotations[:, joint] = quaternion.multiply(rotations[:, parent], rotations[:, joint])
+    return positions, rotations
+
+
+def _up(positions: FloatArray, bones: Mapping[str, int]) -> str:
+    """Axis along which heads are above feet most of the time."""
+    feet = 0.5 * (positions[:, bones["leftFoot"]] + positions[:, bones["rightFoot"]])
+    way = np.median(positions[:, bones["head"]] - feet, axis=0)
+    axis = int(np.argmax(np.abs(way)))
+    return f"{'+' if way[axis] >= 0.0 else '-'}{'XYZ'[axis]}"
+
+
+def _segment_bones(parents: Sequence[int], bones: Mapping[str, int]) -> dict[str, int]:
+    """The bone of each segment; the chest is that which both arms hang from, the spine the first between it and the
+    hips, whatever bones of the trunk are called."""
+    hips = bones["hips"]
+    carriers = _above(parents, bones["leftUpperArm"])
+    right = set(_above(parents, bones["rightUpperArm"]))
+    own = {hips, bones["head"], bones.get("neck", -1)}
+    chest = next((bone for bone in carriers if bone in right and bone not in own - {hips}), hips)
+    between = [bone for bone in [chest, *_above(parents, chest)] if hips in _above(parents, bone)]
+    if not between:
+        chest = hips
+    spine = between[-1] if len(between) > 1 else hips
+    return {name: {"spine": spine, "chest": chest}.get(name, bones.get(name, -1)) for name in SEGMENTS}
+
+
+def _above(parents: Sequence[int], bone: int) -> list[int]:
+    """Bones above one, the nearest first."""
+    found = []
+    while (bone := parents[bone]) >= 0:
+        found.append(bone)
+    return found
+
+
+def _tip(bvh: BvhClip, name: str, bone: int) -> FloatArray:
+    """See `Captured.tips`."""
+    nexts = [bvh.offsets_cm[joint] for joint, parent in enumerate(bvh.parents) if parent == bone]
+    ways: FloatArray = np.array([*nexts, bvh.end_sites_cm.get(bone, np.zeros(3))], np.float64)
+    sizes = np.linalg.norm(ways, axis=1)
+    tip: FloatArray = ways[sizes > 0.0].sum(axis=0) / len(ways) if name.endswith("Hand") else ways[int(sizes.argmax())]
+    return tip
+
+
+def _hanging(bvh: BvhClip, places: FloatArray, rotations: FloatArray, bone: int) -> FloatArray:
+    """Points (N, 3) at and below a joint, in the mean of poses (P, J, 3) and (P, J, 4): from it, in its bone's axes."""
+    below = {bone}
+    for joint, parent in enumerate(bvh.parents):
+        if parent in below:
+            below.add(joint)
+    points = [places[:, joint] for joint in sorted(below)]
+    hanging = [(joint, end) for joint, end in bvh.end_sites_cm.items() if joint in below]
+    points += [places[:, joint] + quaternion.rotate(rotations[:, joint], end) for joint, end in hanging]
+    ways = np.array(points) - places[:, bone]
+    return np.asarray(quaternion.rotate(quaternion.conjugate(rotations[:, bone]), ways).mean(axis=1))

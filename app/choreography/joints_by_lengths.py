@@ -1,0 +1,172 @@
+"""Joints of a captured body whose bones have no known names: by the lengths of bones, which no pose changes.
+
+Limbs are the two pairs of branches that are alike and have no large branches of their own; the pair with the longer
+bones are the legs. A limb's two parts are the two bones, one after the other, that are longest together. Sides are
+arbitrary here: `app.choreography.sides` finds them in the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.rig.characters.joints_by_shape import Tree, fingers, spread_spine, tree_of
+
+POSES: Final = 25
+"""Poses, evenly over the motion, that are looked at."""
+ALIKE: Final = 0.12
+"""Branches whose lengths differ by less than this part are alike."""
+SIDE_BRANCH: Final = 0.4
+"""Branches shorter than this part of a limb are fingers, toes and heels."""
+PARTS_ALIKE: Final = 0.5
+"""The shorter part of a limb is longer than this part of the other."""
+LIMB_PART: Final = 0.5
+"""The two parts of a limb make more than this part of it; where they do not, bones are split."""
+STRAIGHT: Final = 0.03
+"""Sine of the bend up to which a joint is within a bone."""
+
+
+@dataclass(frozen=True)
+class _Limb:
+    """A limb from the joint it hangs from: joints down to the end, and those that its two parts lie between."""
+
+    root: int
+    path: tuple[int, ...]
+    joints: tuple[int, int, int]
+    length: float
+
+
+def joints_by_lengths(
+    parents: Sequence[int], positions: FloatArray, end_lengths: Mapping[int, float]
+) -> dict[str, int]:
+    """Bones by VRM 1.0 joint; empty where there is no body.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (F, J, 3)
+        Joints in the world.
+    end_lengths : mapping of int to float
+        Length of the bones that end nowhere, by joint.
+    """
+    frames = np.linspace(0, len(positions) - 1, min(POSES, len(positions))).round().astype(int)
+    poses = positions[frames]
+    tree = tree_of(parents, poses[0], frozenset())
+    return _Body(tree, poses, end_lengths).joints()
+
+
+class _Body:
+    """Lengths of the bones of a tree, and what they make of it."""
+
+    def __init__(self, tree: Tree, poses: FloatArray, end_lengths: Mapping[int, float]) -> None:
+        self._tree, self._poses = tree, poses
+        above = np.maximum(tree.parents, 0)
+        self._bone = np.median(np.linalg.norm(poses - poses[:, above], axis=2), axis=0)
+        self._reach = np.zeros(len(tree.parents))
+        """Length of the longest chain from each joint to an end."""
+        for joint in range(len(tree.parents) - 1, -1, -1):
+            ways = [self._bone[child] + self._reach[child] for child in tree.children[joint]]
+            self._reach[joint] = max([*ways, end_lengths.get(joint, 0.0)])
+
+    def joints(self) -> dict[str, int]:
+        pairs = [pair for joint in range(len(self._tree.parents)) if (pair := self._pair(joint)) is not None]
+        pairs.sort(key=lambda pair: pair[0].length + pair[1].length)
+        if len(pairs) < 2:
+            return {}
+        longest = pairs[-2:]
+        arms, legs = sorted(longest, key=lambda pair: sum(self._parts(limb) for limb in pair))
+        hips, chest = legs[0].root, arms[0].root
+        head = self._head(chest, {arms[0].path[0], arms[1].path[0]}, hips)
+        if hips == chest or not head:
+            return {}
+        found = {"hips": hips, "head": head[-1]} | ({"neck": head[0]} if len(head) > 1 else {})
+        if hips in self._tree.above[chest]:
+            found |= spread_spine(self._tree, self._tree.path(hips, chest))
+        for side, leg, arm in zip(("left", "right"), legs, arms, strict=True):
+            found |= self._named(leg, [f"{side}{part}" for part in ("", "UpperLeg", "LowerLeg", "Foot", "Toes")])
+            found |= self._named(arm, [f"{side}{part}" for part in ("Shoulder", "UpperArm", "LowerArm", "Hand", "")])
+            found |= fingers(self._tree, side, arm.joints[2])
+        children = self._tree.children[head[-1]]
+        if len(children) == 2 and not any(self._tree.children[eye] for eye in children) and self._alike(*children):
+            found |= dict(zip(("leftEye", "rightEye"), children, strict=True))
+        return found
+
+    def _pair(self, joint: int) -> tuple[_Limb, _Limb] | None:
+        """The two longest branches of a joint that are limbs alike."""
+        limbs = [limb for child in self._tree.children[joint] if (limb := self._limb(joint, child)) is not None]
+        alike = [pair for pair in combinations(limbs, 2) if self._alike(*(limb.path[0] for limb in pair))]
+        return max(alike, key=lambda pair: pair[0].length + pair[1].length, default=None)
+
+    def _alike(self, one: int, other: int) -> bool:
+        lengths = sorted(float(self._bone[child] + self._reach[child]) for child in (one, other))
+        return lengths[1] - lengths[0] <= ALIKE * lengths[1]
+
+    def _limb(self, root: int, child: int) -> _Limb | None:
+        whole = float(self._bone[child] + self._reach[child])
+        path = [child]
+        while self._tree.children[path[-1]]:
+            first, *others = sorted(
+                self._tree.children[path[-1]], key=lambda one: self._bone[one] + self._reach[one], reverse=True
+            )
+            if any(self._bone[one] + self._reach[one] > SIDE_BRANCH * whole for one in others):
+                return None
+            path.append(first)
+        parts = self._longest_parts(path)
+        if parts is None or self._sum(parts) < LIMB_PART * self._reach[child]:
+            parts = self._longest_parts(self._unsplit(path)) or parts
+        return None if parts is None else _Limb(root, tuple(path), parts, whole)
+
+    def _longest_parts(self, path: Sequence[int]) -> tuple[int, int, int] | None:
+        found = []
+        for start, middle, end in zip(path, path[1:], path[2:], strict=False):
+            short, long = sorted((self._apart(start, middle), self._apart(middle, end)))
+            if short > PARTS_ALIKE * long:
+                found.append((start, middle, end))
+        return max(found, key=self._sum, default=None)
+
+    def _sum(self, parts: tuple[int, int, int]) -> float:
+        return self._apart(parts[0], parts[1]) + self._apart(parts[1], parts[2])
+
+    def _parts(self, limb: _Limb) -> float:
+        return self._sum(limb.joints)
+
+    def _apart(self, one: int, other: int) -> float:
+        return float(np.median(np.linalg.norm(self._poses[:, one] - self._poses[:, other], axis=1)))
+
+    def _unsplit(self, path: Sequence[int]) -> list[int]:
+        """The path without joints at which it never bends."""
+        kept = [path[0]]
+        for joint, after in pairwise(path[1:]):
+            before, behind = (self._poses[:, one] - self._poses[:, joint] for one in (kept[-1], after))
+            sizes = np.linalg.norm(before, axis=1) * np.linalg.norm(behind, axis=1)
+            if (np.linalg.norm(np.cross(before, behind), axis=1) > STRAIGHT * sizes).any():
+                kept.append(joint)
+        return [*kept, path[-1]]
+
+    def _named(self, limb: _Limb, names: Sequence[str]) -> dict[str, int]:
+        """Joints of a limb; the first and the last of the names are of what is before and behind it, empty: of none."""
+        before = limb.path[: limb.path.index(limb.joints[0])]
+        behind = limb.path[limb.path.index(limb.joints[2]) + 1 :]
+        joints = [before[-1] if before else None, *limb.joints, behind[0] if behind else None]
+        return {
+            name: joint
+            for name, joint in zip(names, joints, strict=True)
+            if joint is not None and name not in ("", "left", "right")
+        }
+
+    def _head(self, chest: int, arms: set[int], hips: int) -> list[int]:
+        """Joints from the chest to the head; the last that has something beyond it, or turns."""
+        children = [one for one in self._tree.children[chest] if one not in arms and one not in self._tree.above[hips]]
+        if hips not in self._tree.above[chest]:
+            children = [one for one in children if one != hips]
+        path: list[int] = []
+        while len(children) == 1 or (children and not path):
+            path.append(max(children, key=lambda one: float(self._bone[one] + self._reach[one])))
+            children = list(self._tree.children[path[-1]])
+        if len(path) > 1 and not children and not self._reach[path[-1]]:
+            path.pop()  # The crown, as files without end sites have it.
+        return path

@@ -1,0 +1,150 @@
+"""A captured motion is the same on any rig: whatever its zero pose, its names and its axes are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+import pytest
+
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.read_motion import guesses, motion_of
+from app.errors import FileError
+from app.formats.bvh.clip import BvhClip
+from app.formats.bvh.read import read_bvh
+from app.rig import quaternion
+from tests.support.rerigged import (
+    REST_POSES,
+    mirrored,
+    renamed,
+    rerigged,
+    turned,
+    without_joints,
+    without_names,
+)
+
+SALSA: Final = read_bvh(Path(__file__).parents[2] / "data" / "motion" / "salsa_step.bvh")
+"""19 poses of a dancer whose zero pose is a standing body."""
+MOST_DEG: Final = 3.0
+PARTS: Final = (
+    *("hip", "abdomen", "chest", "neck", "head"),
+    *("Collar", "Shldr", "ForeArm", "Hand", "Buttock", "Thigh", "Shin", "Foot"),
+)
+TABLES: Final = {
+    "mixamo": (
+        *("Hips", "Spine", "Spine1", "Neck", "Head"),
+        *("{}Shoulder", "{}Arm", "{}ForeArm", "{}Hand", "{}Hip", "{}UpLeg", "{}Leg", "{}Foot"),
+    ),
+    "nobody's": (
+        *("Becken", "Lende", "Brust", "Hals", "Kopf"),
+        *("{}Schluesselbein", "{}Oberarm", "{}Elle", "{}Faust", "{}Po", "{}Schenkel", "{}Wade", "{}Sohle"),
+    ),
+}
+
+
+def by_table(table: Sequence[str]) -> Callable[[str], str]:
+    """Names of bones by another table; fingers and eyes keep theirs."""
+    names, sides = dict(zip(PARTS, table, strict=True)), {"l": "Left", "r": "Right"}
+    return lambda name: names.get(name) or names.get(name[1:], name).format(sides.get(name[0]))
+
+
+def off_deg(clip: MotionClip, other: MotionClip) -> dict[str, float]:
+    """Angle between the turns of each segment in the world, in the middle frame by size."""
+    ours, theirs = clip.world().rotations[:, 1:], other.world().rotations[:, 1:]
+    apart = np.abs(np.einsum("fsi,fsi->fs", ours, theirs))
+    found = np.degrees(2.0 * np.arccos(np.clip(np.median(apart, axis=0), 0.0, 1.0)))
+    return dict(zip(SEGMENTS, found.tolist(), strict=True))
+
+
+def require_same(bvh: BvhClip, other: BvhClip = SALSA) -> None:
+    read, expected = motion_of(bvh, "a.bvh"), motion_of(other, "b.bvh")
+    assert {name: off for name, off in off_deg(read.clip, expected.clip).items() if off > MOST_DEG} == {}
+    ours, theirs = (clip.world().positions_m[:, 1:] for clip in (read.clip, expected.clip))
+    assert ours == pytest.approx(theirs, abs=0.02)
+
+
+NAMES: Final[dict[str, Callable[[BvhClip], BvhClip]]] = {
+    "poser": lambda bvh: bvh,
+    **{name: lambda bvh, table=table: renamed(bvh, by_table(table)) for name, table in TABLES.items()},
+    "none": without_names,
+}
+
+
+@pytest.mark.parametrize("names", NAMES)
+@pytest.mark.parametrize("rest", REST_POSES)
+def test_the_dance_is_the_same_whatever_the_zero_pose_and_the_names_are(rest: str, names: str) -> None:
+    bvh = NAMES[names](rerigged(SALSA, REST_POSES[rest]))
+    require_same(bvh)
+    assert "motion.rest" in {guess.id for guess in guesses(motion_of(bvh, "a.bvh"))}
+
+
+@pytest.mark.parametrize("names", NAMES)
+def test_a_standing_zero_pose_is_used_whatever_the_names_are(names: str) -> None:
+    read, expected = motion_of(NAMES[names](SALSA), "a.bvh"), motion_of(SALSA, "b.bvh")
+    assert max(off_deg(read.clip, expected.clip).values()) < 0.01
+    assert "motion.rest" not in {guess.id for guess in guesses(expected)}
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
+@pytest.mark.parametrize("names", ["poser", "none"])
+def test_any_axis_may_be_up(axis: tuple[float, float, float], names: str) -> None:
+    turn = quaternion.from_axis_angle(axis, 0.5 * np.pi)
+    read = motion_of(NAMES[names](rerigged(turned(SALSA, turn), REST_POSES["x"])), "a.bvh")
+    assert read.up == ("+Z" if axis[0] else "-X")
+    expected = motion_of(SALSA, "b.bvh").clip
+    up = read.clip.world().positions_m[:, 1:, 1] - expected.world().positions_m[:, 1:, 1]
+    assert np.abs(up - up.mean()).max() < 0.02
+    assert max(_local_deg(read.clip, expected)) < MOST_DEG
+
+
+def _local_deg(clip: MotionClip, other: MotionClip) -> list[float]:
+    """As `off_deg`, but relative to the hips: these face elsewhere in another world."""
+    found = []
+    for at in range(1, len(SEGMENTS)):
+        turns = [
+            quaternion.multiply(quaternion.conjugate(world[:, 1]), world[:, 1 + at])
+            for world in (clip.world().rotations, other.world().rotations)
+        ]
+        apart = float(np.median(np.abs(np.einsum("fi,fi->f", *turns))))
+        found.append(float(np.degrees(2.0 * np.arccos(min(1.0, apart)))))
+    return found
+
+
+@pytest.mark.parametrize("rest", [None, "x", "random"])
+@pytest.mark.parametrize("names", NAMES)
+def test_the_left_is_where_the_knees_and_toes_say(rest: str | None, names: str) -> None:
+    """A mirrored motion is danced with the other arm, though the names of its bones do not know."""
+    mirror = mirrored(SALSA if rest is None else rerigged(SALSA, REST_POSES[rest]))
+    read, expected = motion_of(NAMES[names](mirror), "a.bvh"), motion_of(SALSA, "b.bvh")
+    ours, theirs = (one.clip.world().positions_m[:, 1:] for one in (read, expected))
+    sides = {"left": "right", "righ": "left"}
+    other = [SEGMENTS.index(sides.get(name[:4], name[:4]) + name[4 + name.startswith("right") :]) for name in SEGMENTS]
+    assert ours[:, other] * (-1.0, 1.0, 1.0) == pytest.approx(theirs, abs=0.02)
+
+
+@pytest.mark.parametrize("lost", ["Eye", "(Thumb|Index|Mid|Ring|Pinky)"])
+@pytest.mark.parametrize("names", ["poser", "none"])
+def test_joints_are_where_they_were_though_bones_lack(lost: str, names: str) -> None:
+    bvh = without_joints(SALSA, lambda name: re.search(lost, name) is not None)
+    read, expected = motion_of(NAMES[names](rerigged(bvh, REST_POSES["y"])), "a.bvh"), motion_of(bvh, "b.bvh")
+    ours, theirs = (one.clip.world().positions_m[:, 1:] for one in (read, expected))
+    assert ours == pytest.approx(theirs, abs=0.03)
+
+
+def test_feet_that_point_back_are_named() -> None:
+    """Nothing like that is danced: what is wrong is said, with the joint and the angle."""
+    back = {
+        joint: end * ((1.0, 1.0, -1.0) if "Foot" in SALSA.names[joint] else (1.0, 1.0, 1.0))
+        for joint, end in SALSA.end_sites_cm.items()
+    }
+    for rest in REST_POSES.values():
+        with pytest.raises(FileError) as caught:
+            motion_of(rerigged(replace(SALSA, end_sites_cm=back), rest), "a.bvh")
+        assert caught.value.message.id == "motion.misread"
+        joints = str(caught.value.message.arguments["joints"])
+        assert re.search(r"\b(left|right)Foot 1[0-8]\d°", joints), joints
