@@ -1,4 +1,4 @@
-"""Names of edits of events, which say of what kind these are, whose, and where."""
+"""Names of edits of events, which say of what kind these are, whose, and where; and of edits of players."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from app.editor.selection import EventKey
 from app.errors import Argument, Message
 from app.performance.ensemble import Performance
 from app.plan.event_id import EventId
+from app.plan.parameters import PARAMETERS
 from app.plan.problem_lines import note_of
 from app.project.edit.events import placed_events
 from app.project.model import Project
@@ -43,6 +44,18 @@ def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey])
     if len(keys) == 1:
         return Message(OF_EVENTS[name], said)
     return Message(name, {**said, "count": len(keys)})
+
+
+def edit_of_players(project: Project, name: str, player_ids: Collection[str], **more: Argument) -> Message:
+    """Return the name of an edit of some players, which names the first ones, and counts more than these."""
+    names = [player.name for player in project.players if player.id in player_ids]
+    rest = f", … ({len(names)})" if len(names) > _MOST_NAMES else ""
+    return Message(name, {**more, "of": ", ".join(names[:_MOST_NAMES]) + rest})
+
+
+def edit_of_parameter(project: Project, parameter: str, player_ids: Collection[str]) -> Message:
+    """Return the name of a change of a parameter of some players."""
+    return edit_of_players(project, "edit.parameter", player_ids, parameter=PARAMETERS[parameter].label)
 
 
 def _players(session: PlannedPiece, keys: Iterable[EventKey]) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session
-from app.errors import Message
 from app.project.edit import players
 
 PlayerMark: TypeAlias = Literal["muted", "soloed"]
@@ -14,5 +14,5 @@ PlayerMark: TypeAlias = Literal["muted", "soloed"]
 def mark_players(session: Session, field: PlayerMark, on: bool, chosen: tuple[str, ...]) -> None:
     """Mute or solo players, or end it."""
     ids = {"muted": ("edit.unmute", "edit.mute"), "soloed": ("edit.unsolo", "edit.solo")}
-    name = Message(ids[field][on], {"count": len(chosen)})
+    name = edit_of_players(session.project, ids[field][on], chosen)
     session.attempt(name, lambda project: players.change(project, chosen, **{field: on}))

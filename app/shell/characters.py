@@ -7,6 +7,7 @@ from pathlib import Path
 
 import msgspec
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session, Severity
 from app.editor.translated import tr
 from app.encoding import shown
@@ -129,7 +130,7 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
         players = [player for player in chosen if player in known]
         if give and players:
             session.attempt(
-                Message("edit.player_character", {"count": len(players)}),
+                edit_of_players(session.project, "edit.player_character", players),
                 lambda project: change(project, players, character_id=id),
             )
         else:

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
+from app.editor.edit_names import edit_of_parameter
 from app.editor.session import Session
 from app.plan.parameters import PARAMETERS
-from app.project.edit.players import parameter_edit, set_habit, set_parameters
+from app.project.edit.players import set_habit, set_parameters
 from app.project.performers import Player
 from metadata.acting import names_in
 from metadata.library import HABITS, STYLES
@@ -99,12 +100,12 @@ class ActingRows(Retranslated, QWidget):
 
     def _choose(self, style: str) -> None:
         chosen = self._session.players
-        edit = parameter_edit(_STYLE.name, len(chosen))
+        edit = edit_of_parameter(self._session.project, _STYLE.name, chosen)
         self._session.attempt(edit, lambda project: set_parameters(project, chosen, style=style), None, self)
 
     def _switch(self, habit: str, has: bool) -> None:
         chosen = self._session.players
-        edit = parameter_edit(_HABITS.name, len(chosen))
+        edit = edit_of_parameter(self._session.project, _HABITS.name, chosen)
         self._session.attempt(edit, lambda project: set_habit(project, chosen, habit, has), None, self)
 
     # Words

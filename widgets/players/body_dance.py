@@ -8,13 +8,14 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QWidget
 
+from app.editor.edit_names import edit_of_parameter
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.encoding import shown
 from app.plan.parameters import PARAMETERS
 from app.project.choreography_files import SUFFIX, bundled_choreographies
 from app.project.edit.dancers import set_body_dance, vary_body_dances
-from app.project.edit.players import parameter_edit, reset_parameters, set_parameters
+from app.project.edit.players import reset_parameters, set_parameters
 from app.project.model import Project
 from app.project.performers import Player
 from widgets.common.combo import Combo, Option
@@ -111,4 +112,6 @@ class BodyDanceRows(Retranslated, QWidget):
         self._edit(_VARIATION, lambda project: vary_body_dances(project, chosen))
 
     def _edit(self, name: str, change: Callable[[Project], Project], token: object | None = None) -> None:
-        self._session.attempt(parameter_edit(name, len(self._session.players)), change, token, self)
+        self._session.attempt(
+            edit_of_parameter(self._session.project, name, self._session.players), change, token, self
+        )

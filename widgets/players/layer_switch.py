@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QWidget
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.translated import tr
-from app.errors import Message
 from app.plan.parameters import Parameter
 from app.project.edit.players import show_layer
 from app.project.performers import Player
@@ -52,5 +52,5 @@ class LayerSwitch(Retranslated, QCheckBox):
     def _switch(self) -> None:
         chosen, name, shown = self._session.players, self._amount.name, self.isChecked()
         id = "edit.show_layer" if shown else "edit.hide_layer"
-        edit = Message(id, {"parameter": self._amount.label, "count": len(chosen)})
+        edit = edit_of_players(self._session.project, id, chosen, parameter=self._amount.label)
         self._session.attempt(edit, lambda project: show_layer(project, chosen, name, shown), None, self)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import dancers, players
@@ -78,30 +79,29 @@ def duplicate_players(session: Session) -> None:
         made.extend(player_ids)
         return result
 
-    if session.attempt(_counted("edit.duplicate_players", chosen), duplicate):
+    if session.attempt(edit_of_players(session.project, "edit.duplicate_players", chosen), duplicate):
         session.set_players(tuple(made))
 
 
 def remove_players(session: Session) -> None:
     """Send the selected players away."""
     chosen = session.players
-    session.attempt(_counted("edit.remove_players", chosen), lambda project: players.remove_players(project, chosen))
+    session.attempt(
+        edit_of_players(session.project, "edit.remove_players", chosen),
+        lambda project: players.remove_players(project, chosen),
+    )
 
 
 def randomise_players(session: Session) -> None:
     """Make the selected players differ, or everyone where fewer than two are selected."""
     several = len(session.players) > 1
     chosen = session.players if several else tuple(player.id for player in session.project.players)
-    name, spread = _counted("edit.randomise_players", chosen), session.variety
+    name, spread = edit_of_players(session.project, "edit.randomise_players", chosen), session.variety
     session.attempt(name, lambda project: players.randomise(project, chosen, spread))
 
 
 def reset_players(session: Session) -> None:
     """Return the parameters of the selected players to what they were cast with."""
     chosen = session.players
-    name = _counted("edit.reset_parameters", chosen)
+    name = edit_of_players(session.project, "edit.reset_parameters", chosen)
     session.attempt(name, lambda project: players.reset_parameters(project, chosen))
-
-
-def _counted(id: str, chosen: tuple[str, ...]) -> Message:
-    return Message(id, {"count": len(chosen)})

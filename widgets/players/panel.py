@@ -10,6 +10,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QSplitter, QWidget
 
+from app.editor.edit_names import edit_of_parameter
 from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.errors import Message
@@ -339,7 +340,8 @@ class PlayersPanel(Retranslated, QWidget):
 
     def _reseed(self) -> None:
         chosen = self._session.players
-        self._session.attempt(edit.parameter_edit("seed", len(chosen)), lambda project: vary_players(project, chosen))
+        name = edit_of_parameter(self._session.project, "seed", chosen)
+        self._session.attempt(name, lambda project: vary_players(project, chosen))
 
     def _set_spread(self, value: float, token: object) -> None:
         self._session.variety = value

@@ -11,11 +11,11 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap, QShowEvent
 from PySide6.QtWidgets import QGridLayout, QWidget
 
+from app.editor.edit_names import edit_of_parameter, edit_of_players
 from app.editor.session import Session
 from app.errors import AppError, Message, Progress, StopRequested
 from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
-from app.project.edit.players import parameter_edit
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, characters
@@ -212,7 +212,7 @@ class ParameterSections(Retranslated, QWidget):
         self._session.attempt(name, change, token, self)
 
     def _name(self, id: str) -> Message:
-        return Message(id, {"count": len(self._session.players)})
+        return edit_of_players(self._session.project, id, self._session.players)
 
     def _change(self, name: str, **fields: object) -> None:
         chosen = self._session.players
@@ -225,7 +225,7 @@ class ParameterSections(Retranslated, QWidget):
     def _set(self, parameter: Parameter, value: Value, token: object | None = None) -> None:
         chosen = self._session.players
         self._apply(
-            parameter_edit(parameter.name, len(chosen)),
+            edit_of_parameter(self._session.project, parameter.name, chosen),
             lambda project: edit.set_parameters(project, chosen, **{parameter.name: value}),
             token,
         )
@@ -233,7 +233,7 @@ class ParameterSections(Retranslated, QWidget):
     def _reset(self, parameter: Parameter) -> None:
         chosen = self._session.players
         self._apply(
-            parameter_edit(parameter.name, len(chosen)),
+            edit_of_parameter(self._session.project, parameter.name, chosen),
             lambda project: edit.reset_parameters(project, chosen, (parameter.name,)),
         )
 

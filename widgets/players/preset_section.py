@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QLineEdit, QWidget
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project import presets
@@ -71,7 +72,7 @@ class PresetSection(Retranslated, QWidget):
         chosen = self._session.players
         if preset is not None and chosen:
             self._session.attempt(
-                Message("edit.apply_preset", {"preset": preset.name, "count": len(chosen)}),
+                edit_of_players(self._session.project, "edit.apply_preset", chosen, preset=preset.name),
                 lambda project: edit.set_parameters(project, chosen, **preset.parameters),
             )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QGridLayout, QWidget
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session
 from app.errors import Message
 from app.project.casting import StagePosition
@@ -65,7 +66,7 @@ class StageSection(Retranslated, QWidget):
         self.view.snaps = self._snap.isChecked()
 
     def _name(self) -> Message:
-        return Message("edit.place_players", {"count": len(self._session.players)})
+        return edit_of_players(self._session.project, "edit.place_players", self._session.players)
 
     def _place(self, places: dict[str, StagePosition], token: object) -> None:
         dancers = [self._session.project.dancer(id) for id in places if id in self._session.project.dancer_ids]

@@ -9,7 +9,7 @@ from typing import Final, TypeVar
 import msgspec
 
 from app.chance import chance, next_seed
-from app.errors import AppError, MapError, Message
+from app.errors import AppError, MapError
 from app.plan.parameters import PARAMETERS, PlayerParameters, Value
 from app.project import limits
 from app.project.anchors import moved_correction
@@ -191,11 +191,6 @@ def show_layer(project: Project, player_ids: Collection[str], amount: str, shown
         return _with_parameters(player, {"layers_off": as_text((*others, *(() if shown else (amount,))))})
 
     return _each(project, musicians_of(project, player_ids), changed)
-
-
-def parameter_edit(parameter: str, count: int) -> Message:
-    """Name in the history for a change of a parameter of this many players."""
-    return Message("edit.parameter", {"parameter": PARAMETERS[parameter].label, "count": count})
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.editor.edit_names import edit_of_players
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import generation
@@ -20,7 +21,7 @@ def vary_everyone(session: Session) -> None:
 def vary_players(session: Session) -> None:
     """Let the selected players perform again; what was corrected by hand stays."""
     chosen = session.players
-    name = Message("edit.vary_players", {"count": len(chosen)})
+    name = edit_of_players(session.project, "edit.vary_players", chosen)
     if session.attempt(name, lambda project: generation.vary_players(project, chosen)):
         _report(session, chosen)
 

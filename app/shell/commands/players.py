@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from app.editor.edit_names import edit_of_parameter, edit_of_players
 from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.errors import Message
@@ -19,10 +20,6 @@ from widgets.players import newcomers
 
 def _chosen(session: Session) -> list[Player]:
     return [session.project.player(player_id) for player_id in session.players]
-
-
-def _count(id: str, players: int) -> Message:
-    return Message(id, {"count": players})
 
 
 def add(session: Session) -> None:
@@ -45,21 +42,25 @@ def join(session: Session) -> None:
             project = edit.join(project, player.id, first.id)
         return project
 
-    session.attempt(_count("edit.join_players", len(chosen)), joined)
+    session.attempt(edit_of_players(session.project, "edit.join_players", session.players), joined)
 
 
 def separate(session: Session) -> None:
     """Make the selected doubling players musicians with their own bodies."""
     chosen = session.players
-    count = sum(bool(player.doubles) for player in _chosen(session))
-    session.attempt(_count("edit.separate_players", count), lambda project: edit.separate(project, chosen))
+    doubling = [player.id for player in _chosen(session) if player.doubles]
+    session.attempt(
+        edit_of_players(session.project, "edit.separate_players", doubling),
+        lambda project: edit.separate(project, chosen),
+    )
 
 
 def clear_mute_and_solo(session: Session) -> None:
     """End every mute and solo."""
     everyone = [player.id for player in session.project.players]
     session.attempt(
-        _count("edit.unmute", len(everyone)), lambda project: edit.change(project, everyone, muted=False, soloed=False)
+        edit_of_players(session.project, "edit.unmute", everyone),
+        lambda project: edit.change(project, everyone, muted=False, soloed=False),
     )
 
 
@@ -79,7 +80,7 @@ def toggle_posture(session: Session) -> None:
     chosen = tuple(player.id for player in free)
     seated = all(player.parameters.posture == "seated" for player in free)
     session.attempt(
-        edit.parameter_edit("posture", len(chosen)),
+        edit_of_parameter(session.project, "posture", session.players),
         lambda project: edit.set_parameters(project, chosen, posture="standing" if seated else "seated"),
     )
 

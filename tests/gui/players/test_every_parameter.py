@@ -63,7 +63,9 @@ def test_every_parameter_is_changed_for_all_who_are_selected(
     assert {getattr(player.parameters, parameter.name) for player in session.project.players} == {value}
     assert len(session.document.done) == 1
     label = WORDINGS[parameter.label][0]
-    assert sentence(session.document.done[0].name) == f"{label}, players: {len(session.project.players)}"
+    first, second = (player.name for player in session.project.players[:2])
+    expected = f"{label}: {first}, {second}, … ({len(session.project.players)})"
+    assert sentence(session.document.done[0].name) == expected
 
 
 @pytest.mark.parametrize("parameter", DANCER_PARAMETERS.values(), ids=DANCER_PARAMETERS)

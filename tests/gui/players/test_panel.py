@@ -118,7 +118,7 @@ def test_players_of_a_large_piece_are_searched_and_muted_by_section(panel: Playe
     assert not search.isVisible()
     for _ in range(2):
         session.attempt(
-            Message("edit.duplicate_players", {"count": 4}),
+            Message("edit.duplicate_players", {"of": "Trumpet 1"}),
             lambda project: duplicate_players(project, [player.id for player in project.players])[0],
         )
     players = session.project.players
@@ -391,7 +391,7 @@ def test_a_place_that_shows_another_number_than_the_arc_is_marked_as_set_by_hand
         arc = stage_arc(4)[0]
         moved = replace_struct(arc, x_m=arc.x_m + by_m)
         session.attempt(
-            Message("edit.place_players", {"count": 1}),
+            Message("edit.place_players", {"of": "Trumpet 1"}),
             lambda project, to=moved: players_edit.place(project, {ids(session)[0]: to}),
         )
         assert control.by_hand is by_hand

@@ -241,7 +241,8 @@ def test_a_character_is_changed_again_and_removed_if_no_one_objects(
     assert character_library().own[id].joints == {"leftToes": "toe3-1.L"}
     player = program.session.project.players[0]
     program.session.apply(
-        Message("edit.player_character", {"count": 1}), change(program.session.project, [player.id], character_id=id)
+        Message("edit.player_character", {"of": "Trumpet 1"}),
+        change(program.session.project, [player.id], character_id=id),
     )
     answers.removes = False
     QTest.mouseClick(button(shelf, "characters_remove"), Qt.MouseButton.LeftButton)

@@ -71,7 +71,7 @@ def by_hand(desk: Desk) -> None:
     assert isinstance(corrections, CorrectionList)
     tabs.setCurrentWidget(corrections)
     desk.session.attempt(
-        Message("edit.place_players", {"count": 1}),
+        Message("edit.place_players", {"of": "Trumpet 1"}),
         lambda project: change(place(project, there), (desk.player.id,), colour="#204060"),
     )
 

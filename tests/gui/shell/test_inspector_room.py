@@ -22,7 +22,7 @@ def _saxophone_alone(program: Program) -> None:
     """Let a saxophone alone play the first part, which it can."""
     session = program.session
     first = msgspec.structs.replace(session.project.players[0], instrument_id="sax_alto_Eb")
-    session.apply(Message("edit.remove_players", {"count": 3}), replace(session.project, players=(first,)))
+    session.apply(Message("edit.remove_players", {"of": "Trumpet 1"}), replace(session.project, players=(first,)))
     assert not session.problems(first.id)
 
 

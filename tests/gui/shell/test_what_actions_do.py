@@ -98,7 +98,7 @@ def two_players_in_turn(desk: Desk) -> None:
 def joined(desk: Desk) -> None:
     two_players_in_turn(desk)
     first, second = desk.session.players
-    desk.session.document.apply(Message("edit.join_players", {"count": 2}), join(desk.project, second, first))
+    desk.session.document.apply(Message("edit.join_players", {"of": "Trumpet 1"}), join(desk.project, second, first))
 
 
 def each(desk: Desk, true: Callable[[Note, Note], bool]) -> bool:
@@ -912,7 +912,7 @@ def twice_the_players(desk: Desk) -> None:
 def place_by_hand(desk: Desk) -> None:
     desk.seen["on the arc"] = desk.project.players
     there = {desk.player.id: StagePosition(0.3, 1.2, 0.25)}
-    desk.session.attempt(Message("edit.place_players", {"count": 1}), lambda project: place(project, there))
+    desk.session.attempt(Message("edit.place_players", {"of": "Trumpet 1"}), lambda project: place(project, there))
 
 
 def framed(desk: Desk) -> None:

@@ -166,7 +166,7 @@ def test_ghosts_have_one_faint_colour_whoever_plays_them(stage: Stage) -> None:
     before = ghost()
     front, behind = session.project.players
     red = (front, msgspec.structs.replace(behind, colour="#ff0000"))
-    session.apply(Message("edit.player_colour", {"count": 1}), replace(session.project, players=red))
+    session.apply(Message("edit.player_colour", {"of": "Trumpet 1"}), replace(session.project, players=red))
     settle()
     assert ghost() == before
     stage.do("timeline.all")

@@ -107,7 +107,7 @@ def test_another_colour_of_the_player_in_front_and_new_problems_are_drawn(stage:
     session = stage.session
     front, behind = session.project.players
     red = (msgspec.structs.replace(front, colour="#ff0000"), behind)
-    session.apply(Message("edit.player_colour", {"count": 1}), replace(session.project, players=red))
+    session.apply(Message("edit.player_colour", {"of": "Trumpet 1"}), replace(session.project, players=red))
     settle()
     assert {"roll", "fingering", "breath", "acting", "curves"} <= set(drawn)
     drawn.clear()

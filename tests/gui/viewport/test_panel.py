@@ -19,6 +19,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.editor.edit_names import edit_of_parameter
 from app.editor.session import Session
 from app.editor.tokens import LIGHT
 from app.errors import AppError, Message
@@ -28,7 +29,6 @@ from app.project.cameras import VIEWS
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.edit.piece import new_piece
-from app.project.edit.players import parameter_edit
 from app.project.model import Project
 from tests.gui.conftest import planned_quartet, quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
@@ -203,7 +203,7 @@ def test_seated_players_have_stools(shot: Shot, session: Session) -> None:
         msgspec.structs.replace(player, parameters=msgspec.structs.replace(player.parameters, posture="seated"))
         for player in project.players
     )
-    session.apply(parameter_edit("posture", 4), replace(project, players=seated))
+    session.apply(edit_of_parameter(project, "posture", session.players), replace(project, players=seated))
     assert differing(standing, shot("ensemble")) > 400
 
 
@@ -213,7 +213,7 @@ def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel,
     player = session.project.players[0]
     moved = msgspec.structs.replace(player, stage=msgspec.structs.replace(player.stage, x_m=player.stage.x_m - 1.0))
     session.apply(
-        Message("edit.place_players", {"count": 1}),
+        Message("edit.place_players", {"of": "Trumpet 1"}),
         replace(session.project, players=(moved, *session.project.players[1:])),
     )
     assert viewport.scene.loaded.shapes is loaded.shapes
@@ -238,7 +238,7 @@ def test_the_windows_thread_copies_no_figures(
     player = session.project.players[0]
     place = msgspec.structs.replace(player.stage, x_m=player.stage.x_m + 0.4)
     players = (msgspec.structs.replace(player, stage=place), *session.project.players[1:])
-    session.apply(Message("edit.place_players", {"count": 1}), replace(session.project, players=players))
+    session.apply(Message("edit.place_players", {"of": "Trumpet 1"}), replace(session.project, players=players))
     panel.render_image(64, 36, AT_S)
     assert panel.has_gl, panel.message()
     assert panel.scene.loaded is not None

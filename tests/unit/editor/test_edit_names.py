@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from app.editor.edit_names import edit_of_events
+from app.editor.edit_names import edit_of_events, edit_of_parameter, edit_of_players
 from app.editor.selection import EventKey
 from app.errors import Message
 from app.messages import text
@@ -56,3 +56,14 @@ def test_several_events_say_how_many_and_from_where_to_where() -> None:
     cue = EventKey(project.players[0].id, performance.plan(project.players[0]).cues[0].id)
     mixed = edit_of_events(Shown(project, performance), "edit.remove_events", [*keys, cue])
     assert mixed.arguments["event"] == "event"
+
+
+def test_an_edit_of_players_names_the_first_ones_and_counts_the_rest() -> None:
+    project = quartet_project()
+    ids = [player.id for player in project.players]
+    one, two, every = (edit_of_players(project, "edit.mute", chosen) for chosen in (ids[:1], ids[1::-1], ids))
+    assert text(one) == "Mute Trumpet 1"
+    assert text(two) == "Mute Trumpet 1, Trumpet 2"
+    assert text(every) == "Mute Trumpet 1, Trumpet 2, … (4)"
+    assert text(every, "ja") == "ミュート: Trumpet 1, Trumpet 2, … (4)"
+    assert text(edit_of_parameter(project, "amplitude", ids[2:3])).endswith(": Trombone 1")

@@ -53,7 +53,7 @@ def test_they_go_with_the_player_or_dancer_and_come_back_with_undo() -> None:
     dance = Problem(Message("dance.state_not_held", {"number": 3}), None, 2.0, 2.5)
     project = ignore(ignore(project, player_id, _problems(project)), dancer_id, [dance])
     document = Document(project)
-    document.apply(Message("edit.remove_players", {"count": 1}), remove_players(project, {player_id}))
+    document.apply(Message("edit.remove_players", {"of": "Trumpet 1"}), remove_players(project, {player_id}))
     assert document.project.ignored_problems.keys() == {dancer_id}
     document.apply(Message("edit.remove_dancers", {"count": 1}), remove_dancers(document.project, {dancer_id}))
     assert not document.project.ignored_problems
