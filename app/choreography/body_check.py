@@ -1,7 +1,4 @@
-"""The check that every reading of a captured body ends in: what of it is not as a body is in the T-pose.
-
-Message: ``motion.checked``.
-"""
+"""The check that every reading of a captured body ends in: what of it is not as a body is in the T-pose."""
 
 from __future__ import annotations
 

@@ -2,8 +2,6 @@
 
 Joints are found by `app.rig.characters.joint_mapping`, by their names, or by `app.choreography.joints_by_lengths`;
 `app.choreography.anatomy` finds the T-pose, and `app.choreography.body_check` checks it.
-
-Messages: ``motion.incomplete`` and ``motion.misread`` (joints), ``motion.no_size``; guess ``motion.rest``.
 """
 
 from __future__ import annotations
