@@ -61,6 +61,7 @@ def test_inspect_lists_dancers(run: Run, tmp_path: Path) -> None:
             "character": danced.dancers[0].character_id,
             "x_m": 1.5, "z_m": 3.0, "turn_deg": 90.0, "seed": 0, "delay_beats": 0.0, "mirrored": False, "source": -1,
             "size": 1.0, "weight": 0.0,
+            "melody": 0.5,
         }
     ]  # fmt: skip
     assert len(found["players"]) == 2
