@@ -45,7 +45,7 @@ _LEAST_S: Final = 0.01
 """Beyond the first start and the last end; a segment may meet its beat at either."""
 STANDING: Final = 4.0
 """Log odds of a first and a last segment between feet that both stand, against one that hangs in the air."""
-PREFERRED: Final = 2.0
+PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
 WANDERS_S: Final = 1.2
 """Standard deviation in time of what of a path is a way, and not sway and steps."""
