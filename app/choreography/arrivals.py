@@ -29,6 +29,8 @@ FPS: Final = 60.0
 """Arrivals are looked for at this rate."""
 LEAST_SPEED: Final = 0.3
 """Least speed of a draft at which its motion is seen well enough."""
+FALLS_SHARE: Final = 0.3
+"""Share of footfalls in how well a dance meets the beats."""
 TRIES: Final = 3
 """Most time maps that are tried after the first one."""
 
@@ -61,7 +63,9 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
     return float(fits.max(axis=1).mean() + fits.max(axis=0).mean())
 
 
-def best_arrival_map(draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid) -> TimeMap:
+def best_arrival_map(
+    draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid, falls: FloatArray
+) -> TimeMap:
     """The map by which a dance arrives best, of a few that follow from one another.
 
     Parameters
@@ -74,6 +78,8 @@ def best_arrival_map(draft: MotionClip, first_s: float, shown: TimeMap, plain: T
         That map.
     plain : TimeMap
         With a knot at each segment's place: see `app.choreography.warp.map_with_arrivals`.
+    falls : (N,) float64
+        Times at which feet come down in the draft.
     """
     along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
     seen = speeds > LEAST_SPEED
@@ -81,14 +87,15 @@ def best_arrival_map(draft: MotionClip, first_s: float, shown: TimeMap, plain: T
         return shown
     along, speed = along[seen], (joint_speed_m_s(draft) / np.maximum(speeds, LEAST_SPEED))[seen]
     times_s = np.arange(plain.times_s[0], plain.times_s[-1], 1.0 / FPS)
+    falls_along, _ = shown.at(falls)
     beats_s = grid.times_s[grid.on_beat]
     best, best_value, tried = shown, -1.0, shown
     for number in range(1 + TRIES):
         places, rates = tried.at(times_s)
         frames = arrival_frames(np.interp(places, along, speed) * rates, FPS)
-        value = alignment(times_s[frames], beats_s)
+        value = alignment(times_s[frames], beats_s) + FALLS_SHARE * alignment(tried.when(falls_along), beats_s)
         if value > best_value:
             best, best_value = tried, value
         if number < TRIES:
-            tried = map_with_arrivals(plain, places[frames], grid)
+            tried = map_with_arrivals(plain, places[frames], grid, falls_along)
     return best

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
@@ -79,6 +82,16 @@ def stands(clip: MotionClip, contacts: BoolArray) -> tuple[FootPlant, ...]:
     return tuple(sorted(own[0] + own[1], key=lambda stand: (stand.start, stand.foot)))
 
 
+def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
+    """Times for which feet are off the floor between stands at two places."""
+    found = []
+    for foot in range(2):
+        for before, after in pairwise(stand for stand in standing if stand.foot == foot):
+            if np.linalg.norm(np.subtract(after.place_m, before.place_m)) > SAME_M:
+                found.append((after.start - before.stop) / fps)
+    return found
+
+
 def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
     """Stands of a foot, ascending, with time between them to go from one place to the next.
 
@@ -103,18 +116,24 @@ def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
     return found
 
 
-def planted(clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0.0) -> MotionClip:
+def planted(
+    clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0.0, shown: FloatArray | None = None
+) -> MotionClip:
     """The motion with its feet where they stand; between two stands they go over from one correction to the other.
 
     Parameters
     ----------
     weight : float
         -1 to 1: the hips of a heavy dancer are lower over the same steps, those of a light one higher.
+    shown : (F, 2) float64, optional
+        Of each frame, the frame of the motion that each foot shows; without it, this one.
     """
     if not standing and not weight:
         return clip
     world = clip.world()
     tips = tips_m(clip, world)
+    if shown is not None:
+        tips, world = _feet_at(tips, world, shown)
     targets = tips.copy()
     for foot in range(2):
         own = [stand for stand in standing if stand.foot == foot]
@@ -130,6 +149,19 @@ def planted(clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0
         ankle = targets[:, foot] - quaternion.rotate(turned, clip.shape.ends_m[ENDS.index(FEET[foot])])
         bend(clip, world, ("hips", *(f"{side}{part}" for part in LEG)), ankle, AHEAD, rotations)
     return replace(clip, rotations=quaternion.continuous(rotations))
+
+
+def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tuple[FloatArray, JointTransforms]:
+    """Tips and turns of the feet in the world as they are in other frames, which need not be whole."""
+    frames = np.arange(len(tips))
+    tips, rotations = tips.copy(), world.rotations.copy()
+    for foot, name in enumerate(FEET):
+        tips[:, foot] = CubicSpline(frames, tips[:, foot])(shown[:, foot])
+        at = 1 + SEGMENTS.index(name)
+        rotations[:, at] = quaternion.normalize(
+            CubicSpline(frames, quaternion.continuous(rotations[:, at, None])[:, 0])(shown[:, foot])
+        )
+    return tips, replace(world, rotations=rotations)
 
 
 def _tip_height_m(clip: MotionClip, foot: int) -> float:

@@ -14,12 +14,20 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
-from app.choreography.arrivals import FPS, arrival_frames, best_arrival_map, joint_speed_m_s, smoothed
+from app.choreography.arrivals import (
+    FPS,
+    alignment,
+    arrival_frames,
+    best_arrival_map,
+    joint_speed_m_s,
+    smoothed,
+)
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
-from app.choreography.feet import planted, stands
+from app.choreography.feet import STEP_S, planted, stands, steps_s
+from app.choreography.footfalls import on_beats
 from app.choreography.hands import out_of_body
 from app.choreography.heard import Hearing, hearing
 from app.choreography.joins import distances_m
@@ -41,6 +49,8 @@ from app.rig import quaternion
 
 DRAFT_FPS: Final = Fraction(30)
 """Frame rate of the draft in which arrivals are looked for."""
+DRAFTS: Final = 3
+"""Drafts, each by the best time map that follows from the one before."""
 _LEAST_S: Final = 0.01
 """Beyond the first start and the last end; a segment may meet its beat at either."""
 STANDING: Final = 4.0
@@ -102,6 +112,14 @@ class Choreographer:
         self._fastest_rad_s = max(FASTEST_HIPS_RAD_S, fps * max(float(one.max(initial=0.0)) for one in captured))
 
     @cached_property
+    def _step_s(self) -> float:
+        """Usual time of a step in the capture."""
+        found = []
+        for clip, contacts in zip(self.model.clips, self._stitcher.contacts, strict=True):
+            found += steps_s(stands(clip, contacts), float(clip.fps))
+        return float(np.median(found)) if found else STEP_S
+
+    @cached_property
     def candidates(self) -> SegmentCandidates:
         """The model's segments, compared with one another."""
         model, segments = self.model, self.model.segments
@@ -155,8 +173,9 @@ class Choreographer:
         if manner.mirrored:
             clip, contacts = mirrored(clip), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
-        standing = stands(clip, contacts)
-        return Dance(planted(clip, standing, manner.weight), first_s, plan.steps, speeds, seams, standing)
+        falls = on_beats(stands(clip, contacts), len(clip), float(fps), first_s, grid_of(rhythm), self._step_s)
+        clip = planted(clip, falls.standing, manner.weight, falls.shown)
+        return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
         """See `app.choreography.judge.usual_change_rad_s`: of the model's capture."""
@@ -222,9 +241,26 @@ class Choreographer:
         count = math.ceil((float(plain.times_s[-1]) - first_s) * float(DRAFT_FPS))
         if count < 2:
             return planned(first)
-        draft = self._motion(planned(first), body, DRAFT_FPS, first_s + np.arange(count) / float(DRAFT_FPS))
-        clip = planted(draft.clip, stands(draft.clip, draft.contacts))
-        return planned(best_arrival_map(clip, first_s, first, plain, grid))
+        draft_s = first_s + np.arange(count) / float(DRAFT_FPS)
+        beats_s = grid.times_s[grid.on_beat]
+        shown, best, best_value = first, first, -1.0
+        for number in range(DRAFTS):
+            clip, falls_s = self._draft(planned(shown), body, draft_s, grid)
+            arrivals = draft_s[arrival_frames(joint_speed_m_s(clip), float(DRAFT_FPS))]
+            value = alignment(arrivals, beats_s)
+            if value > best_value:
+                best, best_value = shown, value
+            if number < DRAFTS - 1:
+                shown = best_arrival_map(clip, first_s, shown, plain, grid, falls_s)
+        return planned(best)
+
+    def _draft(self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid) -> tuple[MotionClip, FloatArray]:
+        """A plan in motion at `DRAFT_FPS`, feet on the beats, and when they would come down by the plan alone."""
+        draft = self._motion(plan, body, DRAFT_FPS, times_s)
+        standing = stands(draft.clip, draft.contacts)
+        falls = on_beats(standing, len(times_s), float(DRAFT_FPS), float(times_s[0]), grid, self._step_s)
+        frames = sorted(stand.start for stand in standing if stand.start)
+        return planted(draft.clip, falls.standing, shown=falls.shown), times_s[frames]
 
     def _slowest_s(self) -> FloatArray:
         """(S,) time in its clip at which each segment arrives: where the body is slowest from the accent to the end."""

@@ -63,13 +63,15 @@ class Stitcher:
     ----------
     starts, ends : Clouds
         The bodies about the first and the last frame of each segment.
+    contacts : list of (F, 2) bool
+        When the feet of each clip stand.
     """
 
     def __init__(self, model: ChoreographyModel) -> None:
         self._model = model
         self._clips = [_SmoothClip(clip) for clip in model.clips]
         self._heights_m = [height_m(clip) for clip in model.clips]
-        self._contacts = [foot_contacts(clip) for clip in model.clips]
+        self.contacts = [foot_contacts(clip) for clip in model.clips]
         self.starts = Clouds(model.clips, [(one.clip, one.start) for one in model.segments])
         self.ends = Clouds(model.clips, [(one.clip, one.end) for one in model.segments])
 
@@ -77,7 +79,7 @@ class Stitcher:
         """(S,) how many feet stand at a frame of each segment's clip."""
         return np.array(
             [
-                self._contacts[one.clip][min(frame, len(self._contacts[one.clip]) - 1)].sum()
+                self.contacts[one.clip][min(frame, len(self.contacts[one.clip]) - 1)].sum()
                 for one, frame in zip(self._model.segments, frames, strict=True)
             ],
             np.int64,
@@ -159,7 +161,7 @@ class Stitcher:
             hips[here], rotations[here] = smooth.at(source_s[here] * float(clip.fps))
             hips[here] *= self._heights_m[body] / self._heights_m[number]
             nearest = np.clip(np.rint(frames.source_s[shown] * float(clip.fps)).astype(int), 0, len(clip) - 1)
-            contacts[shown] = self._contacts[number][nearest]
+            contacts[shown] = self.contacts[number][nearest]
         return (hips, rotations), contacts
 
     def _home(self, segment: int, body: int) -> tuple[float, complex]:

@@ -8,7 +8,6 @@ found for the whole dance at once, within the limits of speed.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -24,12 +23,14 @@ REST_S: Final = 0.4
 """A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""
 MOST_S: Final = 0.6
 """No arrival is moved farther than this."""
-LOOK_BACK: Final = 6
-"""Most arrivals in a row that may be left unchanged."""
+LOOK_BACK: Final = 10
+"""Most arrivals and footfalls in a row that may be left unchanged."""
 ARRIVES: Final = 1.0
 ARRIVES_BETWEEN: Final = 0.1
 ANCHOR: Final = 0.05
 """Worth of an arrival on a beat, of one in the middle between two, and of a segment that stays where it was put."""
+FALLS: Final = 0.15
+"""Worth of a footfall on a beat: little, for a foot alone can be moved too (`app.choreography.footfalls`)."""
 SPEED: Final = 0.2
 """Cost of going from one to the next at a limit of `SPEEDS`; by the square in between."""
 MOVED: Final = 0.2
@@ -83,8 +84,10 @@ class TimeMap:
         return np.asarray(np.interp(along_s, along, times_s))
 
 
-def map_with_arrivals(plain: TimeMap, arrivals: FloatArray, grid: AccentGrid) -> TimeMap:
-    """The map that puts arrivals on beats, where the limits of speed allow it.
+def map_with_arrivals(
+    plain: TimeMap, arrivals: FloatArray, grid: AccentGrid, footfalls: FloatArray | None = None
+) -> TimeMap:
+    """The map that puts arrivals, and footfalls, on beats, where the limits of speed allow it.
 
     Parameters
     ----------
@@ -92,19 +95,16 @@ def map_with_arrivals(plain: TimeMap, arrivals: FloatArray, grid: AccentGrid) ->
         With a knot at each segment's place; its first and last knot are the ends of the dance.
     arrivals : (A,) float64
         Along the motions, ascending.
+    footfalls : (N,) float64, optional
+        Likewise.
     """
     anchors = [
         (float(along), float(time)) for time, along in zip(plain.times_s[1:-1], plain.along_s[1:-1], strict=True)
     ]
     items: list[_Item] = [_Item(along, ((time, ANCHOR),)) for along, time in anchors]
-    for along, time in zip(arrivals.tolist(), plain.when(arrivals).tolist(), strict=True):
-        near = range(*np.searchsorted(grid.times_s, time + np.array([-MOST_S, MOST_S])).tolist())
-        options = []
-        for at in near:
-            place_s = float(grid.times_s[at])
-            moved = MOVED * ((place_s - time) / MOST_S) ** 2
-            options.append((place_s, (ARRIVES if grid.on_beat[at] else ARRIVES_BETWEEN) - moved))
-        items.append(_Item(along, tuple(options)))
+    items += _to_meet(plain, arrivals, grid, ARRIVES, ARRIVES_BETWEEN)
+    if footfalls is not None:
+        items += _to_meet(plain, footfalls, grid, FALLS, 0.0)
     met = _met(sorted(items, key=lambda item: item.along_s))
     if not met:
         return plain
@@ -128,30 +128,53 @@ class _Item:
     options: tuple[tuple[float, float], ...]
 
 
+def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float, between: float) -> list[_Item]:
+    """Moments along the motions that may be put on places of the grid, each with its worth there."""
+    items = []
+    for along, time in zip(moments.tolist(), plain.when(moments).tolist(), strict=True):
+        near = range(*np.searchsorted(grid.times_s, time + np.array([-MOST_S, MOST_S])).tolist())
+        options = []
+        for at in near:
+            place_s = float(grid.times_s[at])
+            moved = MOVED * ((place_s - time) / MOST_S) ** 2
+            options.append((place_s, (on_beat if grid.on_beat[at] else between) - moved))
+        items.append(_Item(along, tuple(options)))
+    return items
+
+
 def _met(items: Sequence[_Item]) -> list[tuple[float, float]]:
     """Pairs of time and moment, both ascending: the worthiest way through the items, by dynamic programming."""
     limit = float(np.log(SPEEDS[1]))
-    best: list[list[tuple[float, tuple[int, int] | None]]] = []
+    times = [np.array([time_s for time_s, _ in item.options]) for item in items]
+    best: list[FloatArray] = []
+    came: list[list[tuple[int, int] | None]] = []
     for at, item in enumerate(items):
-        here: list[tuple[float, tuple[int, int] | None]] = []
-        for time_s, worth in item.options:
-            reached, came = 0.0, None
-            for earlier in range(max(0, at - LOOK_BACK), at):
-                way_s = item.along_s - items[earlier].along_s
-                for number, (before_s, _) in enumerate(items[earlier].options):
-                    if way_s < 1e-3 or time_s - before_s < 1e-3:
-                        continue
-                    off = abs(math.log(way_s / (time_s - before_s))) / limit
-                    value = best[earlier][number][0] - SPEED * off * off
-                    if off <= 1.0 + _TOLERANCE and value > reached:
-                        reached, came = value, (earlier, number)
-            here.append((reached + worth, came))
-        best.append(here)
-    ends = [(value, at, number) for at, here in enumerate(best) for number, (value, _) in enumerate(here)]
+        worth = np.array([worth for _, worth in item.options])
+        seen = [
+            earlier for earlier in range(max(0, at - LOOK_BACK), at) if item.along_s - items[earlier].along_s >= 1e-3
+        ]
+        numbers = [(earlier, number) for earlier in seen for number in range(len(times[earlier]))]
+        if not numbers or not len(worth):
+            best.append(worth)
+            came.append([None] * len(worth))
+            continue
+        before_s = np.concatenate([times[earlier] for earlier in seen])
+        way_s = np.concatenate(
+            [np.full(len(times[earlier]), item.along_s - items[earlier].along_s) for earlier in seen]
+        )
+        gap_s = times[at][:, None] - before_s
+        off = np.abs(np.log(way_s / np.maximum(gap_s, 1e-3))) / limit
+        value = np.concatenate([best[earlier] for earlier in seen]) - SPEED * off * off
+        value[(off > 1.0 + _TOLERANCE) | (gap_s < 1e-3)] = 0.0
+        chosen = value.argmax(axis=1)
+        reached = np.maximum(value[np.arange(len(worth)), chosen], 0.0)
+        best.append(reached + worth)
+        came.append([numbers[number] if top > 0.0 else None for number, top in zip(chosen, reached, strict=True)])
+    ends = [(value, at, number) for at, here in enumerate(best) for number, value in enumerate(here.tolist())]
     way: tuple[int, int] | None = max(ends)[1:] if ends else None
     found: list[tuple[float, float]] = []
     while way is not None:
         item, number = items[way[0]], way[1]
         found.append((item.options[number][0], item.along_s))
-        way = best[way[0]][number][1]
+        way = came[way[0]][number]
     return found[::-1]

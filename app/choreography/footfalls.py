@@ -1,0 +1,163 @@
+"""Footfalls on the beats: a foot leaves the floor and comes down a little earlier or later than the body has it.
+
+A step takes as long as the captured dancers took for theirs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from app.arrays import FloatArray
+from app.choreography.feet import SAME_M, FootPlant
+from app.choreography.sequence import AccentGrid
+
+REACH_S: Final = 0.12
+"""A footfall is moved no farther than this."""
+ON_BEAT: Final = 1.0
+BETWEEN: Final = -1.0
+"""Worth of a footfall on a beat, and on a place between beats."""
+MOVED: Final = 0.5
+"""Cost of a footfall that is moved by `REACH_S`; by the square for less."""
+APART_S: Final = 0.15
+"""Two footfalls one after the other stay apart by this at least, and closer ones as they are."""
+LEAST_STAND_S: Final = 0.15
+LEAST_SWING_S: Final = 0.25
+"""A foot stands, and is off the floor for a step, no shorter than this; unless the motion has it so."""
+STEP_SHARE: Final = 0.9
+"""A step takes no less than this share of the usual time, if both feet have time."""
+NEVER: Final = -1e9
+
+
+@dataclass(frozen=True, eq=False)
+class Footfalls:
+    """Stands of the feet, and which moment of the motion each foot shows meanwhile.
+
+    Attributes
+    ----------
+    shown : (F, 2) float64
+        Of each frame, the frame of the motion that the left and the right foot show; ascending.
+    """
+
+    standing: tuple[FootPlant, ...]
+    shown: FloatArray
+
+
+def on_beats(
+    standing: Sequence[FootPlant], frames: int, fps: float, first_s: float, grid: AccentGrid, step_s: float
+) -> Footfalls:
+    """Stands that begin on places of the grid where one is near.
+
+    Parameters
+    ----------
+    standing : sequence of FootPlant
+        By their starts, see `app.choreography.feet.stands`.
+    frames : int
+        Of the motion.
+    first_s : float
+        Time of its frame 0.
+    step_s : float
+        Usual time of a step.
+    """
+    falls = [at for at, stand in enumerate(standing) if stand.start > 0]
+    starts = {at: float(stand.start) for at, stand in enumerate(standing)}
+    starts.update(zip(falls, _chosen([standing[at] for at in falls], fps, first_s, grid), strict=True))
+    moved = [replace(stand, start=round(starts[at])) for at, stand in enumerate(standing)]
+    shown = np.tile(np.arange(frames, dtype=np.float64)[:, None], (1, 2))
+    for foot in range(2):
+        own = [at for at, stand in enumerate(standing) if stand.foot == foot]
+        others = [(stand, new) for stand, new in zip(standing, moved, strict=True) if stand.foot != foot]
+        for at, after in pairwise(own):
+            stop = _leaves(standing[at], standing[after], moved[at].start, moved[after].start, others, fps, step_s)
+            moved[at] = replace(moved[at], stop=stop)
+        knots = [(0, 0)]
+        for at in own:
+            knots += [(moved[at].start, standing[at].start), (moved[at].stop - 1, standing[at].stop - 1)]
+        knots.append((frames - 1, frames - 1))
+        places = np.array(knots, np.float64)
+        ascends = np.concatenate([[True], (np.diff(places, axis=0) > 0).all(axis=1)])
+        if ascends.sum() > 1:
+            shown[:, foot] = PchipInterpolator(places[ascends, 0], places[ascends, 1])(shown[:, foot])
+    moved.sort(key=lambda stand: (stand.start, stand.foot))
+    return Footfalls(tuple(moved), np.clip(shown, 0.0, frames - 1.0))
+
+
+def _leaves(
+    before: FootPlant,
+    after: FootPlant,
+    came: int,
+    comes: int,
+    others: Sequence[tuple[FootPlant, FootPlant]],
+    fps: float,
+    step_s: float,
+) -> int:
+    """Return the frame in which a foot leaves the floor that came down in one frame and comes down again in another.
+
+    It does not leave before the other foot has come down, if the motion has them in this order.
+    """
+    swing = after.start - before.stop
+    way_m = float(np.linalg.norm(np.subtract(after.place_m, before.place_m)))
+    takes = max(swing, round(STEP_SHARE * step_s * fps)) if way_m > SAME_M else swing
+    first = came + min(before.stop - before.start, round(LEAST_STAND_S * fps))
+    last = comes - min(swing, round(LEAST_SWING_S * fps))
+    for other, new in others:
+        if other.start <= before.stop < other.stop:
+            first = max(first, new.start)
+    return max(came + 1, min(max(comes - takes, first), last))
+
+
+def _chosen(falls: Sequence[FootPlant], fps: float, first_s: float, grid: AccentGrid) -> list[float]:
+    """Frames in which feet come down: the worthiest choice for all, by dynamic programming over pairs in a row."""
+    times = [first_s + fall.start / fps for fall in falls]
+    options = [_options(time_s, grid) for time_s in times]
+    # By the options of the last fall but one and of the last: the worth so far.
+    value = np.zeros((1, 1))
+    back: list[np.ndarray] = []
+    for at, own in enumerate(options):
+        new = np.array([place for place, _ in own])
+        worth = np.array([worth for _, worth in own])
+        earlier = np.array([place for place, _ in options[at - 1]]) if at else np.array([-np.inf])
+        before = np.array([place for place, _ in options[at - 2]]) if at > 1 else np.array([-np.inf])
+        fits = np.zeros((len(before), len(earlier), len(new)))
+        if at:
+            fits[:, ~_possible(falls, times, at - 1, at, earlier, new)] = NEVER
+        if at > 1 and falls[at - 2].foot == falls[at].foot:
+            possible = _possible(falls, times, at - 2, at, before, new)
+            fits += np.where(possible, 0.0, NEVER)[:, None, :]
+        total = value[:, :, None] + fits
+        back.append(total.argmax(axis=0))
+        value = total.max(axis=0) + worth
+    if not options:
+        return []
+    last_but_one, last = np.unravel_index(int(value.argmax()), value.shape)
+    way = [int(last)]
+    pair = int(last_but_one), int(last)
+    for at in range(len(options) - 1, 0, -1):
+        way.append(pair[0])
+        pair = int(back[at][pair]), pair[0]
+    return [(options[at][number][0] - first_s) * fps for at, number in enumerate(reversed(way))]
+
+
+def _options(time_s: float, grid: AccentGrid) -> list[tuple[float, float]]:
+    """Times at which a foot can come down, and their worth; the time of the motion is the first."""
+    found = [(time_s, 0.0)]
+    for at in range(*np.searchsorted(grid.times_s, (time_s - REACH_S, time_s + REACH_S)).tolist()):
+        place_s = float(grid.times_s[at])
+        worth = ON_BEAT if grid.on_beat[at] else BETWEEN
+        found.append((place_s, worth - MOVED * ((place_s - time_s) / REACH_S) ** 2))
+    return found
+
+
+def _possible(
+    falls: Sequence[FootPlant], times: Sequence[float], one: int, other: int, earlier: FloatArray, later: FloatArray
+) -> np.ndarray:
+    """(E, L) whether a fall can be at the one time and a later fall at the other."""
+    way_s = times[other] - times[one]
+    least_s = APART_S if falls[one].foot != falls[other].foot else LEAST_STAND_S + LEAST_SWING_S
+    gap_s = later[None, :] - earlier[:, None]
+    return np.asarray((gap_s >= min(least_s, way_s) - 1e-6) & ((way_s >= APART_S) | (gap_s <= way_s + 0.05)))

@@ -1,0 +1,84 @@
+"""Feet come down on the beats, and take their time for a step."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from app.choreography.contacts import tips_m
+from app.choreography.feet import FootPlant, planted
+from app.choreography.footfalls import REACH_S, on_beats
+from app.choreography.sequence import grid_of
+from tests.support.dances import beaten, stepping
+
+FPS = 60.0
+
+
+def walking(late_s: float, swing_s: float = 0.3, steps: int = 12) -> list[FootPlant]:
+    """Left and right in turn, a step a beat of half a second, all a little late."""
+    found = []
+    for step in range(steps):
+        start = round((0.5 * step + late_s) * FPS) if step > 1 else 0
+        stop = round((0.5 * (step + 2) + late_s - swing_s) * FPS)
+        found.append(FootPlant(step % 2, start, stop, (0.1 * step, 0.0, 0.0)))
+    return sorted(found, key=lambda stand: (stand.start, stand.foot))
+
+
+@pytest.mark.parametrize("late_s", [-0.1, -0.03, 0.0, 0.07])
+def test_footfalls_near_a_beat_are_on_it(late_s: float) -> None:
+    found = on_beats(walking(late_s), 420, FPS, 0.0, grid_of(beaten(14)), 0.3)
+    starts_s = np.array([stand.start for stand in found.standing if stand.start]) / FPS
+    assert len(starts_s) == 10
+    assert np.abs(starts_s - 0.5 * np.rint(starts_s / 0.5)).max() < 0.5 / FPS + 1e-9
+    assert (np.diff(found.shown, axis=0) >= 0.0).all()
+    assert np.abs(found.shown - np.arange(420)[:, None]).max() <= REACH_S * FPS + 1.0
+
+
+def test_footfalls_far_from_beats_stay() -> None:
+    standing = walking(0.2)
+    assert on_beats(standing, 420, FPS, 0.0, grid_of(beaten(14)), 0.3).standing == tuple(standing)
+
+
+def test_a_short_step_takes_longer_and_no_foot_leaves_before_the_other_has_come_down() -> None:
+    standing = walking(0.05, swing_s=0.25)
+    found = on_beats(standing, 420, FPS, 0.0, grid_of(beaten(14)), 0.6).standing
+    for foot in range(2):
+        own = [stand for stand in found if stand.foot == foot]
+        for before, after in pairwise(own):
+            assert 0.45 * FPS < after.start - before.stop <= 0.55 * FPS
+    for stand in found[2:-1]:
+        assert any(other.foot != stand.foot and other.start <= stand.start <= other.stop for other in found)
+
+
+def test_no_stand_and_no_swing_is_lost_where_footfalls_crowd() -> None:
+    random = np.random.default_rng(3)
+    standing, at = [], 0
+    for step in range(60):
+        start = at + int(random.integers(2, 30))
+        standing.append(FootPlant(step % 2, start, start + int(random.integers(8, 20)), (0.1 * step, 0.0, 0.0)))
+        at = start
+    for foot in range(2):
+        own = [stand for stand in standing if stand.foot == foot]
+        standing = [stand for stand in standing if stand.foot != foot] + [
+            one if other is None else FootPlant(foot, one.start, min(one.stop, other.start - 2), one.place_m)
+            for one, other in zip(own, [*own[1:], None], strict=True)
+            if other is None or other.start - 2 > one.start
+        ]
+    standing.sort(key=lambda stand: (stand.start, stand.foot))
+    found = on_beats(standing, at + 60, FPS, 0.0, grid_of(beaten(40)), 0.45)
+    assert len(found.standing) == len(standing)
+    for foot in range(2):
+        own = [stand for stand in found.standing if stand.foot == foot]
+        assert all(one.start < one.stop < other.start for one, other in pairwise(own))
+
+
+def test_a_foot_shown_at_another_time_still_stands_at_its_place() -> None:
+    clip = stepping(8)
+    standing = (FootPlant(0, 90, 118, (0.1, 0.0, 0.2)),)
+    falls = on_beats(standing, len(clip), FPS, -0.05, grid_of(beaten(8)), 0.4)
+    assert falls.standing[0].start == 93
+    tips = tips_m(planted(clip, falls.standing, shown=falls.shown))
+    stand = falls.standing[0]
+    assert np.abs(tips[stand.start : stand.stop, 0] - stand.place_m).max() < 1e-3
