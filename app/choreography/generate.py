@@ -26,6 +26,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
+from app.choreography.features import height_m
 from app.choreography.feet import STEP_S, planted, stands, steps_s
 from app.choreography.footfalls import on_beats
 from app.choreography.hands import out_of_body
@@ -33,7 +34,8 @@ from app.choreography.heard import Hearing, hearing
 from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
-from app.choreography.rhythm import Rhythm
+from app.choreography.phrases import returning_places
+from app.choreography.rhythm import Rhythm, felt_at
 from app.choreography.sequence import (
     AccentGrid,
     Constraints,
@@ -57,6 +59,14 @@ STANDING: Final = 4.0
 """Log odds of a first and a last segment between feet that both stand, against one that hangs in the air."""
 PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
+BEAT_S: Final = 0.5
+"""The same, of a capture in which nobody steps."""
+IDLE: Final = 4.0
+"""Log odds against a segment that idles."""
+IDLE_SHARE: Final = 0.4
+"""A body idles that is slower than this share of the median speed of the capture ..."""
+IDLE_S: Final = 0.25
+"""... averaged by a Gaussian of this standard deviation."""
 WANDERS_S: Final = 1.2
 """Standard deviation in time of what of a path is a way, and not sway and steps."""
 LEAST_ROOM: Final = 0.4
@@ -112,6 +122,25 @@ class Choreographer:
         self._fastest_rad_s = max(FASTEST_HIPS_RAD_S, fps * max(float(one.max(initial=0.0)) for one in captured))
 
     @cached_property
+    def _beat_s(self) -> float:
+        """Usual time from one footfall to the next in the capture."""
+        gaps_s: list[float] = []
+        for clip, contacts in zip(self.model.clips, self._stitcher.contacts, strict=True):
+            falls = sorted({stand.start for stand in stands(clip, contacts)})
+            gaps_s += (np.diff(falls) / float(clip.fps)).tolist()
+        return float(np.median(gaps_s)) if gaps_s else BEAT_S
+
+    @cached_property
+    def _idle(self) -> FloatArray:
+        """(S,) share of each segment during which the body idles."""
+        mean = [
+            gaussian_filter1d(speed / height_m(clip), IDLE_S * float(clip.fps), mode="nearest")
+            for speed, clip in zip(self._speeds, self.model.clips, strict=True)
+        ]
+        level = IDLE_SHARE * float(np.median(np.concatenate(mean)))
+        return np.array([np.mean(mean[one.clip][one.start : one.end] < level) for one in self.model.segments])
+
+    @cached_property
     def _step_s(self) -> float:
         """Usual time of a step in the capture."""
         found = []
@@ -162,6 +191,7 @@ class Choreographer:
         first_s, end_s : float
             The motion's first frame and its end; by default from the first tick to `REST_S` after the last step.
         """
+        rhythm = self.felt(rhythm)
         plan, body = self._planned(rhythm, manner, constraints, weights), manner.source or 0
         if end_s is None:
             end_s = max(first_s, (plan.steps[-1].end_s if plan.steps else 0.0) + 2.0 * REST_S)
@@ -187,7 +217,11 @@ class Choreographer:
         self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
     ) -> tuple[SegmentStep, ...]:
         """Return which segments are danced when."""
-        return self._planned(rhythm, manner, constraints, weights).steps
+        return self._planned(self.felt(rhythm), manner, constraints, weights).steps
+
+    def felt(self, rhythm: Rhythm) -> Rhythm:
+        """The rhythm as dancers of this model feel it; the places of its grid are those of the constraints."""
+        return felt_at(rhythm, self._beat_s)
 
     def _planned(
         self, rhythm: Rhythm, manner: Manner, constraints: Constraints | None, weights: Weights | None
@@ -205,7 +239,8 @@ class Choreographer:
             seed=manner.seed,
             weights=weights,
             constraints=constraints,
-            usual=preferred,
+            usual=preferred - IDLE * self._idle,
+            returns=returning_places(rhythm, grid.times_s),
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )

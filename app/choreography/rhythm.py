@@ -75,3 +75,41 @@ def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
         return replace(one, beats_s=later_s(count), hits_s=hits_s, melody=melody)
 
     return later(rhythm)
+
+
+FAR: Final = 2.0
+"""A tempo so many times as fast or slow as a dancer's own is felt at half or double time."""
+
+
+def felt_at(rhythm: Rhythm, beat_s: float) -> Rhythm:
+    """The rhythm as a dancer feels it whose own beats last ``beat_s``: far slower beats are divided as the metre does,
+    far faster ones are taken by twos or threes, where every bar allows it."""
+    if len(rhythm.beats_s) < 2:
+        return rhythm
+    usual_s = float(np.median(np.diff(rhythm.beats_s)))
+    divisions = np.full(len(rhythm.beats_s), 2) if rhythm.divisions is None else rhythm.divisions
+    if usual_s >= FAR * beat_s:
+        count = np.append(divisions[:-1], 1)
+        part = np.concatenate([np.arange(parts) for parts in count.tolist()])
+        beats = np.repeat(np.arange(len(count)), count)
+        divided = replace(
+            rhythm,
+            beats_s=np.interp(beats + part / count[beats], np.arange(len(count)), rhythm.beats_s),
+            bar_beats=(rhythm.bar_beats * divisions)[beats] + part,
+            divisions=np.full(len(beats), 2),
+        )
+        return felt_at(divided, beat_s)
+    downbeats = np.flatnonzero(rhythm.bar_beats == 0)
+    bars = np.diff(downbeats)
+    if usual_s * FAR <= beat_s and len(bars):
+        for together in (2, 3):
+            if not (bars % together).any():
+                kept = rhythm.bar_beats % together == 0
+                joined = replace(
+                    rhythm,
+                    beats_s=rhythm.beats_s[kept],
+                    bar_beats=rhythm.bar_beats[kept] // together,
+                    divisions=np.full(int(kept.sum()), together),
+                )
+                return felt_at(joined, beat_s)
+    return rhythm

@@ -9,7 +9,8 @@ them. Going from one to the next counts
 - how well the second fits on the first (`app.choreography.joins`); the segment that follows in the capture fits best;
 - how much faster or slower than captured both must be danced between their accents, within `SPEEDS`;
 - an accent off the beat;
-- a little chance, by the seed, so that a choreography does not repeat itself, and a cost of segments danced lately.
+- a little chance, by the seed, so that a choreography does not repeat itself, and a cost of segments danced lately;
+- where the music returns, what was danced to it before (`app.choreography.phrases`).
 
 With one segment for each state, no costs and one place a step this is the Viterbi algorithm for the model whose
 probabilities `app.choreography.hidden_markov` counts.
@@ -57,6 +58,8 @@ class Weights:
         Scale of the seed's noise, of Gumbel's distribution.
     lately : float
         Of each time that a segment was danced within `LATELY_S`.
+    returns : float
+        Of a segment that was danced where the music was as it is again.
     """
 
     join_per_m: float = 40.0
@@ -66,6 +69,7 @@ class Weights:
     heard: float = 1.3
     chance: float = 0.6
     lately: float = 2.0
+    returns: float = 5.0
 
 
 LATELY_S: Final = 12.0
@@ -159,6 +163,7 @@ def choose(
     usual: FloatArray | None = None,
     initial: FloatArray | None = None,
     final: FloatArray | None = None,
+    returns: IntArray | None = None,
 ) -> list[tuple[int, int]]:
     """The best segments for a piece.
 
@@ -169,6 +174,8 @@ def choose(
     constraints : Constraints, optional
     usual, initial, final : (S,) float64, optional
         Log odds of each segment wherever it is, as the first, and as the last.
+    returns : (G,) int, optional
+        The earlier place whose music returns at each place; -1 where none does.
 
     Returns
     -------
@@ -193,7 +200,13 @@ def choose(
             lately[segment] += grid.times_s[place] >= since_s
         before = chosen[-1] if chosen and search.reaches(chosen[-1][0], first) else None
         ends = np.zeros(segments) if final is None or seen < count else weights.model * final
-        found = search.phrase(before, first, seen, noise - weights.lately * lately, ends)
+        extra = noise - weights.lately * lately
+        if returns is not None:
+            danced = dict(chosen)
+            for row, earlier in enumerate(returns[first:seen].tolist()):
+                if earlier in danced:
+                    extra[row, danced[earlier]] += weights.returns
+        found = search.phrase(before, first, seen, extra, ends)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:
             break

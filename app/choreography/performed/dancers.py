@@ -78,7 +78,8 @@ class GeneratedDance:
         character: Character,
         time_frame: TimeFrame,
     ) -> None:
-        self.dancer, self.choreographer, self.rhythm, self.character = dancer, choreographer, rhythm, character
+        self.dancer, self.choreographer, self.character = dancer, choreographer, character
+        self.rhythm = choreographer.felt(rhythm)
         self.time_frame = time_frame
         self._corrections, self._tempo_map = corrections, tempo_map
         self._problems: tuple[Problem, ...] = ()

@@ -1,0 +1,106 @@
+"""Bars that return, and dances that take up again what they danced to them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.choreography.dance import Manner
+from app.choreography.generate import Choreographer
+from app.choreography.phrases import likeness_of_bars, returning_bars, returning_places
+from app.choreography.rhythm import Rhythm, felt_at
+from app.choreography.sequence import Weights, grid_of
+from tests.support.dances import model
+
+BEAT_S = 0.55
+
+
+def played(form: str, beat_s: float = BEAT_S, beats: int = 4) -> Rhythm:
+    """Sections of four bars, each letter with strokes of its own."""
+    hits = []
+    for section, letter in enumerate(form):
+        random = np.random.default_rng(ord(letter))
+        for bar in range(4):
+            for place in np.flatnonzero(random.uniform(size=4 * beats) < 0.5):
+                at = (4 * section + bar) * beats + place / 4.0
+                hits.append((beat_s * at, int(random.integers(47)), float(random.uniform(0.4, 1.0))))
+    hits.sort()
+    times, symbols, strengths = (np.array(column) for column in zip(*hits, strict=True))
+    count = 4 * beats * len(form) + 1
+    return Rhythm(beat_s * np.arange(count), np.arange(count) % beats, times, symbols.astype(int), strengths, False)
+
+
+def test_sections_return_and_new_ones_do_not() -> None:
+    found = returning_bars(played("ABAC"))
+    assert found[8:12].tolist() == [0, 1, 2, 3]
+    assert (found[[5, 6, 13, 14, 15]] == -1).all()
+
+
+def test_where_all_bars_are_alike_none_returns() -> None:
+    rhythm = played("AAAA")
+    same = replace(rhythm, hits_s=rhythm.beats_s, symbols=np.ones(len(rhythm.beats_s), int), strengths=np.ones(65))
+    assert (returning_bars(same) == -1).all()
+
+
+def test_likeness_does_not_depend_on_the_tempo_and_knows_each_bar_itself() -> None:
+    one, other = likeness_of_bars(played("ABA")), likeness_of_bars(played("ABA", 0.8))
+    assert np.allclose(one, other, atol=1e-6)
+    assert np.allclose(np.diag(one), 1.0)
+
+
+def test_places_return_to_the_same_place_of_the_bar() -> None:
+    rhythm = played("ABA")
+    times = grid_of(rhythm).times_s
+    found = returning_places(rhythm, times)
+    back = np.flatnonzero(found >= 0)
+    assert len(back) >= 30
+    assert np.allclose((times[back] - times[found[back]]) % (4 * BEAT_S) % (4 * BEAT_S - 1e-6), 0.0, atol=1e-5)
+
+
+def test_without_bars_nothing_returns() -> None:
+    empty = Rhythm(np.zeros(0), np.zeros(0, int), np.zeros(0), np.zeros(0, int), np.zeros(0), False)
+    assert len(returning_bars(empty)) == 0
+    assert returning_places(empty, np.zeros(0)).tolist() == []
+
+
+def test_what_returns_is_danced_again_with_variation() -> None:
+    rhythm, choreographer = played("ABCA"), Choreographer(model())
+
+    def again(weights: Weights) -> float:
+        same = []
+        for seed in range(4):
+            steps = {
+                step.place: step.segment for step in choreographer.steps(rhythm, Manner(seed=seed), weights=weights)
+            }
+            pairs = [(steps.get(place - 96), steps[place]) for place in steps if 96 <= place < 128]
+            same.append(np.mean([one == other for one, other in pairs]))
+        return float(np.mean(same))
+
+    assert again(Weights(returns=0.0)) < 0.3
+    assert 0.5 < again(Weights()) < 1.0
+
+
+def test_far_tempi_are_felt_at_half_or_double_time() -> None:
+    slow, fast = felt_at(played("A", 2.0), 0.5), felt_at(played("A", 0.2), 0.5)
+    assert np.allclose(np.diff(slow.beats_s), 0.5)
+    assert slow.bar_beats[:17].tolist() == [*range(16), 0]
+    assert np.allclose(np.diff(fast.beats_s), 0.4)
+    assert fast.bar_beats[:5].tolist() == [0, 1, 0, 1, 0]
+    for near in (played("A", 0.3), played("A", 0.9)):
+        assert felt_at(near, 0.5) is near
+    for rhythm in (slow, fast):
+        assert felt_at(rhythm, 0.5) is rhythm
+
+
+def test_beats_are_divided_and_joined_as_the_metre_does() -> None:
+    rhythm = played("A", 1.5, beats=2)
+    compound = replace(rhythm, divisions=np.full(len(rhythm.beats_s), 3))
+    felt = felt_at(compound, 0.5)
+    assert np.allclose(np.diff(felt.beats_s), 0.5)
+    assert felt.bar_beats[:7].tolist() == [0, 1, 2, 3, 4, 5, 0]
+    waltz = felt_at(played("A", 0.2, beats=3), 0.5)
+    assert np.allclose(np.diff(waltz.beats_s), 0.6)
+    assert (waltz.divisions == 3).all()
+    five = played("A", 0.2, beats=5)
+    assert felt_at(five, 0.5) is five
