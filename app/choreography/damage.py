@@ -94,14 +94,20 @@ class Damage:
     parts: tuple[str, ...]
 
 
-def damage(clip: MotionClip) -> tuple[Damage, ...]:
-    """Damage of a clip, ascending; what overlaps in time is one."""
+def damage(clip: MotionClip, tolerance: float = 1.0) -> tuple[Damage, ...]:
+    """Damage of a clip, ascending; what overlaps in time is one.
+
+    Parameters
+    ----------
+    tolerance : float
+        Of distances from the cubic, as a multiple of those of captures.
+    """
     if len(clip) < 5:
         return ()
     speeds = part_speeds(clip)
     found = set(_too_fast(speeds, float(clip.fps)))
     for length in _lengths(float(clip.fps)):
-        found.update(_off_the_cubic(clip, speeds, length))
+        found.update(_off_the_cubic(clip, speeds, length, tolerance))
     found = _with_held(speeds, found)
     found.update((start, stop, part) for start, stop in _frozen(speeds) for part in range(len(PARTS)))
     return tuple(_merged(found))
@@ -141,7 +147,9 @@ def _lengths(fps: float) -> list[int]:
     return sorted({round(one) for one in np.geomspace(2, most, min(MOST_WINDOWS, most - 1))})
 
 
-def _off_the_cubic(clip: MotionClip, speeds: FloatArray, length: int) -> Iterator[tuple[int, int, int]]:
+def _off_the_cubic(
+    clip: MotionClip, speeds: FloatArray, length: int, tolerance: float
+) -> Iterator[tuple[int, int, int]]:
     """Spans (start, stop, part) that are far from the cubic over windows of so many steps."""
     count = len(speeds) - length - 1
     if count < 1:
@@ -154,7 +162,7 @@ def _off_the_cubic(clip: MotionClip, speeds: FloatArray, length: int) -> Iterato
     if not len(first):
         return
     time_s = length / float(clip.fps)
-    bound = _FAR * min(1.0, max(LEAST_PART, (time_s / FAR_S) ** 1.2))
+    bound = tolerance * _FAR * min(1.0, max(LEAST_PART, (time_s / FAR_S) ** 1.2))
     turned, moved = part < PLACE, part == PLACE
     bounds = bound[part]
     if length == 2:

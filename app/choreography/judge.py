@@ -26,6 +26,8 @@ AROUND: Final = (-1, 2)
 """First and last frame about a seam that are looked at; a change is seen in the frame before and the one after."""
 NEAR_S: Final = 0.1
 """A jolt no farther from a seam than this is that of the seam."""
+TOLERANCE: Final = 2.0
+"""A dance is danced faster than captured, by up to 1.75 for a moment: it may be so much farther from even motion."""
 SLIDES_M_S: Final = 0.005
 """A standing foot whose tip goes faster than this slides."""
 
@@ -58,7 +60,9 @@ def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
     """Places anywhere in a dance, but at its seams, where a body moves as none does."""
     apart = round(NEAR_S * float(clip.fps))
     return tuple(
-        one for one in damage(clip) if all(seam < one.start - apart or one.stop + apart < seam for seam in seams)
+        one
+        for one in damage(clip, TOLERANCE)
+        if all(seam < one.start - apart or one.stop + apart < seam for seam in seams)
     )
 
 
