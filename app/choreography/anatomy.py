@@ -26,6 +26,8 @@ MOST_TWIST_DEG: Final = 75.0
 """A hinge farther from where a standing zero pose has it is none."""
 ALIKE_DEG: Final = 40.0
 """Lines of neighbouring bones are taken for the same if the motion has them nearer than this in the mean."""
+SPINE_ALIKE_DEG: Final = 6.0
+"""The same of the spine, between two lines whose mean is seldom farther off."""
 LEANS_DEG: Final = {"hips": -3.0, "spine": -2.0, "chest": -4.0}
 """Lean, ahead positive, of the way to the next joint of the trunk in a body that stands: the mean of rigs whose zero
 pose does (CMU, Mixamo, MakeHuman)."""
@@ -72,6 +74,7 @@ def _trunk(body: Captured) -> dict[str, FloatArray]:
     nexts["spine"] = body.start("chest")
     found = {}
     across = {name: body.mean(name, line) for name, line in lines.items()}
+    across["spine"] = _carried(across["chest"], across["spine"], SPINE_ALIKE_DEG)
     for name in lines:
         found[name] = _column(body, name, across[name], nexts[name] - body.start(name))
     if body.segments["spine"] in (body.segments["hips"], body.segments["chest"]):
@@ -95,13 +98,13 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
     return quaternion.multiply(quaternion.from_axis_angle(X, np.radians(LEANS_DEG[name] - lean_deg)), plain)
 
 
-def _carried(line: FloatArray, seen: FloatArray) -> FloatArray:
+def _carried(line: FloatArray, seen: FloatArray, alike_deg: float = ALIKE_DEG) -> FloatArray:
     """Return a line of the bone below in the axes of the next, if these are alike; else as it is seen in the mean.
 
     Programs that lay bones along an axis turn neighbours about it alike: their zero pose tells nothing about how they
     lean, but which way they face.
     """
-    return line if angle_deg(line, seen) < ALIKE_DEG else seen
+    return line if angle_deg(line, seen) < alike_deg else seen
 
 
 def _head(body: Captured, chest_line: FloatArray) -> FloatArray:
