@@ -124,7 +124,7 @@ expression_duplicate = project
 expression_both = both
 expression_preview = preview
 expression_choice, problems_who, problems_kind ? choices
-fix_problems, ignore_problems ? project + players selection
+ignore_problems ? project + players selection
 revert_player, revert, */revert ? project + selection
 takes_listen, takes_listen_alone, takes.listen, takes.listen_alone = playing take
 takes_whole, takes.whole = project
