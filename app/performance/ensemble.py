@@ -92,6 +92,8 @@ class Performance:
         self._plans = dict[str, PlayerPlan]()
         """By player id, as far as they are made."""
         self._problems = dict[str, tuple[Problem, ...]]()
+        self._finished: EnsemblePlan | None = None
+        """The plan of all, once it is made."""
         known = dict[str, StepResults]() if self._before is None else self._before._players
         self._players: dict[str, StepResults] = {
             player.id: self._begun(player, known.get(player.id)) for player in project.players
@@ -206,10 +208,11 @@ class Performance:
             found[CONDUCTOR] = StagePlace(conductor.x_m, conductor.z_m, math.pi, CONDUCTOR_EYES_M)
         return found if self._before is None or self._before.places != found else self._before.places
 
-    @cached_property
+    @property
     def _ensemble(self) -> EnsemblePlan:
         self.prepare()
-        return self._ensemble
+        assert self._finished is not None
+        return self._finished
 
     def prepare(
         self,
@@ -284,7 +287,7 @@ class Performance:
         made = planning.finished()
         self._plans = {player.id: self._plans[player.id] for player in self.project.players}
         _CHECKED.update(player.parameters.choreography for player in self.project.players)
-        self.__dict__["_ensemble"] = made
+        self._finished = made
         for results in (self._whole, *self._players.values(), *self._lines.values(), *self._held.values()):
             results.close()
         self._before = None
@@ -386,7 +389,7 @@ class Performance:
     @property
     def planned(self) -> bool:
         """True if the plans are made already: asking for them then costs nothing."""
-        return "_ensemble" in self.__dict__
+        return self._finished is not None
 
     def is_planned(self, player_id: str) -> bool:
         """Return whether a player's plan is made already; the others' may not be."""
