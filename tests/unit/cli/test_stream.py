@@ -77,7 +77,12 @@ def test_dancers_of_a_project_have_the_ports_after_the_players(
     save(replace(project, dancers=(gone, ana)), tmp_path / "danced.suisou")
     performance = Performance(project)
     span = whole_span(performance.time_frame, Fraction(30))
-    asked = ["stream", str(tmp_path / "danced.suisou"), "--from", str(span.end_s - 1.0), "--fps", "30"]
+    motion = dancing_of(performance, ana).motion(span.fps, 0, span.count)
+    joint = character_named(ana.character_id).skeleton.index("leftUpperLeg")
+    danced = motion.rotations[:, joint] * (1, -1, -1, 1)
+    moving = np.flatnonzero(np.abs(np.diff(danced, axis=0)).max(axis=1) > 1e-3)
+    last_s = span.first_frame_s + float(moving[-1] / span.fps)
+    asked = ["stream", str(tmp_path / "danced.suisou"), "--from", str(last_s - 0.5), "--fps", "30"]
     with Receiver(39811) as first, Receiver(39812) as second:
         assert main([*asked, "--port", "39811", "--player", "Removed", "--player", "Ana"]) == PARTIAL
         assert not first.packets
@@ -85,9 +90,6 @@ def test_dancers_of_a_project_have_the_ports_after_the_players(
     reported = capsys.readouterr()
     assert "Ana: 127.0.0.1:39812" in reported.out
     assert "gone.choreography" in reported.err
-    motion = dancing_of(performance, ana).motion(span.fps, 0, span.count)
-    joint = character_named(ana.character_id).skeleton.index("leftUpperLeg")
-    danced = motion.rotations[:, joint] * (1, -1, -1, 1)
     places = {round(float(value), 4) for value in (-ana.stage.x_m, 0.0, ana.stage.z_m)}
     for frame in sent:
         assert frame.trackers == {}

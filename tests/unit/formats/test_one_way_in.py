@@ -17,6 +17,8 @@ OUR_OWN = {
     "app/export/unreal/plugin.py": {"read_bytes"},
     "app/formats/table_cache.py": {"read_bytes"},
     "app/evaluation/page.py": {"read_text", "read_bytes"},  # and clips that were drawn a moment ago
+    "app/messages/details/__init__.py": {"read_text", "tomllib"},
+    "app/messages/wordings.py": {"read_text", "tomllib"},
     "app/shell/help/guides.py": {"read_text"},
     "app/shell/theme.py": {"read_text"},
     "widgets/common/icons.py": {"read_text"},

@@ -56,7 +56,7 @@ def motion(plan: PlayerPlan, start_s: float, end_s: float) -> dict[str, float]:
 
 
 def layers_of(plan: PlayerPlan) -> Layers:
-    return LAYERS.begin(plan=plan, body=BODY, felt_beats=FELT).of(Layers)
+    return LAYERS.begin(plan=plan, body=BODY, felt_beats=FELT, generated_feet=1.0).of(Layers)
 
 
 def test_fortissimo_is_larger_than_pianissimo_in_every_layer() -> None:
