@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from functools import cache
 from typing import Final
@@ -18,7 +18,7 @@ import numpy as np
 
 from app.errors import FileError
 from app.rig.characters.bone_placements import world_placements
-from app.rig.characters.joints_by_shape import Tree, joints_by_shape, spread_spine, tree_of
+from app.rig.characters.joints_by_shape import Tree, joints_by_shape, spread_spine, tree_of, trunk_by_limbs
 from app.rig.figure import Figure
 from metadata.known_names import bone_key
 from metadata.load import load_bone_names, load_skeleton
@@ -26,6 +26,11 @@ from metadata.model import REQUIRED_JOINTS
 
 ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
 """Joints that names may add to what a file says of itself."""
+LEGS: Final = re.compile(r"(UpperLeg|LowerLeg|Foot|Toes)$")
+ARMS: Final = re.compile(r"(Shoulder|UpperArm|LowerArm|Hand|Metacarpal|Proximal|Intermediate|Distal)$")
+TRUNK: Final = re.compile(r"^(hips|spine|chest|upperChest|neck|head)$")
+LIMBS: Final = re.compile(rf"{LEGS.pattern}|{ARMS.pattern}")
+ANY: Final = re.compile("")
 CLEARLY: Final = 0.5
 """Sides are swapped where this part of the way from right to left leads to -X: not where a figure faces sideways."""
 NUMBERED: Final = re.compile(r"[_.]\d+$")
@@ -132,33 +137,94 @@ def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
 def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
     """The best mapping without the user's help, and which joints of it are guessed."""
     named = _by_names(figure, tree)
-    joints = _joints()
     if figure.humanoid:
-        bones = {joint: bone for joint, bone in figure.humanoid.items() if joint in joints}
-        for joint, bone in named.bones.items():
-            if joint not in bones and ENDS.search(joint) and bone not in bones.values():
-                top = _joint_above(joint, bones)
-                if top is not None and bones[top] in tree.above[bone] and joint not in named.astray:
-                    bones[joint] = bone
-        found = _Found(figure.origin if figure.origin.startswith("vrm") else "vrm", bones, _astray(tree, bones), 0)
+        found = _as_the_file_says(figure, tree, named)
     elif named.required >= ENOUGH:
         found = named
     else:
         shape = joints_by_shape(tree)
         return _Found("", shape, frozenset(), 0), set(shape)
-    if found.required == len(REQUIRED_JOINTS):
+    if found.required == len(REQUIRED_JOINTS) and (figure.humanoid or not _trunk_beside(tree, found.bones)):
         return found, set()
+    bones = _completed(tree, found, frozenset(figure.humanoid))
+    kept = {joint for joint, bone in found.bones.items() if bones.get(joint) == bone}
+    profile = found.profile if figure.humanoid or len(kept) >= len(bones) / 2 else ""
+    return _Found(profile, bones, _astray(tree, bones), 0), set(bones) - kept
+
+
+def _as_the_file_says(figure: Figure, tree: Tree, named: _Found) -> _Found:
+    """Joints that a VRM file names itself, and ends of chains that its bones' names add."""
+    bones = {joint: bone for joint, bone in figure.humanoid.items() if joint in _joints()}
+    for joint, bone in named.bones.items():
+        if joint not in bones and ENDS.search(joint) and bone not in bones.values():
+            top = _joint_above(joint, bones)
+            if top is not None and bones[top] in tree.above[bone] and joint not in named.astray:
+                bones[joint] = bone
+    return _Found(figure.origin if figure.origin.startswith("vrm") else "vrm", bones, _astray(tree, bones), 0)
+
+
+def _completed(tree: Tree, found: _Found, fixed: Set[str]) -> dict[str, int]:
+    """The mapping with what the names leave out found by shape.
+
+    A part of the body of which names leave out a required joint goes by shape altogether where shape knows all of it:
+    names that skip a joint are another program's for those beside it (a shoulder is an upper arm, a chest a spine).
+    The trunk lies between the limbs, whichever way those were found.
+
+    Parameters
+    ----------
+    fixed : set of str
+        Joints that stay: the file itself says them.
+    """
     shape = joints_by_shape(tree)
     bones = dict(found.bones)
-    guessed = set()
+    for part in (LEGS, ARMS):
+        _replace_part(bones, shape, part, fixed)
+    if not _lacks(bones, LIMBS):
+        trunk = _trunk_beside(tree, bones) if not fixed else {}
+        for joint in [joint for joint in bones if trunk and TRUNK.search(joint)]:
+            del bones[joint]
+        _replace_part(bones, shape | (trunk or trunk_by_limbs(tree, bones)), TRUNK, fixed)
     for joint in REQUIRED_JOINTS:
         if joint not in bones and joint in shape and shape[joint] not in bones.values():
             bones[joint] = shape[joint]
             if joint in _astray(tree, bones):
                 del bones[joint]
-            else:
-                guessed.add(joint)
-    return _Found(found.profile, bones, _astray(tree, bones), 0), guessed
+    if _lacks(bones, ANY) and not _lacks(shape, ANY) and not fixed:
+        return shape
+    return bones
+
+
+def _trunk_beside(tree: Tree, bones: Mapping[str, int]) -> dict[str, int]:
+    """The trunk between the limbs where names know but the upper part of it, or hips that do not carry the legs; empty
+    where they know it, or where bones do not hang on one another."""
+    if _lacks(bones, LIMBS):
+        return {}
+    trunk = trunk_by_limbs(tree, bones)
+    own = [bones[joint] for joint in ("spine", "chest", "upperChest") if joint in bones]
+    if "head" not in trunk or bones.get("head", trunk["head"]) != trunk["head"] or not own:
+        return {}
+    carried = bones.get("hips") in tree.above[bones["leftUpperLeg"]]
+    if carried and trunk["spine"] in own:
+        return {}
+    between = tree.path(trunk["hips"], max(own, key=tree.depth))
+    return trunk if set(own) <= set(between) else {}
+
+
+def _lacks(bones: Mapping[str, int], part: re.Pattern[str]) -> bool:
+    return any(joint not in bones for joint in REQUIRED_JOINTS if part.search(joint))
+
+
+def _replace_part(bones: dict[str, int], shape: Mapping[str, int], part: re.Pattern[str], fixed: Set[str]) -> None:
+    """Take a part's joints from the shape where names lack a required one of them and the shape lacks none."""
+    if not _lacks(bones, part) or _lacks({**shape, **{joint: bones[joint] for joint in fixed if joint in bones}}, part):
+        return
+    for joint in [joint for joint in bones if part.search(joint) and joint not in fixed]:
+        del bones[joint]
+    for joint, bone in shape.items():
+        if part.search(joint) and joint not in bones and not any(bones.get(one) == bone for one in fixed):
+            for other in [one for one, held in bones.items() if held == bone]:
+                del bones[other]
+            bones[joint] = bone
 
 
 @cache
@@ -253,9 +319,9 @@ def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
     """Swap what is called left and is at -X; returns the joints swapped."""
     turned: set[str] = set()
     for at, own in (
-        ("UpperLeg", r"(UpperLeg|LowerLeg|Foot|Toes)$"),
-        ("UpperArm", r"(Shoulder|UpperArm|LowerArm|Hand|Metacarpal|Proximal|Intermediate|Distal)$"),
-        ("Eye", r"Eye$"),
+        ("UpperLeg", LEGS),
+        ("UpperArm", ARMS),
+        ("Eye", re.compile(r"Eye$")),
     ):
         left, right = bones.get(f"left{at}"), bones.get(f"right{at}")
         if left is None or right is None:
@@ -263,7 +329,7 @@ def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
         across = tree.positions_m[left] - tree.positions_m[right]
         if across[0] > -CLEARLY * float(np.linalg.norm(across)) or across[0] == 0.0:
             continue
-        swapped = {joint: bone for joint, bone in bones.items() if re.search(own, joint)}
+        swapped = {joint: bone for joint, bone in bones.items() if own.search(joint)}
         for joint in swapped:
             del bones[joint]
         for joint, bone in swapped.items():

@@ -6,7 +6,7 @@ Everything found here is a guess from a usual figure's proportions and must be r
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
@@ -30,6 +30,12 @@ FOOT_HEIGHT: Final = 0.12
 """No ankle is higher."""
 ARM_LENGTH: Final = 0.30
 """Shoulder to wrist."""
+HAND_AWAY: Final = 0.15
+"""No hand is nearer to where the arm begins."""
+UPWARDS: Final = 0.3
+"""A neck leads up by more than this part of its length; a jaw leads ahead."""
+HEAD_TOP: Final = 0.1
+"""A last bone that lies so far above the one before is the top of a head, not the head."""
 LEG_LENGTH: Final = 0.46
 """Hip to ankle. All of the figure's height."""
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
@@ -146,6 +152,11 @@ class _Halves:
         both = self.tree.above[bone] & self.tree.above[self.partner[bone]]
         return max(both, key=self.tree.depth) if both else None
 
+    def way(self, end: int) -> list[int]:
+        """From below the bone where a chain meets its mirror image down to its end."""
+        top = self.meeting(end)
+        return self.tree.path(-1 if top is None else top, end)
+
 
 def joints_by_shape(tree: Tree) -> dict[str, int]:
     """Bones by VRM 1.0 joint, as far as they can be reported; empty where there is no body to be seen."""
@@ -159,20 +170,23 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
     ends = halves.left_ends(root)
     if not ends:
         return {}
-    toe = min(ends, key=lambda bone: (tree.positions_m[bone, 1], bone))
-    hips = halves.meeting(toe)
-    if hips is None or halves.side(hips) != 0:
+    hips, joints = _legs(halves, ends)
+    if hips is None:
         return {}
-    joints = {"hips": hips}
-    legs = {}
-    for side, end in (("left", toe), ("right", halves.partner[toe])):
-        path = tree.path(hips, end)
-        legs[side] = path[0]
-        joints |= _leg(halves, side, path)
-    arms = [bone for bone in ends if legs["left"] not in (tree.above[bone] | {bone})]
+    beside = {joints[side + "UpperLeg"] for side in ("left", "right")}
+    arms = [bone for bone in ends if not beside & (tree.above[bone] | {bone})]
     if not arms:
         return joints
-    tip = max(arms, key=lambda bone: (tree.positions_m[bone, 0], -bone))
+    # Wings reach farther than arms and hang from the same bone, but hold no fingers; a skirt hangs from the hips.
+    tip = max(
+        arms,
+        key=lambda bone: (
+            hips in tree.above[halves.way(bone)[0]] and halves.meeting(bone) != hips,
+            _hand_of_fingers(halves, halves.way(bone)) is not None,
+            tree.positions_m[bone, 0],
+            -bone,
+        ),
+    )
     chest = halves.meeting(tip)
     if chest is None or halves.side(chest) != 0:
         return joints
@@ -181,8 +195,83 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
     return joints | spread_spine(tree, tree.path(hips, chest) if chest != hips else []) | _head(halves, chest)
 
 
+def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
+    """Hips, spine and head of a figure whose upper legs and upper arms are known; empty where no bones are between."""
+    legs = [limbs[side + "UpperLeg"] for side in ("left", "right")]
+    arms = [limbs.get(side + "Shoulder", limbs[side + "UpperArm"]) for side in ("left", "right")]
+    under_legs = frozenset.intersection(*(tree.above[bone] for bone in legs))
+    under_arms = frozenset.intersection(*(tree.above[bone] for bone in arms))
+    shared = under_legs & under_arms
+    if not shared:
+        return {}
+    hips = max(shared, key=tree.depth)
+    chest = max(under_arms, key=tree.depth)
+    if chest == hips:
+        return {}
+    chain = tree.path(hips, chest)
+    carrying = [bone for bone in chain if bone in tree.skinned]
+    return {"hips": hips} | spread_spine(tree, carrying or chain) | _head(_Halves(tree), chest)
+
+
+def _legs(halves: _Halves, ends: list[int]) -> tuple[int | None, dict[str, int]]:
+    """Hips and legs: of the ways down the lowest that ends in a foot which points ahead, or the lowest of all.
+
+    A foot that hangs from the root and not from its leg, as a rig's with inverse kinematics does, lies at the end of a
+    leg that has none of its own.
+    """
+    tree = halves.tree
+    loose = [way for end in ends if len(way := halves.way(end)) <= 2 and _low(halves, way[0])]
+    found: list[tuple[bool, float, int, int, dict[str, int]]] = []
+    for end in ends:
+        hips = halves.meeting(end)
+        if hips is None or halves.side(hips) != 0:
+            continue
+        way = halves.way(end)
+        foot = _loose_foot(halves, way, loose)
+        mirrored = [halves.partner.get(bone, -1) for bone in foot]
+        if -1 in mirrored:
+            foot = mirrored = []
+        if foot:
+            way = [bone for bone in way if not _alike(halves, bone, foot[0])]
+        other = [] if not way else tree.path(hips, halves.partner[way[-1]])
+        left, right = _leg(halves, "left", way + foot), _leg(halves, "right", other + mirrored)
+        if left and right:
+            ahead = _points_ahead(halves, way + foot) is not None
+            found.append(
+                (not ahead, round(float(tree.positions_m[end, 1]) / halves.height, 2), end, hips, left | right)
+            )
+    if not found:
+        return None, {}
+    _, _, _, hips, joints = min(found, key=lambda one: one[:3])
+    return hips, {"hips": hips} | joints
+
+
+def _low(halves: _Halves, bone: int) -> bool:
+    return bool(halves.tree.positions_m[bone, 1] - halves.floor < FOOT_HEIGHT * halves.height)
+
+
+def _alike(halves: _Halves, one: int, other: int) -> bool:
+    """Return whether two bones lie at one place."""
+    return halves.tree.distance(one, other) < MIRROR_TOLERANCE * halves.height
+
+
+def _loose_foot(halves: _Halves, way: list[int], loose: list[list[int]]) -> list[int]:
+    """The foot below a leg without one; empty where the leg has its own."""
+    if len(way) < 2 or (len(way) > 2 and way[-1] in halves.tree.skinned and _low(halves, way[-1])):
+        return []
+    if _low(halves, way[0]):
+        return []
+    last = halves.tree.positions_m[way[-1]]
+    near = [foot for foot in loose if foot[0] not in way and foot[0] in halves.tree.skinned]
+    found = min(near, key=lambda foot: float(np.linalg.norm(halves.tree.positions_m[foot[0]] - last)), default=[])
+    off = halves.tree.positions_m[found[0]] - last if found else np.zeros(3)
+    return found if float(np.hypot(off[0], off[2])) < FOOT_HEIGHT * halves.height else []
+
+
 def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     tree, height = halves.tree, halves.height
+    if not path:
+        return {}
     ankle = _ankle(halves, path)
     upper = path[: path.index(ankle)]
     beside = [bone for bone in upper if abs(tree.positions_m[bone, 0] - halves.centre) > HIP_BESIDE * height]
@@ -201,24 +290,25 @@ def _ankle(halves: _Halves, path: list[int]) -> int:
     """Return where the way down turns ahead, near the floor; without a foot that points ahead, what is as high as an
     ankle."""
     places, floor = halves.tree.positions_m, halves.floor
-    for bone, next_ in pairwise(path):
-        ahead = places[next_] - places[bone]
-        if places[bone, 1] - floor < FOOT_HEIGHT * halves.height and ahead[2] > 0.5 * np.linalg.norm(ahead):
-            return bone
+    ankle = _points_ahead(halves, path)
+    if ankle is not None:
+        return ankle
     return min(path, key=lambda bone: abs(float(places[bone, 1]) - floor - ANKLE_HEIGHT * halves.height))
+
+
+def _points_ahead(halves: _Halves, path: list[int]) -> int | None:
+    """The bone near the floor from which a way leads ahead."""
+    for bone, next_ in pairwise(path):
+        ahead = halves.tree.positions_m[next_] - halves.tree.positions_m[bone]
+        if _low(halves, bone) and ahead[2] > 0.5 * np.linalg.norm(ahead):
+            return bone
+    return None
 
 
 def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     tree, height = halves.tree, halves.height
-    spread = [
-        bone
-        for bone in path
-        if sum(bool(tree.children[child]) for child in tree.children[bone]) >= 3
-        and tree.distance(path[0], bone) > 0.15 * height
-    ]
-    if spread:
-        hand = spread[0]
-    else:
+    hand = _hand_of_fingers(halves, path)
+    if hand is None:
         # No fingers: the last bone that is about an arm away from the first.
         hand = min(path, key=lambda bone: abs(tree.distance(path[0], bone) - (ARM_LENGTH + 0.07) * height))
     upper = path[: path.index(hand)]
@@ -230,6 +320,16 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     if before:
         found[f"{side}Shoulder"] = before[0]
     return found | fingers(tree, side, hand)
+
+
+def _hand_of_fingers(halves: _Halves, path: list[int]) -> int | None:
+    """The bone along an arm that three or more chains hang from, where there is one."""
+    tree, used = halves.tree, frozenset(halves.used)
+    for bone in path:
+        chains = sum(not used.isdisjoint(tree.children[child]) for child in tree.children[bone])
+        if chains >= 3 and tree.distance(path[0], bone) > HAND_AWAY * halves.height:
+            return bone
+    return None
 
 
 def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
@@ -290,13 +390,17 @@ def _head(halves: _Halves, chest: int) -> dict[str, int]:
     bone = chest
     while True:
         central = [child for child in tree.children[bone] if halves.side(child) == 0 and child in used]
-        higher = [child for child in central if tree.positions_m[child, 1] > tree.positions_m[bone, 1]]
+        up = {child: tree.positions_m[child] - tree.positions_m[bone] for child in central}
+        higher = [child for child in central if up[child][1] > UPWARDS * float(np.linalg.norm(up[child]))]
         if not higher or len(chain) == 4:
             break
         # The way to the head is the one that most hangs on.
         bone = max(higher, key=lambda child: (tree.below[child], -child))
         chain.append(bone)
     while len(chain) > 1 and chain[-1] not in tree.skinned:
+        chain.pop()
+    top = len(chain) > 1 and not used & set(tree.children[chain[-1]])
+    if top and tree.distance(chain[-2], chain[-1]) > HEAD_TOP * halves.height:
         chain.pop()
     if not chain:
         return {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -358,3 +359,149 @@ def test_a_skeleton_that_is_no_body_has_no_joints() -> None:
     mapping = map_joints(figure_of(chain))
     assert mapping.bones == {}
     assert set(mapping.missing) == set(JOINTS)
+
+
+CASTS = {
+    # Trunk upwards; shoulder to hand and thigh to toes with {s} for the side; words for the sides; fingers.
+    "Second Life": (
+        "mPelvis mTorso mSpine3 mChest mNeck mHead",
+        "mCollar{s} mShoulder{s} mElbow{s} mWrist{s} mHip{s} mKnee{s} mAnkle{s} mFoot{s}",
+        ("Left", "Right"),
+        "mHand{finger}{number}{s}",
+    ),
+    "OptiTrack": (
+        "Hips Ab Spine2 Chest Neck Head",
+        "{s}Shoulder {s}UArm {s}FArm {s}Hand {s}Thigh {s}Shin {s}Foot {s}Toe",
+        ("L", "R"),
+        "{s}{finger}{number}",
+    ),
+    "Quaternius": (
+        "Hips Abdomen Torso Chest Neck Head",
+        "Shoulder.{s} UpperArm.{s} LowerArm.{s} Fist.{s} UpperLeg.{s} LowerLeg.{s} Foot.{s} Toes.{s}",
+        ("L", "R"),
+        "{finger}{number}.{s}",
+    ),
+    "limbs without elbows and knees": (
+        "Bauch Ruecken Brust Hals Neck Head",
+        "{s}Collar {s}Shoulder bend_{s}_a {s}Hand {s}UpperLeg bend_{s}_b {s}Foot {s}Toes",
+        ("Left", "Right"),
+        "f{number}{finger}{s}",
+    ),
+}
+
+
+def cast(name: str, bones: list[ListedBone]) -> dict[str, str]:
+    """New names of a body's bones."""
+    trunk, limbs, sides, digits = CASTS[name]
+    new = dict(zip(("hips", "spine", "chest", "upperChest", "neck", "head"), trunk.split(), strict=True))
+    parts = ("Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes")
+    for side, word in zip(("left", "right"), sides, strict=True):
+        new |= {side + part: limb.replace("{s}", word) for part, limb in zip(parts, limbs.split(), strict=True)}
+        for joint in JOINTS:
+            for number, part in enumerate(("Proximal", "Intermediate", "Distal"), 1):
+                finger = joint.removeprefix(side).removesuffix(part)
+                if joint.startswith(side) and joint.endswith(part):
+                    place = (1 if part == "Proximal" else 2) + 1 if finger == "Thumb" else number
+                    new[joint] = digits.format(s=word, finger=finger.replace("Little", "Pinky"), number=place)
+        new[f"{side}ThumbMetacarpal"] = digits.format(s=word, finger="Thumb", number=1)
+    return {bone.name: new.get(bone.joint, bone.name) for bone in bones}
+
+
+def without(bones: list[ListedBone], joints: str) -> list[ListedBone]:
+    """The body without some joints; what hung on them hangs on what they hung on."""
+    above = {bone.name: bone.parent for bone in bones if re.search(joints, bone.joint)}
+    left = []
+    for bone in bones:
+        parent = bone.parent
+        while parent in above:
+            parent = above[parent]
+        if bone.name not in above:
+            left.append(replace(bone, parent=parent))
+    return left
+
+
+def hanging(bones: list[ListedBone], joint: str, name: str, step: tuple[float, float, float], count: int) -> None:
+    """Hang a chain that is no limb on a joint."""
+    parent = next(bone for bone in bones if bone.joint == joint)
+    for number in range(count):
+        place = tuple(value + step[axis] for axis, value in enumerate(parent.place_m))
+        parent = ListedBone(f"{name}_{number}", parent.name, (place[0], place[1], place[2]), "")
+        bones.append(parent)
+
+
+def with_tail_and_wings(bones: list[ListedBone]) -> list[ListedBone]:
+    bones = list(bones)
+    hanging(bones, "hips", "tail", (0.0, -0.02, -0.12), 6)
+    for sign in (1.0, -1.0):
+        hanging(bones, "upperChest", f"wing{sign}", (sign * 0.3, 0.06, -0.08), 4)
+        hanging(bones, "head", f"plait{sign}", (sign * 0.05, -0.12, -0.03), 8)
+        hanging(bones, "hips", f"skirt{sign}", (sign * 0.05, -0.15, 0.03), 5)
+    return bones
+
+
+def with_loose_feet(bones: list[ListedBone]) -> list[ListedBone]:
+    """Feet hang from the root, as in a rig whose legs are drawn by them, and each leg ends in a bone without skin."""
+    found = [ListedBone("Rig", "", (0.0, 0.0, 0.0), "")]
+    for bone in bones:
+        if bone.joint.endswith("Foot"):
+            found.append(ListedBone(f"{bone.parent}_end", bone.parent, bone.place_m, ""))
+        found.append(replace(bone, parent="Rig") if bone.joint.endswith("Foot") or not bone.parent else bone)
+    return found
+
+
+BODIES: dict[str, Callable[[list[ListedBone]], list[ListedBone]]] = {
+    "as it is": list,
+    "without toes": lambda bones: without(bones, "Toes"),
+    "without fingers": lambda bones: without(bones, "Thumb|Index|Middle|Ring|Little"),
+    "with four fingers": lambda bones: without(bones, "Little"),
+    "without shoulders": lambda bones: without(bones, "Shoulder"),
+    "with a spine of two": lambda bones: without(bones, "upperChest"),
+    "tail, wings, plaits, skirt": with_tail_and_wings,
+    "loose feet": with_loose_feet,
+    "loose feet without toes": lambda bones: with_loose_feet(without(bones, "Toes")),
+}
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("name", CASTS)
+def test_where_names_leave_joints_out_the_shape_decides(name: str, body: str) -> None:
+    bones = BODIES[body](listed("game_engine"))
+    names = cast(name, bones)
+    mapping = map_joints(
+        figure_of(
+            bones,
+            rename=lambda bone: names[bone],
+            skinned=[bone.name for bone in bones if not bone.name.endswith("_end") and bone.name != "Rig"],
+        )
+    )
+    expected = known(bones)
+    found = {joint: bone for joint, bone in by_name(bones, mapping).items() if joint in BODY}
+    assert found == {joint: bone for joint, bone in expected.items() if joint in BODY}
+    assert {"hips", "spine"} & set(mapping.doubtful) or name == "Quaternius"
+
+
+def test_what_names_and_shape_agree_on_is_no_guess() -> None:
+    bones = listed("game_engine")
+    names = cast("Second Life", bones)
+    mapping = map_joints(figure_of(bones, rename=lambda bone: names[bone]))
+    assert {"leftUpperArm", "leftShoulder", "spine", "hips"} <= set(mapping.doubtful)
+    assert not {"leftHand", "rightLowerLeg", "head"} & set(mapping.doubtful)
+
+
+def test_hips_beside_the_legs_are_no_hips() -> None:
+    """Quaternius: Body holds both the legs and the bone called Hips, which the spine hangs from."""
+    own = {bone.joint: bone for bone in listed("game_engine")}
+    bones = []
+    for bone in listed("game_engine"):
+        if bone.joint == "hips":
+            bones.append(replace(bone, name="Body"))
+            bones.append(replace(bone, parent="Body", joint=""))
+        else:
+            legs = bone.joint.endswith("UpperLeg")
+            bones.append(replace(bone, parent="Body") if legs else bone)
+    names = cast("Quaternius", list(own.values())) | {"Body": "Body", own["hips"].name: "Hips"}
+    figure = figure_of(bones, rename=lambda bone: names.get(bone, bone))
+    found = {joint: figure.bone_names[bone] for joint, bone in map_joints(figure).bones.items()}
+    assert found["hips"] == "Body"
+    assert found["spine"] == "Hips"
+    assert found["leftUpperLeg"] == "UpperLeg.L"
