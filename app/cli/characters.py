@@ -12,8 +12,10 @@ from app.cli.terminal import say, say_json
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.messages import filled, text
+from app.rig.characters.character_library import LEAST_M, MOST_M
 
 _weight = bounded_number(-10.0, 10.0, "a weight", float)
+_height = bounded_number(LEAST_M, MOST_M, "a height in metres", float)
 
 
 class CannotPlayError(AppError):
@@ -65,6 +67,13 @@ def _add_file(command: argparse.ArgumentParser) -> None:
         metavar="SHAPE=MORPH[:WEIGHT][+...]",
         help="what makes an ARKit shape of the face, e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8",
     )
+    command.add_argument(
+        "--height",
+        type=_height,
+        default=0.0,
+        metavar="METRES",
+        help="how tall the character is, for a file in a unit of its own; else as in the file",
+    )
 
 
 def list_characters(arguments: argparse.Namespace) -> None:
@@ -102,7 +111,7 @@ def check_character(arguments: argparse.Namespace) -> None:
     CannotPlayError
         It cannot play.
     """
-    found = checked(arguments.file, joints_of(arguments.joint), morphs_of(arguments.morph))
+    found = checked(arguments.file, joints_of(arguments.joint), morphs_of(arguments.morph), arguments.height)
     if arguments.json:
         say_json(found)
     else:
@@ -115,7 +124,8 @@ def add_character(arguments: argparse.Namespace) -> None:
     """Add a character and print its id. Raises FileError, UsageError."""
     from app.rig.characters.character_library import add_character as add
 
-    say(add(arguments.file, arguments.name, joints_of(arguments.joint), morphs_of(arguments.morph)))
+    joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
+    say(add(arguments.file, arguments.name, joints, morphs, arguments.height))
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:
@@ -146,24 +156,29 @@ def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
     return found
 
 
-def checked(path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
+def checked(
+    path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]], height_m: float = 0.0
+) -> dict[str, Any]:
     """Mapping of a file's figure, as JSON. Raises FileError where there is no figure in it."""
+    from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.load_character import read_character
     from metadata.model import REQUIRED_JOINTS
 
     reading = read_character(path, joints, morphs)
     names = reading.figure.bone_names
+    figure = at_height(reading.figure, height_m)
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
-    reported = list(reading.figure.notes)
+    reported = list(figure.notes)
     if not lacking:
-        character = figure_character(reading.figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
+        character = figure_character(figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
         reported += _reported(character)
     return {
         "file": stored(path),
         "kind": reading.figure.origin,
         "plays": not lacking,
         "bones": len(names),
+        "height_m": round(figure_height(figure) or 0.0, 4),
         "meshes": [mesh.name for mesh in reading.figure.meshes],
         "names": reading.joints.profile,
         "joints": {joint: names[bone] for joint, bone in reading.joints.bones.items()},
@@ -195,7 +210,7 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
     by_what = {"": "by shape", "vrm0": "by the file (VRM 0.x)", "vrm1": "by the file (VRM 1.0)"}
     lines = [
         filled(
-            "{file}: {kind}, {bones} {bones:bone|bones}, {meshes} {meshes:mesh|meshes}",
+            "{file}: {kind}, {bones} {bones:bone|bones}, {meshes} {meshes:mesh|meshes}, {height_m} m tall",
             {**found, "file": restored(found["file"]), "meshes": len(found["meshes"])},
         ),
         "",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Final
 
 import msgspec
 
@@ -21,6 +22,7 @@ from app.rig.characters.character_library import (
     remove_character,
     write_entry,
 )
+from app.rig.characters.figure_build import has_odd_height
 from app.rig.characters.load_character import read_character
 from app.rig.characters.read_figure import SUFFIXES
 from app.rig.figure import Figure
@@ -29,6 +31,9 @@ from widgets.common.instrument_name import character_name
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import CharacterDraft
 from widgets.dialogs.characters import CharactersDialog
+
+PERSON_M: Final = 1.7
+"""Height that is offered for a figure that is as tall as no person is."""
 
 
 def show_characters(editor: Editor) -> None:
@@ -60,7 +65,8 @@ def bring_character(editor: Editor, path: Path) -> None:
     session = editor.session
 
     def done(figure: Figure) -> None:
-        dialog = _dialog(editor, path, figure, CharacterDraft(_title(path)), give=True)
+        height_m = PERSON_M if has_odd_height(figure) else 0.0
+        dialog = _dialog(editor, path, figure, CharacterDraft(_title(path), height_m=height_m), give=True)
         dialog.agreed.connect(lambda draft, give: _keep(editor, path, draft, give))
 
     _read(session, path, done)
@@ -74,7 +80,7 @@ def edit_character(editor: Editor, id: str) -> None:
     entry, path = source.entry, source.path
 
     def done(figure: Figure) -> None:
-        draft = CharacterDraft(entry.title or id, entry.joints, entry.morphs)
+        draft = CharacterDraft(entry.title or id, entry.joints, entry.morphs, entry.height_m)
         dialog = _dialog(editor, path, figure, draft, give=False)
         dialog.agreed.connect(lambda draft, give: _change(editor, id, entry, draft))
 
@@ -122,7 +128,7 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
     chosen = session.players
 
     def work(progress: Progress, stop_requested: StopRequested) -> str:
-        return add_character(path, draft.title, draft.joints, draft.morphs)
+        return add_character(path, draft.title, draft.joints, draft.morphs, draft.height_m)
 
     def done(id: str) -> None:
         session.characters_saved.emit()
@@ -146,7 +152,7 @@ def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraf
     """Describe a character again."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
     title = shortened(" ".join(draft.title.split()), MOST_TITLE)
-    now = msgspec.structs.replace(entry, title=title, joints=dict(draft.joints), morphs=morphs)
+    now = msgspec.structs.replace(entry, title=title, joints=dict(draft.joints), morphs=morphs, height_m=draft.height_m)
     if now == entry:
         return
     try:

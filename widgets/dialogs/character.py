@@ -6,6 +6,7 @@ and can be undone. Pictures are drawn beside the window, the newest only.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -16,6 +17,8 @@ from PySide6.QtWidgets import QCheckBox, QDialog, QLineEdit, QScrollArea, QTabWi
 from app.editor.session import Session
 from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
+from app.rig.characters.character_library import LEAST_M, MOST_M
+from app.rig.characters.figure_build import figure_height
 from app.rig.figure import Figure
 from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, selectable, wrapped
@@ -24,6 +27,7 @@ from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.text import message_text
+from widgets.dialogs.automatic_number import AutomaticNumber
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
 from widgets.dialogs.character_draft import CharacterDraft, DraftHistory, character_of, joint_name, mapped, not_played
@@ -77,6 +81,11 @@ class CharacterDialog(Retranslated, QDialog):
         self._drawing = False
         self._picture_requested = False
         self.title = named(QLineEdit(draft.title), "character_title")
+        self.body_height = self.texted(
+            AutomaticNumber("character_height", LEAST_M, MOST_M, step=0.05, decimals=2),
+            tip="character_dialog.height_of_player",
+        )
+        self.body_height.number.setSuffix(" m")
         self._source, self._picture = selectable(wrapped(Label())), named(Label(), "character_picture")
         self._reported = named(wrapped(Label()), "character_status")
         self._legend = [(Label(sign), Label()) for sign in ("●", "◉", "○")]
@@ -133,7 +142,7 @@ class CharacterDialog(Retranslated, QDialog):
         words.setWidgetResizable(True)
         words.setFrameShape(QScrollArea.Shape.NoFrame)
         words.setMinimumHeight(_LEAST_WORDS_PX)
-        title = in_form({"character_dialog.name": self.title})
+        title = in_form({"character_dialog.name": self.title, "character_dialog.height": self.body_height})
         shown = (self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
         side = panel(in_column(title, self._source, shown, (words, 1), margins=(12, 0, 0, 0), spacing=8))
         side.setFixedWidth(PICTURE_PX.width() + 24)
@@ -151,6 +160,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.faces.changed.connect(lambda face, parts, gesture: self.change(self.draft.with_face(face, parts), gesture))
         self.tabs.currentChanged.connect(self._ask_picture)
         self.title.textEdited.connect(self._rename)
+        self.body_height.changed.connect(self._resize_figure)
         self._buttons.accepted.connect(self._agree)
         self._buttons.rejected.connect(self.reject)
         self._session.theme_changed.connect(self._show)
@@ -199,7 +209,10 @@ class CharacterDialog(Retranslated, QDialog):
 
     def _rename(self, title: str) -> None:
         # One word is one step.
-        self.change(CharacterDraft(title, self.draft.joints, self.draft.morphs), self.title)
+        self.change(replace(self.draft, title=title), self.title)
+
+    def _resize_figure(self) -> None:
+        self.change(replace(self.draft, height_m=self.body_height.value or 0.0))
 
     def change(self, draft: CharacterDraft, gesture: object | None = None) -> None:
         """Another draft; those of one gesture are one step."""
@@ -230,6 +243,7 @@ class CharacterDialog(Retranslated, QDialog):
 
     def _show(self) -> None:
         made, tokens = self._made, self._session.tokens
+        self.body_height.show_value(self.draft.height_m or None, figure_height(self._figure))
         self.body.show_states({joint: made.state(joint) for joint in self._items})
         colours = {"mapped": tokens.text, "doubtful": tokens.warning, "missing": tokens.text_dim}
         marks = {"mapped": ("check", tokens.good), "doubtful": ("warning", tokens.warning)}
@@ -246,7 +260,7 @@ class CharacterDialog(Retranslated, QDialog):
             item.setToolTip(0, self._joint_text(joint))
         self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
-        reported = not_played(made)
+        reported = not_played(self._figure, made)
         self._reported.setText(
             "\n".join(f"• {text}" for text in reported) if reported else self.tr("character_dialog.all_supported")
         )
@@ -265,7 +279,7 @@ class CharacterDialog(Retranslated, QDialog):
             text.setText(word)
         self._undo.setEnabled(self._steps.can_undo)
         self._redo.setEnabled(self._steps.can_redo)
-        self._reset.setEnabled(bool(self.draft.joints or self.draft.morphs))
+        self._reset.setEnabled(bool(self.draft.joints or self.draft.morphs or self.draft.height_m))
         self._buttons.ok.setEnabled(not made.lacking and bool(self.draft.title.strip()))
         self._show_choice()
         self._ask_picture()
@@ -299,7 +313,7 @@ class CharacterDialog(Retranslated, QDialog):
             self._picture.setText(self.tr("character_dialog.no_preview"))
             return
         figure, made, known = self._figure, self._made, self._seen
-        key = (made.joints.bones, made.faces.morphs)
+        key = (made.joints.bones, made.faces.morphs, made.draft.height_m)
         crop: Crop = "head" if self.tabs.currentIndex() == 1 else "body"
         face, ratio = self.faces.face if crop == "head" else "", self.devicePixelRatioF()
         width, height = round(PICTURE_PX.width() * ratio), round(PICTURE_PX.height() * ratio)
@@ -338,6 +352,7 @@ class CharacterDialog(Retranslated, QDialog):
             )
         )
         self.bones.set_headers([self.tr("character_dialog.bone_of_file"), self.tr("character_dialog.joint")])
+        self.body_height.check.setText(self.tr("character_dialog.height_of_file"))
         self.give.setText(verbatim(self.tr("character_dialog.assign_to_players").format(players=self._offered)))
         self.give.setVisible(bool(self._offered))
         self._show()

@@ -10,6 +10,7 @@ from PySide6.QtCore import QCoreApplication
 
 from app.editor.translated import tr
 from app.rig.characters.face_map import FaceMapping, map_morphs
+from app.rig.characters.figure_build import figure_height, has_odd_height
 from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.figure import Figure
@@ -33,11 +34,14 @@ class CharacterDraft:
         Bones by joint that are not found by themselves; empty: none.
     morphs : mapping of str to mapping of str to float
         Faces by ARKit name that are not found by themselves.
+    height_m : float
+        0: as tall as in the file.
     """
 
     title: str
     joints: Mapping[str, str] = field(default_factory=dict)
     morphs: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    height_m: float = 0.0
 
     def with_joint(self, joint: str, bone: str | None) -> CharacterDraft:
         """Another bone for a joint; empty: none; None: as it is found by itself."""
@@ -86,7 +90,7 @@ def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) 
 
 def character_of(figure: Figure, made: Mapped) -> Character:
     """The character that a draft makes. Raises FileError where it cannot play."""
-    return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs)
+    return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs, made.draft.height_m)
 
 
 class DraftHistory:
@@ -137,7 +141,7 @@ class DraftHistory:
             self._gesture, self._of_gesture = None, False
 
 
-def not_played(made: Mapped) -> tuple[str, ...]:
+def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
     """List in words what a character will not do, the most severe first."""
     _translate, reported = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
@@ -147,6 +151,9 @@ def not_played(made: Mapped) -> tuple[str, ...]:
                 joints=", ".join(joint_name(joint) for joint in made.lacking)
             )
         )
+    if has_odd_height(figure) and not made.draft.height_m:
+        height_m = f"{figure_height(figure) or 0.0:.2f}"
+        reported.append(tr("character_words.height_is_odd").format(height=height_m))
     without = [
         (side, finger)
         for side in ("left", "right")

@@ -26,12 +26,15 @@ from app.formats.files import cannot_write, open_file, read_file
 from app.formats.gltf.read import MOST_BYTES
 from app.formats.toml import read_toml, shaped, toml
 from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
+from app.rig.characters.figure_build import PLAUSIBLE_M
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import SUFFIXES
 from app.rig.model import Character
 
 MOST_ID: Final = 60
 MOST_TITLE: Final = 200
+LEAST_M, MOST_M = PLAUSIBLE_M
+"""Heights that a character can be given."""
 RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
 """Names that are devices on Windows."""
 
@@ -49,12 +52,15 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
         By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
     morphs : dict of str to dict of str to float
         By ARKit name: weights of the file's own morphs that make it.
+    height_m : float
+        Of the character; 0: as tall as in the file.
     """
 
     file: str
     title: str = ""
     joints: dict[str, str] = {}
     morphs: dict[str, dict[str, float]] = {}
+    height_m: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -125,6 +131,9 @@ def read_entry(path: Path) -> CharacterEntry:
         raise MapError("table.invalid", file=str(path), place="file", detail=detail)
     if len(entry.title) > MOST_TITLE:
         raise MapError("table.invalid", file=str(path), place="title", detail=f"at most {MOST_TITLE} characters")
+    if entry.height_m and not LEAST_M <= entry.height_m <= MOST_M:
+        detail = f"a height is {LEAST_M:g} to {MOST_M:g} m, or 0: as in the file"
+        raise MapError("table.invalid", file=str(path), place="height_m", detail=detail)
     return entry
 
 
@@ -188,7 +197,7 @@ def _opened(id: str, source: CharacterSource) -> Character:
 def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
     """A character by the stamps of its files and what is said about it."""
     said = msgspec.json.decode(entry, type=CharacterEntry | None)
-    return load_character(path) if said is None else load_character(path, id, said.joints, said.morphs)
+    return load_character(path) if said is None else load_character(path, id, said.joints, said.morphs, said.height_m)
 
 
 def character_problems() -> Mapping[str, Message]:
@@ -208,6 +217,7 @@ def add_character(
     title: str = "",
     joints: Mapping[str, str] | None = None,
     morphs: Mapping[str, Mapping[str, float]] | None = None,
+    height_m: float = 0.0,
 ) -> str:
     """Copy a character's file into the user's folder and describe it there.
 
@@ -215,7 +225,7 @@ def add_character(
     ----------
     title : str
         What it is called; by its file's name where empty.
-    joints, morphs : mapping
+    joints, morphs, height_m
         Corrections, as in `CharacterEntry`.
 
     Returns
@@ -229,7 +239,7 @@ def add_character(
         It cannot play, or cannot be copied.
     """
     title = shortened(" ".join(title.split()), MOST_TITLE) or shown(path.stem)
-    load_character(path, shown(path.stem), joints or {}, morphs or {})
+    load_character(path, shown(path.stem), joints or {}, morphs or {}, height_m)
     folder = own_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -243,7 +253,7 @@ def add_character(
             stream.write(content)
         # A file without a description is no one: what fails between the two leaves no half of a character.
         faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
-        write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces))
+        write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces, height_m))
         return id
 
 

@@ -23,6 +23,8 @@ MOST_BONES: Final = 5000
 MOST_VERTICES: Final = 3_000_000
 PLAUSIBLE_M: Final = (0.3, 4.0)
 """Heights of figures, from a doll to a giant, that are taken as they are."""
+ODD_HEIGHT: Final = "figure.odd_height"
+"""Message about a figure beyond these heights that no unit explains."""
 PERSON_M: Final = (0.9, 2.3)
 GROWN_M: Final = (1.4, 2.1)
 """Heights that a corrected unit must lead to: powers of ten, and inches, which must explain it better."""
@@ -274,22 +276,46 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 def _in_metres(figure: Figure) -> Figure:
     """The figure at a height that a figure can have, as far as one unit alone explains the height it has."""
-    heights = [mesh.positions_m[:, 1] for mesh in figure.meshes if len(mesh.positions_m)]
-    if not heights:
+    height_m = figure_height(figure)
+    if height_m is None:
         return figure
-    height_m = float(max(values.max() for values in heights) - min(values.min() for values in heights))
     if PLAUSIBLE_M[0] <= height_m <= PLAUSIBLE_M[1]:
         return figure
     factor = unit_factor(height_m)
     if factor is None:
-        note = Message("figure.odd_height", {"file": figure.file, "height_m": round(height_m, 4)})
+        note = Message(ODD_HEIGHT, {"file": figure.file, "height_m": round(height_m, 4)})
         return replace(figure, notes=(*figure.notes, note))
     note = Message("figure.scaled", {"file": figure.file, "height_m": round(height_m, 4), "factor": factor})
+    return replace(_scaled(figure, factor), notes=(*figure.notes, note))
+
+
+def figure_height(figure: Figure) -> float | None:
+    """Height from the lowest to the highest vertex, metres; None where there is no mesh."""
+    heights = [mesh.positions_m[:, 1] for mesh in figure.meshes if len(mesh.positions_m)]
+    if not heights:
+        return None
+    return float(max(values.max() for values in heights) - min(values.min() for values in heights))
+
+
+def has_odd_height(figure: Figure) -> bool:
+    """Return whether a figure is smaller than a doll or taller than a giant, and no unit explains it."""
+    return any(note.id == ODD_HEIGHT for note in figure.notes)
+
+
+def at_height(figure: Figure, height_m: float) -> Figure:
+    """The figure in another size; unchanged where the height is 0 or the figure has none."""
+    own_m = figure_height(figure)
+    if not height_m or not own_m:
+        return figure
+    notes = tuple(note for note in figure.notes if note.id != ODD_HEIGHT)
+    return replace(_scaled(figure, height_m / own_m), notes=notes)
+
+
+def _scaled(figure: Figure, factor: float) -> Figure:
     return replace(
         figure,
         translations_m=figure.translations_m * factor,
         meshes=tuple(scaled_mesh(mesh, factor) for mesh in figure.meshes),
-        notes=(*figure.notes, note),
     )
 
 

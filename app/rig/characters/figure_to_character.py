@@ -21,6 +21,7 @@ import numpy.typing as npt
 from app.arrays import FloatArray, SingleArray
 from app.errors import FileError
 from app.rig import quaternion
+from app.rig.characters.figure_build import at_height
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.characters.supplied_joints import Fit, inverse_binds, on_the_floor, supplied_ends
 from app.rig.characters.t_pose import Rest, rest_of, turns_to_t_pose, upright
@@ -36,7 +37,11 @@ TRUNK: Final = ("hips", "spine", "chest", "upperChest")
 
 
 def figure_character(
-    figure: Figure, id: str, bones: Mapping[str, int], morphs: Mapping[str, Mapping[str, float]]
+    figure: Figure,
+    id: str,
+    bones: Mapping[str, int],
+    morphs: Mapping[str, Mapping[str, float]],
+    height_m: float = 0.0,
 ) -> Character:
     """Make a character of a figure.
 
@@ -46,6 +51,8 @@ def figure_character(
         The bone of each VRM 1.0 joint that has one.
     morphs : mapping of str to mapping of str to float
         By ARKit name: weights of the figure's morphs that make it.
+    height_m : float
+        Of the character; 0: as tall as the figure is.
 
     Raises
     ------
@@ -55,7 +62,7 @@ def figure_character(
     missing = [name for name in REQUIRED_JOINTS if name not in bones]
     if missing:
         raise FileError("character.incomplete", file=figure.file, joints=", ".join(missing))
-    figure = upright(figure, bones)
+    figure = at_height(upright(figure, bones), height_m)
     rest = rest_of(figure)
     fit = _fitted(figure, rest, bones)
     joint_of_bone = _joints_of_bones(figure, rest, fit)

@@ -45,6 +45,7 @@ def load_character(
     id: str = "",
     joints: Mapping[str, str] | None = None,
     morphs: Mapping[str, Mapping[str, float]] | None = None,
+    height_m: float = 0.0,
 ) -> Character:
     """Load a character from a file: VRM, glTF or FBX.
 
@@ -56,6 +57,8 @@ def load_character(
         By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
     morphs : mapping of str to mapping of str to float
         By ARKit name: weights of the file's own morphs that make it.
+    height_m : float
+        Of the character; 0: as tall as in the file.
 
     Raises
     ------
@@ -65,10 +68,11 @@ def load_character(
     try:
         if path.suffix.lower() == ".glb":
             source = read_source(path)
-            if source.gltf.generator == OURS:
+            if source.gltf.generator == OURS and not height_m:
                 return _ours(source, id or shown(path.stem))
         reading = read_character(path, joints, morphs)
-        return figure_character(reading.figure, id or shown(path.stem), reading.joints.bones, reading.face.morphs)
+        known, faces = reading.joints.bones, reading.face.morphs
+        return figure_character(reading.figure, id or shown(path.stem), known, faces, height_m)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
 

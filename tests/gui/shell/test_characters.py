@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Iterator
 from itertools import pairwise
@@ -11,14 +12,25 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QDialogButtonBox, QLabel, QLineEdit, QListWidget, QPushButton, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QPushButton,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from app.editor.generator import Generator
 from app.errors import Message
 from app.project.edit.players import change
 from app.rig.characters.character_library import FOLDER_VARIABLE, character_library, character_named, reload_characters
-from app.rig.characters.load_character import load_character
+from app.rig.characters.figure_build import figure_height
+from app.rig.characters.load_character import load_character, read_character
 from app.shell.app import Program
 from app.shell.characters import bring_character
 from tests.gui.shell.conftest import Answers, trigger
@@ -142,6 +154,52 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
     assert ok(dialog).isEnabled()
     QTest.mouseClick(button(dialog, "character_undo"), Qt.MouseButton.LeftButton)
     assert not ok(dialog).isEnabled()
+
+
+def of_size(path: Path, source: Path, factor: float) -> Path:
+    """A copy of a character's GLB whose scene is scaled."""
+    data = source.read_bytes()
+    length = int.from_bytes(data[12:16], "little")
+    document, rest = json.loads(data[20 : 20 + length]), data[20 + length :]
+    (scene,) = document["scenes"]
+    document["nodes"].append({"name": "size", "scale": [factor] * 3, "children": scene["nodes"]})
+    scene["nodes"] = [len(document["nodes"]) - 1]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunk = len(text).to_bytes(4, "little") + b"JSON" + text
+    path.write_bytes(data[:8] + (12 + len(chunk) + len(rest)).to_bytes(4, "little") + chunk + rest)
+    return path
+
+
+def test_a_giant_is_offered_at_the_height_of_a_person(program: Program, tmp_path: Path, qtbot: QtBot) -> None:
+    own_m = figure_height(read_character(TODDLER).figure)
+    assert own_m is not None
+    dialog = opened(program, of_size(tmp_path / "giant.vrm", TODDLER, 4.84 / own_m))
+    number = child(dialog, QDoubleSpinBox, "character_height")
+    automatic = child(dialog, QCheckBox, "character_height_automatic")
+    reported = child(dialog, QLabel, "character_status")
+    assert number.value() == pytest.approx(1.7)
+    assert "4.84" not in reported.text()
+    automatic.click()
+    assert number.value() == pytest.approx(4.84)
+    assert not number.isEnabled()
+    assert "4.84 m" in reported.text()
+    QTest.mouseClick(button(dialog, "character_undo"), Qt.MouseButton.LeftButton)
+    assert not automatic.isChecked()
+    number.setValue(1.55)
+    assert dialog.draft.height_m == pytest.approx(1.55)
+    QTest.mouseClick(ok(dialog), Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(character_library().own), timeout=20_000)
+    (id,) = character_library().own
+    assert character_library().own[id].height_m == pytest.approx(1.55)
+    tops = [skin.positions_m[:, 1].max() for skin in character_named(id).meshes]
+    assert max(tops) == pytest.approx(1.55, abs=0.02)
+
+
+def test_a_character_of_usual_size_keeps_the_height_of_its_file(program: Program) -> None:
+    dialog = opened(program)
+    assert child(dialog, QCheckBox, "character_height_automatic").isChecked()
+    assert dialog.draft.height_m == 0.0
 
 
 def test_a_mitten_is_reported(program: Program) -> None:

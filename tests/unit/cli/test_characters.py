@@ -3,11 +3,12 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.cli import main
 from app.cli.characters import joints_of, morphs_of
-from app.errors import UsageError
+from app.errors import MapError, UsageError
 from app.rig.characters import character_library
 from app.rig.characters.character_library import FOLDER_VARIABLE, characters
 
@@ -83,3 +84,34 @@ def test_corrections_are_read() -> None:
             joints_of([wrong])
     with pytest.raises(UsageError):
         morphs_of(["jawOpen=a:b"])
+
+
+def test_a_character_is_as_tall_as_requested(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = str(DATA / "child_mixamo.fbx")
+    assert main(["characters", "check", file, "--json"]) == 0
+    own_m = json.loads(capsys.readouterr().out)["height_m"]
+    assert main(["characters", "check", file, "--height", "2", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["height_m"] == pytest.approx(2.0)
+    for title, height in (("small", []), ("tall", ["--height", str(2.0 * own_m)])):
+        assert main(["characters", "add", file, "--name", title, *height]) == 0
+    assert (folder / "tall.toml").read_text().count("height_m") == 1
+    assert "height_m" not in (folder / "small.toml").read_text()
+    small, tall = (character_library.character_named(id) for id in ("small", "tall"))
+    np.testing.assert_allclose(tall.skeleton.offsets_m, 2.0 * small.skeleton.offsets_m, atol=1e-4)
+    assert small.own is not None
+    assert tall.own is not None
+    np.testing.assert_allclose(tall.own.figure.translations_m, 2.0 * small.own.figure.translations_m, atol=1e-4)
+
+
+@pytest.mark.parametrize("height", ["0", "0.1", "170", "nan", "tall"])
+def test_a_height_that_nobody_has_is_refused(height: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["characters", "check", str(DATA / "child_mixamo.fbx"), "--height", height]) == 2
+    assert "--height" in capsys.readouterr().err
+
+
+def test_an_odd_height_in_a_description_is_reported(folder: Path) -> None:
+    folder.mkdir()
+    (folder / "one.fbx").write_bytes((DATA / "child_mixamo.fbx").read_bytes())
+    (folder / "one.toml").write_text('file = "one.fbx"\nheight_m = -2.0\n')
+    with pytest.raises(MapError, match="height_m"):
+        character_library.read_entry(folder / "one.toml")

@@ -11,6 +11,8 @@ from app.errors import FileError, MapError, UsageError
 from app.rig.characters import character_library
 from app.rig.characters.character_library import (
     FOLDER_VARIABLE,
+    LEAST_M,
+    MOST_M,
     CharacterEntry,
     add_character,
     bundled_characters,
@@ -173,6 +175,7 @@ def test_a_title_becomes_an_id_that_any_system_takes_as_a_name(folder: Path, tit
             ),
             max_size=3,
         ),
+        st.just(0.0) | st.floats(LEAST_M, MOST_M),
     )
 )
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
