@@ -133,8 +133,18 @@ class TargetSkeleton:
 
     @property
     def loose(self) -> frozenset[int]:
-        """Bones that have no place of their own on their parents: the hips, and what follows something else."""
-        return frozenset({self.hips, *self.tied, *self.sockets})
+        """Bones that have no place of their own on their parents: the hips, what follows something else, and
+        joints that hang from none, as the feet of a rig whose legs are drawn by them."""
+        return frozenset({self.hips, *self.tied, *self.sockets, *self._apart})
+
+    @cached_property
+    def _apart(self) -> frozenset[int]:
+        """Bones of joints below the root that no other joint's bone is above."""
+        below: list[bool] = []
+        for parent in self.parents:
+            below.append(parent >= 0 and (below[parent] or self.joint_of_bone[parent] >= 0))
+        joints = self.bone_of_joint.values()
+        return frozenset(bone for bone in joints if self.parents[bone] >= 0 and not below[bone])
 
 
 def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:

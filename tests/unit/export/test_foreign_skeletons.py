@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from app.export.character import character_scene
 from app.export.check_skeleton import check_skeleton
+from app.export.joint_playback import JointPlayback
 from app.export.mannequin import mannequin_target
 from app.export.own_skeleton import own_target
 from app.export.playback import ScenePlayback, Surface
@@ -20,8 +21,12 @@ from app.formats.fbx.read import read_scene
 from app.formats.fbx.write import write_scene
 from app.formats.scene import Scene
 from app.motion.model import Motion
+from app.rig import quaternion
+from app.rig.characters.figure_to_character import figure_character
+from app.rig.characters.joint_mapping import map_joints
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import read_figure
+from app.rig.characters.t_pose import rest_of
 from app.rig.model import Character
 from app.rig.skeleton import forward
 
@@ -95,6 +100,29 @@ def test_joints_are_where_they_should_be(character: Character, tmp_path: Path) -
             expected = Rotation.from_quat(joints.rotations[:, joint]) * Rotation.from_quat(target.joint_from_bone[bone])
             turn = Rotation.from_matrix(world[:, place, :3, :3]) * expected.inv()
             assert np.degrees(turn.magnitude()).max() < 0.01, (target.choice, target.names[bone])
+
+
+def test_feet_that_hang_from_the_root_stay_at_their_legs(tmp_path: Path) -> None:
+    """Rigs whose legs are drawn by their feet (Quaternius): the file moves them, and no bone stretches."""
+    figure = read_figure(FOLDER / "woman_game_engine.glb")
+    rest = rest_of(figure)
+    parents, offsets, turns = list(figure.parents), figure.translations_m.copy(), figure.rotations.copy()
+    for name in ("foot_l", "foot_r"):
+        foot = figure.bone_names.index(name)
+        back = quaternion.conjugate(rest.rotations[0])
+        parents[foot] = 0
+        offsets[foot] = quaternion.rotate(back, rest.positions_m[foot] - rest.positions_m[0])
+        turns[foot] = quaternion.multiply(back, rest.rotations[foot])
+    loose = replace(figure, parents=tuple(parents), translations_m=offsets, rotations=turns)
+    character = figure_character(loose, "loose", map_joints(loose).bones, {})
+    test_joints_are_where_they_should_be(character, tmp_path)
+    test_skin_and_morphs_are_where_they_are_on_the_character(character, tmp_path)
+    target = own_target(character)
+    motion = random_motion(character)
+    playback = JointPlayback(written(character, motion, target, tmp_path), target, character)
+    world_m = playback.playback.world(0, FRAMES)[:, :, :3, 3]
+    lengths_m = np.linalg.norm(world_m - world_m[:, [max(parent, 0) for parent in playback.playback.parents]], axis=-1)
+    assert np.ptp(lengths_m[:, playback.rigid], axis=0).max() < 0.01 * MM
 
 
 def test_skin_and_morphs_are_where_they_are_on_the_character(character: Character, tmp_path: Path) -> None:
