@@ -30,7 +30,15 @@ LEGS: Final = re.compile(r"(UpperLeg|LowerLeg|Foot|Toes)$")
 ARMS: Final = re.compile(r"(Shoulder|UpperArm|LowerArm|Hand|Metacarpal|Proximal|Intermediate|Distal)$")
 TRUNK: Final = re.compile(r"^(hips|spine|chest|upperChest|neck|head)$")
 LIMBS: Final = re.compile(rf"{LEGS.pattern}|{ARMS.pattern}")
+UNLIKE: Final = 0.2
+"""A pair of unnamed bones differs by less than this part of their length."""
+SIDES: Final = ("left", "right")
 ANY: Final = re.compile("")
+FINGER: Final = re.compile("Metacarpal|Proximal|Intermediate|Distal")
+OPTIONAL: Final = (FINGER, *map(re.compile, ("Toes", "Shoulder", "^neck", "^chest")))
+"""Parts that names may not know at all."""
+FIRST_BELOW: Final = {"Shoulder": "UpperArm", "neck": "head"}
+"""Joints below a part that names and shape must agree on, too."""
 CLEARLY: Final = 0.5
 """Sides are swapped where this part of the way from right to left leads to -X: not where a figure faces sideways."""
 NUMBERED: Final = re.compile(r"[_.]\d+$")
@@ -144,12 +152,50 @@ def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
     else:
         shape = joints_by_shape(tree)
         return _Found("", shape, frozenset(), 0), set(shape)
-    if found.required == len(REQUIRED_JOINTS) and (figure.humanoid or not _trunk_beside(tree, found.bones)):
+    if figure.humanoid and found.required == len(REQUIRED_JOINTS):
         return found, set()
-    bones = _completed(tree, found, frozenset(figure.humanoid))
+    bones = dict(found.bones)
+    if found.required < len(REQUIRED_JOINTS) or _trunk_beside(tree, bones):
+        bones = _completed(tree, found, frozenset(figure.humanoid))
+    if not figure.humanoid:
+        _add_unnamed(tree, bones)
     kept = {joint for joint, bone in found.bones.items() if bones.get(joint) == bone}
     profile = found.profile if figure.humanoid or len(kept) >= len(bones) / 2 else ""
     return _Found(profile, bones, _astray(tree, bones), 0), set(bones) - kept
+
+
+def _add_unnamed(tree: Tree, bones: dict[str, int]) -> None:
+    """Add fingers, toes, shoulders, neck and chest by shape, where names know none and agree on what is above them."""
+    lacking = [part for part in OPTIONAL if not any(part.search(joint) for joint in bones)]
+    if not lacking:
+        return
+    shape = joints_by_shape(tree)
+    digits = [sum(joint.startswith(side) and FINGER.search(joint) is not None for joint in shape) for side in SIDES]
+    if len(set(digits)) > 1 or any(side + "MiddleProximal" not in shape for side in SIDES):
+        # Two chains, or other ones on the other hand, may be hair or a sleeve.
+        shape = {joint: bone for joint, bone in shape.items() if not FINGER.search(joint)}
+    if any(len(tree.children[bones[side + "Foot"]]) != 1 for side in SIDES if side + "Foot" in bones):
+        shape = {joint: bone for joint, bone in shape.items() if not joint.endswith("Toes")}
+    shape = {joint: bone for joint, bone in shape.items() if _mirrored(tree, shape, joint)}
+    for joint in [joint for joint in _joints() if joint in shape and any(part.search(joint) for part in lacking)]:
+        below = FIRST_BELOW.get(re.sub("^(left|right)", "", joint), "")
+        side = joint.removesuffix("Shoulder") if below == "UpperArm" else ""
+        agreed = [one for one in (_joint_above(joint, bones), side + below) if one]
+        if shape[joint] not in bones.values() and all(shape.get(one) == bones.get(one) for one in agreed):
+            bones[joint] = shape[joint]
+
+
+def _mirrored(tree: Tree, shape: Mapping[str, int], joint: str) -> bool:
+    """Return whether a joint of one side lies to what it hangs on as that of the other side does."""
+    if not joint.startswith(SIDES):
+        return True
+    left = re.sub("^right", "left", joint)
+    pair = [(shape.get(one), tree.parents[shape[one]] if one in shape else -1) for one in (left, "right" + left[4:])]
+    offsets = [tree.positions_m[bone] - tree.positions_m[top] for bone, top in pair if bone is not None and top >= 0]
+    if len(offsets) < len(SIDES):
+        return False
+    off = offsets[0] - offsets[1] * (-1.0, 1.0, 1.0)
+    return float(np.linalg.norm(off)) < UNLIKE * float(np.linalg.norm(offsets[0]))
 
 
 def _as_the_file_says(figure: Figure, tree: Tree, named: _Found) -> _Found:
