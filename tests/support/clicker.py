@@ -14,7 +14,7 @@ from shiboken6 import isValid
 
 from app.shell.app import Program
 from tests.support import mouse
-from tests.support.click_table import expected
+from tests.support.click_table import Row, expected
 from tests.support.window_state import Watcher, Widgets, changed, names_of
 from widgets.common.actions import actions
 from widgets.common.section import SectionHeader
@@ -205,20 +205,23 @@ class Clicker:
                 self.seen[name][self.state] = CHOSEN
                 continue
             try:
-                self._click(name, control)
+                self._click(name, control, owed=expected(name))
             except AssertionError:
-                # The layout may not be done yet.
+                # The layout may not be done yet, or a notice has just given way to another.
                 self._again(None)
                 try:
                     self._click(name, controls(self._window)[name])
                 except (AssertionError, KeyError) as error:
                     self._note(name, frozenset((f"fault: {error!r}",)))
 
-    def _click(self, name: str, control: QWidget) -> None:
+    def _click(self, name: str, control: QWidget, owed: Row | None = None) -> None:
+        """Click a control; raises an AssertionError where nothing of what is owed changes."""
         before = self._watcher.state()
         if click(control):
             QApplication.processEvents()
-            self._note(name, changed(before, self._watcher.state()) or NOTHING)
+            found = changed(before, self._watcher.state()) or NOTHING
+            assert found != NOTHING or owed is None or owed.may_be_idle or owed.changes <= NOTHING, "nothing changed"
+            self._note(name, found)
 
     def _one_of_each(self, names: list[str]) -> list[str]:
         rows: dict[str, list[str]] = {}
