@@ -70,7 +70,7 @@ def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, repor
     measures = None
     for row in rows:
         if row.read is not None and measures is None:
-            read = row.read(folder / files[row.key("character")])
+            read = row.read(folder / files[row.key("character")], scene.meshes)
             standing = dancing.standing(span.fps, span.first, span.count)
             measures = measure_dancer(without_place(read, target.place), dancing.character, target, standing)
     reported(1.0)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
-from app.formats.scene import Scene
+from app.formats.scene import Scene, SkinnedMesh
 from app.formats.usd import UsdSound
 from app.formats.usd_package import refuse_without_usd
 
@@ -51,7 +51,8 @@ class FileFormat:
     stage : bool
         Whether it can hold several scenes.
     read : callable or None
-        Reads a file of one scene again; the first requested format that has it is the one that is measured.
+        Reads a file of one scene again, with the numbers that vertices have in the meshes that were written; the first
+        requested format that has it is the one that is measured.
     usual : bool
         Whether it is written by default.
     reduces_keys : bool
@@ -73,7 +74,7 @@ class FileFormat:
     work: float
     write: Callable[[Path, Iterable[Scene], WriteOptions], None]
     stage: bool = True
-    read: Callable[[Path], Scene] | None = None
+    read: Callable[[Path, Sequence[SkinnedMesh]], Scene] | None = None
     usual: bool = False
     reduces_keys: bool = True
     keys_by_pose: bool = False
@@ -95,7 +96,7 @@ def _write_fbx(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> Non
     write_scenes(path, scenes)
 
 
-def _read_fbx(path: Path) -> Scene:
+def _read_fbx(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
     from app.formats.fbx.read import read_scene
 
     return read_scene(path)
@@ -115,10 +116,22 @@ def _write_glb(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> Non
     write_glbs(path, scenes)
 
 
+def _read_glb(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
+    from app.formats.gltf.read_scene import read_scene
+
+    return read_scene(path, written)
+
+
 def _write_usd(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.usd import write_usds
 
     write_usds(path, scenes, None if beside.sound is None else UsdSound(beside.sound, 0.0))
+
+
+def _read_usd(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
+    from app.formats.usd_read_scene import read_scene
+
+    return read_scene(path)
 
 
 _BOTH: Final[tuple[FileContent, ...]] = ("character", "instrument")
@@ -139,7 +152,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             reduces_keys=False,
             bones_by_name=True,
         ),
-        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb),
+        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb, read=_read_glb),
         FileFormat(
             "usd",
             "USD",
@@ -147,6 +160,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             _BOTH,
             6.0,
             _write_usd,
+            read=_read_usd,
             keys_by_pose=True,
             package="usd-core",
             refuse=refuse_without_usd,

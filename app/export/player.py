@@ -25,7 +25,7 @@ from app.export.skeleton import profile_names
 from app.export.target import TargetSkeleton
 from app.export.targets import CheckedTarget
 from app.export.threads import in_threads
-from app.formats.scene import Scene
+from app.formats.scene import Scene, SkinnedMesh
 from app.performance.cast import Performer
 from app.performance.dances import danced_feet
 from app.performance.ensemble import changes_of
@@ -73,12 +73,14 @@ def export_player(
     reports: list[DoubleReport] = []
     problems: dict[str, tuple[Problem, ...]] = {}
     torsos: list[FloatArray | None] = []
+    meshes: tuple[SkinnedMesh, ...] = ()
     for index, performer in enumerate(musician.performers):
 
         def share_of(share: float, done: int = index) -> None:
             reported((done + share) / len(musician.performers))
 
-        written = _write(request, musician, performer, folder, share_of, cores)
+        written = _write(request, musician, performer, folder, share_of, cores, meshes)
+        meshes = written.meshes
         problems[performer.player.id] = written.problems
         measured = _measured(request, musician, performer, written.read, share_of)
         reports.append(_reported(request, musician, performer, written.keys, measured))
@@ -100,17 +102,26 @@ def export_player(
 
 @dataclass(frozen=True)
 class _Written:
-    """Keys and problems of a musician as the player of one instrument, and the files that are measured, read back."""
+    """Keys and problems of a musician as the player of one instrument, the meshes of the character, and the files that
+    are measured, read back."""
 
     keys: KeyCount
+    meshes: tuple[SkinnedMesh, ...]
     problems: tuple[Problem, ...]
     read: dict[FileContent, Scene]
 
 
 def _write(
-    request: ExportRequest, musician: CastMusician, performer: Performer, folder: Path, reported: Progress, cores: int
+    request: ExportRequest,
+    musician: CastMusician,
+    performer: Performer,
+    folder: Path,
+    reported: Progress,
+    cores: int,
+    meshes: tuple[SkinnedMesh, ...],
 ) -> _Written:
-    """Write the instrument of one of a musician's players, and the character with the first."""
+    """Write the instrument of one of a musician's players, and the character with the first; ``meshes`` are those of a
+    character that is written already."""
     performance, rows, first = request.performance, requested(request.formats), performer is musician.performers[0]
     files = file_names(performance, request.formats)
     work = _work(rows)
@@ -134,7 +145,7 @@ def _write(
             row.write(path, (scenes[held],), options)
         if row is _read_back(rows) and row.read is not None:
             # Read back at once, while other files are written.
-            read[held] = row.read(path)
+            read[held] = row.read(path, scenes[held].meshes if held in scenes else meshes)
 
     def judge() -> None:
         problems.append(judged_problems(performance, performer, motion))
@@ -148,7 +159,7 @@ def _write(
         reported(sum(done) / work)
 
     in_threads([*(partial(write, *one) for one in writing), judge], finished)
-    return _Written(keys, problems[0], read)
+    return _Written(keys, scenes["character"].meshes if first else meshes, problems[0], read)
 
 
 def _work(rows: tuple[FileFormat, ...]) -> float:

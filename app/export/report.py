@@ -27,7 +27,7 @@ BONES_BOUND_MM = 0.1
 
 
 class DancerMeasures(msgspec.Struct, frozen=True):
-    """Measures of an exported FBX file of a dancer.
+    """Measures of an exported file of a dancer.
 
     Attributes
     ----------
@@ -122,7 +122,7 @@ class PlayerReport(msgspec.Struct, frozen=True):
     stage: PlaceReport
     notes: int
     measures: PlayerMeasures | None
-    """None where no FBX was asked for: that is the file that is read back and measured."""
+    """None where no format with a skin was asked for: the first of FBX, GLB and USD is read back and measured."""
     sway_correlation: float | None
     """Greatest correlation of the torso's sideways motion with another exported player's; None where there is none."""
     lean_correlation: float | None
@@ -144,7 +144,7 @@ class PlayerReport(msgspec.Struct, frozen=True):
 
 class DancerReport(msgspec.Struct, frozen=True):
     """One dancer's files and what they hold. Where feet stand, and how far their tips slide meanwhile, is measured on
-    the FBX file read back, as are the bones; None where none was asked for."""
+    the file read back, as are the bones: FBX, else GLB, else USD; None where none of these was asked for."""
 
     name: str
     choreography: str

@@ -50,7 +50,7 @@ class UsdSound:
     start_s: float
 
 
-_ONE_AT_A_TIME: Final = Lock()
+ONE_AT_A_TIME: Final = Lock()
 """Two threads in the USD library wait for each other for ever."""
 
 
@@ -79,7 +79,7 @@ def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None
 def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: UsdSound | None = None) -> None:
     """Write scenes into one file as `write_usd`; each is let go when the next is asked for."""
     refuse_without_usd()
-    with _ONE_AT_A_TIME:
+    with ONE_AT_A_TIME:
         open_libraries()
         from pxr import Tf, UsdUtils
 

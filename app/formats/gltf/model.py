@@ -64,6 +64,11 @@ class GltfMesh:
     name: str
     primitives: tuple[GltfPrimitive, ...]
 
+    @property
+    def morph_names(self) -> tuple[str, ...]:
+        """Names of its morph targets, which all its parts have."""
+        return tuple(morph.name for morph in self.primitives[0].morphs) if self.primitives else ()
+
 
 @dataclass(frozen=True, eq=False)
 class GltfSkin:
@@ -126,7 +131,7 @@ class GltfChannel:
     Attributes
     ----------
     path : str
-        ``translation``, ``rotation`` or ``scale``.
+        ``translation``, ``rotation``, ``scale`` or ``weights``.
     interpolation : str
         ``LINEAR``, ``STEP`` or ``CUBICSPLINE``.
     times_s : ndarray, shape (K,)
@@ -143,10 +148,22 @@ class GltfChannel:
 
 @dataclass(frozen=True, eq=False)
 class GltfAnimation:
-    """Channels that belong together."""
+    """Channels that belong together.
+
+    Attributes
+    ----------
+    channels : tuple of GltfChannel
+        Of nodes' transforms.
+    weights : tuple of GltfChannel
+        Of the morphs of the meshes on nodes; only where they were asked for.
+    extras : mapping
+        Its ``extras``.
+    """
 
     name: str
     channels: tuple[GltfChannel, ...]
+    weights: tuple[GltfChannel, ...] = ()
+    extras: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -54,13 +55,15 @@ class _Vertices(NamedTuple):
     morphs: tuple[GltfMorph, ...]
 
 
-def read_glb(path: str | os.PathLike[str], *, animated: bool = False) -> GltfModel:
+def read_glb(path: str | os.PathLike[str], *, animated: bool = False, morphing: bool = False) -> GltfModel:
     """Read a glTF file.
 
     Parameters
     ----------
     animated : bool
         Whether animations are read too; most files are read for what they show.
+    morphing : bool
+        Whether those of morphs are.
 
     Raises
     ------
@@ -69,15 +72,16 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False) -> GltfMod
     """
     file = os.fspath(path)
     data = read_file(path, MOST_BYTES)
-    return decode_gltf(data, file, animated=animated)
+    return decode_gltf(data, file, animated=animated, morphing=morphing)
 
 
-def decode_gltf(data: bytes, file: str, *, animated: bool = False) -> GltfModel:
+def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: bool = False) -> GltfModel:
     """Model of a file's bytes, as `read_glb`."""
     reader = _Reader(*split(data, file), file, len(data))
     nodes = reader.nodes()
     meshes = tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes")))
     reader.check_instances(nodes, meshes)
+    counts = [len(meshes[node.mesh].morph_names) if morphing and node.mesh is not None else 0 for node in nodes]
     return GltfModel(
         nodes=nodes,
         meshes=meshes,
@@ -87,7 +91,7 @@ def decode_gltf(data: bytes, file: str, *, animated: bool = False) -> GltfModel:
         extensions=reader.mapping(reader.document, "extensions"),
         scene_extras=reader.scene_extras(),
         generator=str(field(reader.mapping(reader.document, "asset"), "generator") or ""),
-        animations=tuple(reader.animation(one) for one in reader.items("animations")) if animated else (),
+        animations=tuple(reader.animation(one, counts) for one in reader.items("animations")) if animated else (),
     )
 
 
@@ -210,27 +214,34 @@ class _Reader(Accessors):
             matrices = values[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1).copy()
         return GltfSkin(self.text(skin, "name", ""), joints, matrices)
 
-    def animation(self, animation: object) -> GltfAnimation:
-        """Channels of nodes' transforms; those of morphs and of extensions are left out."""
+    def animation(self, animation: object, morph_counts: Sequence[int]) -> GltfAnimation:
+        """Channels of nodes' transforms and, of the nodes that have a count of them, of morphs; those of extensions are
+        left out."""
         nodes, samplers = self.items("nodes"), self.items("samplers", animation)
-        channels = []
+        channels: list[GltfChannel] = []
+        weights: list[GltfChannel] = []
         for channel in self.items("channels", animation):
             target = self.mapping(channel, "target")
             path = self.text(target, "path", "")
             node = self.optional_index(target, "node", len(nodes))
-            if node is None or path not in _ANIMATED:
+            count = 0 if node is None else morph_counts[node]
+            if node is None or (path not in _ANIMATED and not (path == "weights" and count)):
                 continue
             sampler = samplers[self.index(field(channel, "sampler"), len(samplers), "sampler")]
             interpolation = self.text(sampler, "interpolation", "LINEAR")
             times = self.real(field(sampler, "input"), 1)[:, 0]
-            values = self.real(field(sampler, "output"), _ANIMATED[path])
+            values = self.real(field(sampler, "output"), _ANIMATED.get(path, 1))
             rows = len(times) * (3 if interpolation == "CUBICSPLINE" else 1)
+            if path == "weights" and len(values) == rows * count:
+                values = values.reshape(rows, count)
             if not len(times) or len(values) != rows or not (np.diff(times) > 0.0).all():
                 raise self.damaged("animation")
             if interpolation not in _INTERPOLATIONS:
                 raise FileError("gltf.unsupported", file=self.file, what=shortened(interpolation, 40))
-            channels.append(GltfChannel(node, path, interpolation, times, values))
-        return GltfAnimation(self.text(animation, "name", ""), tuple(channels))
+            found = weights if path == "weights" else channels
+            found.append(GltfChannel(node, path, interpolation, times, values))
+        name, extras = self.text(animation, "name", ""), self.mapping(animation, "extras")
+        return GltfAnimation(name, tuple(channels), tuple(weights), extras)
 
     def material(self, material: object) -> GltfMaterial:
         surface = field(material, "pbrMetallicRoughness")

@@ -187,7 +187,7 @@ def test_a_second_run_has_the_same_bits_and_a_cut_the_wholes_frames(
     )
 
 
-def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Path) -> None:
+def test_several_formats_at_once_and_what_has_a_skin_is_measured(tmp_path: Path) -> None:
     arguments = ("--fps", "25", "--from-bar", "2", "--to-bar", "2", "--player", PLAYERS[0])
     report = export(tmp_path / "out", *arguments, "--format", "glb, BVH", "--format", "bvh", "--bvh-names", "cmu")
     (player,) = report["players"]
@@ -196,7 +196,7 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
         "character_glb": "Trumpet 1.glb",
         "instrument_glb": "Trumpet 1_trumpet_Bb.glb",
     }
-    assert player["measures"] is None
+    assert player["measures"]["contacts"]
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {*player["files"].values(), "report.json"}
     assert {"Hips", "LowerBack", "LeftForeArm", "leftIndexDistal"} <= set(
@@ -209,7 +209,7 @@ def test_several_formats_at_once_and_nothing_to_measure_without_fbx(tmp_path: Pa
 
 def test_the_sound_starts_with_the_first_frame_and_usd_refers_to_it(tmp_path: Path) -> None:
     kind = "usd" if usd_package.usd_installed() else "bvh"
-    arguments = ("--fps", "25", "--from-bar", "1", "--to-bar", "1", "--player", PLAYERS[0], "--format", kind, "--sound")
+    arguments = ("--fps", "25", "--to-bar", "1", "--player", PLAYERS[0], "--format", kind, "--sound")
     report = export(tmp_path / "out", *arguments)
     assert report["sound"] == "quartet.wav"
     sound, rate_hz = soundfile.read(tmp_path / "out" / "quartet.wav")

@@ -1,0 +1,145 @@
+"""GLB file -> scene: for reading back what `app.formats.gltf.write` wrote.
+
+It understands what that writes: bones below one root without scaling, meshes on one skin, one animation whose rate and
+length are in its extras. Anything else is refused, never quietly misread. glTF has a vertex several times where its
+corners differ, and in the order of the materials; the scene has those of the meshes that were written.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from app.arrays import AnyIntArray, FloatArray
+from app.errors import FileError
+from app.formats.gltf.animation import sampled
+from app.formats.gltf.model import GltfAnimation, GltfChannel, GltfMesh, GltfModel, GltfSkin
+from app.formats.gltf.primitives import primitives
+from app.formats.gltf.read import read_glb
+from app.formats.gltf.samplers import METRES
+from app.formats.scene import Bone, Clip, Material, MorphTarget, NodePlace, Scene, SkinnedMesh, check_scene
+
+
+def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> Scene:
+    """Read a file of one scene as `write_glb` writes it.
+
+    Normals and UVs come per corner. A vertex without a face is not in the file: it is at the origin.
+
+    Parameters
+    ----------
+    written : sequence of SkinnedMesh
+        The meshes that were written, for the numbers of their vertices.
+
+    Raises
+    ------
+    FileError
+        If the file is no such file.
+    """
+    file, model = os.fspath(path), read_glb(path, animated=True, morphing=True)
+    if len(model.skins) != 1 or len(model.animations) > 1 or len(model.meshes) != len(written):
+        raise FileError("gltf.damaged", file=file, what="skin, animation or meshes")
+    (skin,) = model.skins
+    row_of = {node: row for row, node in enumerate(skin.joints)}
+    above = model.nodes[skin.joints[0]].parent
+    bones = tuple(
+        Bone(node.name, row_of.get(node.parent, -1), node.translation / METRES, node.rotation_xyzw)
+        for node in (model.nodes[joint] for joint in skin.joints)
+    )
+    try:
+        scene = Scene(
+            bones,
+            tuple(_mesh(model, mesh, skin, known) for mesh, known in zip(model.meshes, written, strict=True)),
+            _clip(model, model.animations[0], row_of, bones) if model.animations else None,
+            model.generator,
+            "" if above < 0 else model.nodes[above].name,
+            None if above < 0 else NodePlace(model.nodes[above].translation / METRES, model.nodes[above].rotation_xyzw),
+        )
+        check_scene(scene)
+    except (ValueError, LookupError) as error:
+        raise FileError("gltf.damaged", file=file, what=str(error)) from error
+    return scene
+
+
+def _mesh(model: GltfModel, mesh: GltfMesh, skin: GltfSkin, written: SkinnedMesh) -> SkinnedMesh:
+    """A mesh with the numbers of its vertices; ValueError where the file has others."""
+    numbers = [primitive.vertices for primitive in primitives(written)]
+    if [len(one) for one in numbers] != [len(primitive.positions) for primitive in mesh.primitives]:
+        raise ValueError(f"mesh {mesh.name!r}")
+    count, width = len(written.vertices_cm), max(one.joint_indices.shape[1] for one in mesh.primitives)
+    vertices_cm, joints, weights = np.zeros((count, 3)), np.zeros((count, width), np.int64), np.zeros((count, width))
+    for own, primitive in zip(numbers, mesh.primitives, strict=True):
+        columns = primitive.joint_indices.shape[1]
+        vertices_cm[own] = primitive.positions / METRES
+        joints[own, :columns], weights[own, :columns] = primitive.joint_indices, primitive.weights
+    binds = np.linalg.inv(skin.joint_from_mesh_bind)
+    binds[:, :3, 3] /= METRES
+    parts = [*zip(numbers, mesh.primitives, strict=True)]
+    corners = [primitive.triangles.ravel() for primitive in mesh.primitives]
+    surfaces = [model.materials[one.material or 0] for one in mesh.primitives]
+    return SkinnedMesh(
+        name=mesh.name,
+        vertices_cm=vertices_cm,
+        faces=np.concatenate([own[one.triangles] for own, one in parts]),
+        normals=np.concatenate([np.zeros((0, 3)), *_by_corner(corners, [one.normals for one in mesh.primitives])]),
+        uvs=None if any(one.uvs is None for one in mesh.primitives) else _uvs(corners, mesh),
+        materials=tuple(
+            Material(one.name, one.base_color_rgba, one.metallic, one.roughness, one.double_sided) for one in surfaces
+        ),
+        face_materials=np.repeat(np.arange(len(parts)), [len(one.triangles) for one in mesh.primitives]),
+        joint_indices=joints,
+        weights=weights,
+        world_from_bone_bind=binds,
+        morphs=tuple(_morph(mesh, number, numbers) for number in range(len(mesh.morph_names))),
+    )
+
+
+def _by_corner(corners: Sequence[AnyIntArray], values: Sequence[FloatArray | None]) -> list[FloatArray]:
+    return [own[rows] for rows, own in zip(corners, values, strict=True) if own is not None]
+
+
+def _uvs(corners: Sequence[AnyIntArray], mesh: GltfMesh) -> FloatArray:
+    uvs = np.concatenate(_by_corner(corners, [one.uvs for one in mesh.primitives]))
+    return np.stack([uvs[:, 0], 1.0 - uvs[:, 1]], axis=1)
+
+
+def _morph(mesh: GltfMesh, number: int, numbers: Sequence[AnyIntArray]) -> MorphTarget:
+    """A morph target; a vertex that the file has several times is moved once."""
+    found = [primitive.morphs[number] for primitive in mesh.primitives]
+    rows = np.concatenate([own[morph.vertex_indices] for own, morph in zip(numbers, found, strict=True)])
+    vertices, first = np.unique(rows, return_index=True)
+    deltas = np.concatenate([morph.position_deltas for morph in found])[first] / METRES
+    normals = [morph.normal_deltas for morph in found if morph.normal_deltas is not None]
+    turned = np.concatenate(normals)[first] if len(normals) == len(found) else None
+    return MorphTarget(mesh.morph_names[number], vertices, deltas, turned)
+
+
+def _clip(model: GltfModel, animation: GltfAnimation, row_of: Mapping[int, int], bones: tuple[Bone, ...]) -> Clip:
+    """The clip of an animation; LookupError or ValueError where it lacks rate and length."""
+    fps, frames = Fraction(str(animation.extras["framesPerSecond"])), int(animation.extras["frames"])
+    last_s = max((channel.times_s[-1] for channel in (*animation.channels, *animation.weights)), default=0.0)
+    if fps <= 0 or not 1 <= frames <= last_s * float(fps) + 1.5:
+        raise ValueError(f"{frames} frames")
+    times_s = np.arange(frames) / float(fps)
+    rotations = np.tile(np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in bones]), (frames, 1, 1))
+    translations: dict[int, FloatArray] = {}
+    for channel in animation.channels:
+        if channel.path == "rotation":
+            rotations[:, row_of[channel.node]] = _values(channel, times_s)
+        elif channel.path == "translation":
+            translations[row_of[channel.node]] = _values(channel, times_s) / METRES
+        else:
+            raise ValueError(channel.path)
+    weights: dict[str, FloatArray] = {}
+    for channel in animation.weights:
+        mesh = model.nodes[channel.node].mesh
+        assert mesh is not None, "the reader knows how many morphs it has"
+        weights |= zip(model.meshes[mesh].morph_names, _values(channel, times_s).T, strict=True)
+    return Clip(animation.name, fps, frames, rotations, translations, weights)
+
+
+def _values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
+    """Values (F, W) of a channel at all frames: its keys, where it has one on each."""
+    return channel.values if len(channel.times_s) == len(times_s) else sampled(channel, times_s)
