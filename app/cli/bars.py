@@ -6,7 +6,7 @@ import argparse
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from app.cli.options import whole_number
+from app.cli.options import beats, whole_number
 from app.errors import UsageError
 
 if TYPE_CHECKING:
@@ -16,8 +16,26 @@ if TYPE_CHECKING:
 
 def add_bar_options(command: argparse.ArgumentParser) -> None:
     """Declare first and last bar."""
-    command.add_argument("--from-bar", type=whole_number, metavar="N", help="first bar, as printed (a pickup is bar 0)")
-    command.add_argument("--to-bar", type=whole_number, metavar="N", help="last bar, inclusive")
+    command.add_argument(
+        "--from-bar",
+        type=whole_number,
+        metavar="N",
+        help="first bar, as printed (a pickup is bar 0): frame 0 is where it begins (default: the pre-roll before the "
+        "first note)",
+    )
+    command.add_argument(
+        "--to-bar", type=whole_number, metavar="N", help="last bar, inclusive (default: the end of the performance)"
+    )
+
+
+def add_lead_in_option(command: argparse.ArgumentParser) -> None:
+    """Declare the beats before the first bar."""
+    command.add_argument(
+        "--lead-in",
+        type=beats,
+        metavar="BEATS",
+        help="felt beats to show before --from-bar, as far as the performance has them (default: 0)",
+    )
 
 
 def requested_bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int, int] | None:
@@ -44,10 +62,16 @@ def requested_bars(performance: Performance, arguments: argparse.Namespace) -> t
 
 
 def requested_span(performance: Performance, arguments: argparse.Namespace, fps: Fraction) -> FrameSpan:
-    """The frames of the bars with the pre-roll before them, or of everything. Raises UsageError as `requested_bars`."""
-    from app.performance.span import bars_span, whole_span
+    """The frames of the bars with the lead-in before them, or of everything.
 
-    bars = requested_bars(performance, arguments)
-    if bars is None:
-        return whole_span(performance.time_frame, fps)
-    return bars_span(performance, fps, bars, performance.project.preroll_beats)
+    Raises
+    ------
+    UsageError
+        As `requested_bars`; ``bars.lead_in``: there is no bar to lead into.
+    """
+    from app.performance.span import bars_span
+
+    requested_bars(performance, arguments)
+    if arguments.lead_in is not None and arguments.from_bar is None:
+        raise UsageError("bars.lead_in")
+    return bars_span(performance, fps, (arguments.from_bar, arguments.to_bar), arguments.lead_in or 0.0)

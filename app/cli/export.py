@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.cli.bars import add_bar_options, requested_bars, requested_span
+from app.cli.bars import add_bar_options, add_lead_in_option, requested_bars, requested_span
 from app.cli.options import (
     add_ignored_option,
     add_players_option,
@@ -94,6 +94,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
     add_bar_options(command)
+    add_lead_in_option(command)
     command.set_defaults(run=export)
 
 

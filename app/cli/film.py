@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from app.cli.bars import add_bar_options, requested_span
+from app.cli.bars import add_bar_options, add_lead_in_option, requested_span
 from app.cli.display import virtual, why_no_display
 from app.cli.drawing import kept_camera, nearest, parsed_view, require_writable, stoppable
 from app.cli.edit import MOST_PX, THEMES
@@ -71,6 +71,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         "first (default: the first of the piece)",
     )
     add_bar_options(command)
+    add_lead_in_option(command)
     command.add_argument(
         "--size",
         type=picture_size(LEAST_PX, MOST_PX),

@@ -225,7 +225,7 @@ def _spans(performance: Performance, request: EvaluationRequest, videos: dict[Va
     """The frames of the excerpts and of the practice."""
     fps = Fraction(*request.fps)
     if request.bars is not None:
-        bars = bars_span(performance, fps, request.bars, 0.0)
+        bars = bars_span(performance, fps, request.bars)
         excerpts: tuple[Excerpt, ...] = (Excerpt(bars.first_frame_s, bars.end_s),)
     else:
         covered = [video.covered_s for video in videos.values()]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TypeAlias
 
 import msgspec
 
 from app.performance.ensemble import Performance
-from app.plan.generate import PREROLL_LEAST_S
 from app.plan.model import TimeFrame
+
+BarRange: TypeAlias = tuple[int | None, int | None]
+"""First and last bar, both included; None: from the performance's start, to its end."""
 
 _WHOLE = 1e-6
 """A time this near to a frame, in frames, is on it."""
@@ -39,27 +42,35 @@ def whole_span(frame: TimeFrame, fps: Fraction) -> FrameSpan:
     return cut_span(frame, fps, frame.first_frame_s, frame.end_s)
 
 
-def bars_span(performance: Performance, fps: Fraction, bars: tuple[int, int], preroll_beats: float) -> FrameSpan:
-    """The frames of some bars with the pre-roll before them.
+def bars_span(performance: Performance, fps: Fraction, bars: BarRange, lead_in_beats: float = 0.0) -> FrameSpan:
+    """The frames of some bars, and nothing but these.
 
-    The plan is that of the whole piece, so that a cut shows what the whole would show. With the last bar the
-    performance's end belongs to it.
+    The plan is that of the whole piece, so that a cut shows what the whole would show. A bar begins at the frame of the
+    whole performance that is nearest: the bars that follow continue without a frame that is missing or there twice.
 
     Parameters
     ----------
-    bars : (int, int)
-        First and last bar, both included.
-    preroll_beats : float
-        In felt beats; at least the seconds that every performance starts before its first note.
+    bars : (int or None, int or None)
+        See `BarRange`.
+    lead_in_beats : float
+        Shown before the first bar, in its felt beats; not beyond the performance's start.
     """
-    frame = performance.time_frame
-    score, clock = performance.project.score, performance.piece.clock
-    first_tick, end_tick = score.metre_map.tick_of_bar(bars[0]), score.metre_map.tick_of_bar(bars[1] + 1)
-    preroll_ticks = preroll_beats * performance.project.metre_map.felt_ticks_at(first_tick)
-    first_s = clock.seconds(float(first_tick))
-    start_s = min(clock.seconds(first_tick - preroll_ticks), first_s - PREROLL_LEAST_S)
-    end_s = frame.end_s if end_tick >= performance.span_ticks[1] else clock.seconds(float(end_tick))
-    return cut_span(frame, fps, start_s, end_s)
+    first_bar, last_bar = bars
+    frame, clock, metres = performance.time_frame, performance.piece.clock, performance.project.score.metre_map
+    start_s, end_s = frame.first_frame_s, frame.end_s
+    if first_bar is not None:
+        start_s = led_into_s(performance, metres.tick_of_bar(first_bar), lead_in_beats)
+    if last_bar is not None:
+        end_s = clock.seconds(float(metres.tick_of_bar(last_bar + 1)))
+    rate = fps.numerator / fps.denominator
+    last = whole_span(frame, fps).count
+    first, end = (min(max(round((at_s - frame.first_frame_s) * rate), 0), last) for at_s in (start_s, end_s))
+    return _frames_from(frame, fps, min(first, last - 1), last if last_bar is None else end)
+
+
+def led_into_s(performance: Performance, tick: float, beats: float) -> float:
+    """Return when a number of the beats that are felt at a tick begin before it."""
+    return performance.piece.clock.seconds(tick - beats * performance.project.metre_map.felt_ticks_at(tick))
 
 
 def cut_span(frame: TimeFrame, fps: Fraction, start_s: float, end_s: float) -> FrameSpan:
@@ -71,6 +82,9 @@ def cut_span(frame: TimeFrame, fps: Fraction, start_s: float, end_s: float) -> F
     last = max(1, math.ceil((frame.end_s - frame.first_frame_s) * rate - _WHOLE))
     first = max(0, math.floor((max(start_s, frame.first_frame_s) - frame.first_frame_s) * rate + _WHOLE))
     end = math.ceil((min(end_s, frame.end_s) - frame.first_frame_s) * rate - _WHOLE)
-    first = min(first, last - 1)
-    count = max(1, min(end, last) - first)
-    return FrameSpan(fps, first, count, frame.first_frame_s + first * fps.denominator / fps.numerator)
+    return _frames_from(frame, fps, min(first, last - 1), min(end, last))
+
+
+def _frames_from(frame: TimeFrame, fps: Fraction, first: int, end: int) -> FrameSpan:
+    """The frames ``first`` .. ``end - 1``, at least one."""
+    return FrameSpan(fps, first, max(1, end - first), frame.first_frame_s + first * fps.denominator / fps.numerator)

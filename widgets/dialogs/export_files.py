@@ -8,7 +8,6 @@ from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QListWidget,
     QListWidgetItem,
     QScrollArea,
@@ -23,7 +22,7 @@ from app.export.formats import requested
 from app.export.request import ExportRequest
 from app.formats.keys import KEY_CHOICES, KeyChoice
 from app.performance.ensemble import Performance
-from app.performance.span import bars_span, whole_span
+from app.performance.span import bars_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.performers import Player
 from metadata.load import load_bone_names
@@ -35,7 +34,7 @@ from widgets.common.text import message_text, sentence
 from widgets.dialogs.export_destination import Destination, Done, foresee_folder, foresee_unreal, write
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
-from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
+from widgets.dialogs.export_range import BeatsBox, RangeChooser
 from widgets.dialogs.export_rig import RigChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 from widgets.dialogs.working import WorkingDialog, stopping
@@ -141,12 +140,11 @@ class ExportDialog(WorkingDialog):
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)
-        self._preroll = self.texted(named(QDoubleSpinBox(), "export_preroll"), suffix="export_dialog.beats")
-        self._preroll.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
-        self._preroll.setRange(0.0, 64.0)
-        self._preroll.setSingleStep(1.0)
-        self._preroll.setDecimals(2)
+        self._preroll = self.texted(BeatsBox("export_preroll"), suffix="export_dialog.beats")
         self._preroll.setValue(self._project.preroll_beats)
+        self._lead_in = self.texted(
+            BeatsBox("export_lead_in"), suffix="export_dialog.beats", tip="export_dialog.lead_in_tip"
+        )
         self._rate = named(ComboBox(), "export_rate")
         for rate in sorted({*USUAL_RATES, self._project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
@@ -198,12 +196,13 @@ class ExportDialog(WorkingDialog):
                 "export_dialog.rig": self._rig,
                 "export_dialog.range": self._range,
                 "export_dialog.pre_roll": self._preroll,
+                "export_dialog.lead_in": self._lead_in,
                 "export_dialog.frames_per_second": self._rate,
             }
         )
         self._form.addRow(Label(), self._outcome)
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
-        self.fields += (self._skeleton, self._rig, self._range, self._preroll, self._rate)
+        self.fields += (self._skeleton, self._rig, self._range, self._preroll, self._lead_in, self._rate)
         columns = in_row((left, 1), (self._form, 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
@@ -224,14 +223,11 @@ class ExportDialog(WorkingDialog):
         return KEY_CHOICES[self._keys.currentIndex()]
 
     def _request(self) -> ExportRequest:
-        project = replace(self._project, preroll_beats=self._preroll.value())
-        performance = Performance(project)
         fps, bars = Fraction(self._rate.currentData()), self._range.bars
-        span = (
-            whole_span(performance.time_frame, fps)
-            if bars is None
-            else bars_span(performance, fps, bars, self._preroll.value())
-        )
+        # The field that is shown counts.
+        project = self._project if bars else replace(self._project, preroll_beats=self._preroll.value())
+        performance = Performance(project)
+        span = bars_span(performance, fps, bars or (None, None), self._lead_in.value())
         return ExportRequest(
             performance=performance,
             players=self._chosen_players(),
@@ -335,6 +331,8 @@ class ExportDialog(WorkingDialog):
         kinds = requested(self._formats.formats) if into_folder else ()
         self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
         self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))
+        self._form.setRowVisible(self._preroll, self._range.bars is None)
+        self._form.setRowVisible(self._lead_in, self._range.bars is not None)
         problem = ""
         if not self.player_ids:
             problem = self.tr("export_dialog.tick_at_least_one_player")

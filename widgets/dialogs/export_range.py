@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QSpinBox, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QSpinBox, QWidget
 
 from app.editor.session import Session
+from app.project import limits
 from app.score.model import Score
 from widgets.common.controls import Retranslated, named
 from widgets.common.layouts import in_row
@@ -14,6 +15,18 @@ from widgets.common.plain import ComboBox, Label
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 TEXT_MARGIN_PX = 6
 """Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
+
+
+class BeatsBox(QDoubleSpinBox):
+    """A number of felt beats before something."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.setObjectName(name)
+        self.lineEdit().setTextMargins(TEXT_MARGIN_PX, 0, 0, 0)
+        self.setRange(*limits.PREROLL_BEATS)
+        self.setSingleStep(1.0)
+        self.setDecimals(2)
 
 
 class RangeChooser(Retranslated, QWidget):

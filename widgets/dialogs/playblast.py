@@ -20,7 +20,7 @@ from app.editor.session import Session
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from app.export.video import SOUND_RATE_HZ, video_into
-from app.performance.span import FrameSpan, cut_span, whole_span
+from app.performance.span import FrameSpan, cut_span, led_into_s, whole_span
 from app.project.cameras import VIEWS, CameraBookmark, View
 from app.project.frame_rate import USUAL_FILM_RATE, USUAL_RATES, frame_rate_text
 from widgets.common.controls import Button, Check, named, selectable, wrapped
@@ -28,6 +28,7 @@ from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
+from widgets.dialogs.export_range import BeatsBox
 from widgets.dialogs.working import WorkingDialog, stopping
 
 Pictures = npt.NDArray[np.uint8]
@@ -80,6 +81,9 @@ class PlayblastDialog(WorkingDialog):
         self._rate.setCurrentIndex(self._rate.findData(str(min(session.project.fps, USUAL_FILM_RATE))))
         ranges = {each: f"playblast_dialog.{each}" for each in (_WHOLE, _LOOP, _SELECTION)}
         self._range = self.texted(named(ComboBox(), "playblast_range"), options=ranges)
+        self._lead_in = self.texted(
+            BeatsBox("playblast_lead_in"), suffix="export_dialog.beats", tip="playblast_dialog.lead_in_tip"
+        )
         self._offered: dict[str, tuple[float, float] | None] = {}
         """Spans of the loop and of the selection, seconds, as they were offered last."""
         self._offer_ranges()
@@ -108,10 +112,11 @@ class PlayblastDialog(WorkingDialog):
 
     def _build(self) -> None:
         file = in_row((self._file, 1), self._choose)
-        form = in_form(
+        self._form = in_form(
             {
                 "playblast_dialog.view": self._view,
                 "playblast_dialog.range": self._range,
+                "playblast_dialog.lead_in": self._lead_in,
                 "playblast_dialog.size": self._size,
                 "playblast_dialog.frames_per_second": self._rate,
                 "playblast_dialog.sound": self._with_sound,
@@ -123,6 +128,7 @@ class PlayblastDialog(WorkingDialog):
             self._size,
             self._rate,
             self._range,
+            self._lead_in,
             self._view,
             self._with_sound,
             self._with_marks,
@@ -130,7 +136,9 @@ class PlayblastDialog(WorkingDialog):
             self._choose,
         )
         buttons = self._box("playblast_dialog.make_film", self.start, self._show_folder)
-        in_column(form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
+        self._range.currentIndexChanged.connect(self._show_lead_in)
+        self._show_lead_in()
+        in_column(self._form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
 
     def start(self) -> None:
         """Begin the film."""
@@ -233,7 +241,13 @@ class PlayblastDialog(WorkingDialog):
     def _requested_span(self) -> FrameSpan:
         frame, fps = self._performance.time_frame, Fraction(self._rate.currentData())
         span_s = self._offered.get(self._range.currentData())
-        return whole_span(frame, fps) if span_s is None else cut_span(frame, fps, *span_s)
+        if span_s is None:
+            return whole_span(frame, fps)
+        start_tick = self._performance.piece.clock.ticks(span_s[0])
+        return cut_span(frame, fps, led_into_s(self._performance, start_tick, self._lead_in.value()), span_s[1])
+
+    def _show_lead_in(self) -> None:
+        self._form.setRowVisible(self._lead_in, self._range.currentData() != _WHOLE)
 
     def _choose_file(self) -> None:
         proposal = self._file.path or Path("film.mp4")

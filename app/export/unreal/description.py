@@ -166,8 +166,9 @@ class LeftOutFigures(msgspec.Struct, frozen=True):
 
 
 class Description(msgspec.Struct, frozen=True):
-    """The whole file. ``first_frame_s`` is the performance's second, counted from tick 0, that frame 0 shows; ``files``
-    are what the assets come from, by their path beside this file."""
+    """The whole file. ``first_frame_s`` is the performance's second, counted from tick 0, that frame 0 shows, and
+    ``first_frame`` the number of that frame in an export of the whole piece; ``files`` are what the assets come from,
+    by their path beside this file."""
 
     schema: int
     made_by: str
@@ -178,6 +179,7 @@ class Description(msgspec.Struct, frozen=True):
     rate: Rate
     frames: int
     first_frame_s: float
+    first_frame: int
     bars_exported: tuple[int, int] | None
     sound: UnrealSound
     players: tuple[Cast, ...]
@@ -231,6 +233,7 @@ def describe(
         rate=Rate(rate.numerator, rate.denominator),
         frames=span.count,
         first_frame_s=span.first_frame_s,
+        first_frame=span.first,
         bars_exported=bars,
         sound=sound,
         players=tuple(_cast(project, musician, layout, bones) for musician in cast.musicians),

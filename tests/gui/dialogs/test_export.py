@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton
+from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -55,7 +55,7 @@ def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: S
         players=session.project.players[:1],
         folder=tmp_path / "expected",
         formats=frozenset(("bvh",)),
-        span=bars_span(performance, fps, (1, 2), session.project.preroll_beats),
+        span=bars_span(performance, fps, (1, 2)),
         bars=(1, 2),
         source="quartet.mid",
         creator="Suisou test",
@@ -65,6 +65,19 @@ def test_it_writes_what_the_command_line_writes(dialog: ExportDialog, session: S
     assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == expected
     show = child(dialog, QPushButton, "export_show_folder")
     assert show.isVisible()
+
+
+def test_bars_have_a_lead_in_and_the_whole_piece_a_preroll(dialog: ExportDialog, session: Session) -> None:
+    lead_in, preroll = (child(dialog, QDoubleSpinBox, name) for name in ("export_lead_in", "export_preroll"))
+    assert (lead_in.isVisible(), preroll.isVisible(), lead_in.value()) == (False, True, 0.0)
+    one_player_of_bars(dialog, 2)
+    assert (lead_in.isVisible(), preroll.isVisible()) == (True, False)
+    bars = dialog._request().span
+    assert bars == bars_span(session.performance, bars.fps, (1, 2))
+    QTest.keyClick(lead_in, Qt.Key.Key_Up)
+    led = dialog._request().span
+    assert (led.end_s, led) == (bars.end_s, bars_span(session.performance, bars.fps, (1, 2), 1.0))
+    assert led.first < bars.first
 
 
 def test_reduced_keys_are_written_where_a_format_can_have_them(

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QPushButton
+from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -119,14 +119,25 @@ def test_the_range_made_last_is_offered_and_chosen(threaded: Session, tmp_path: 
     start_s, end_s = (clock.seconds(float(tick)) for tick in threaded.selection.span)
     span = dialog._requested_span()
     assert (span.first_frame_s, span.end_s) == pytest.approx((start_s, end_s), abs=1 / 30)
+    lead_in = child(dialog, QDoubleSpinBox, "playblast_lead_in")
+    assert (lead_in.isVisible(), lead_in.value()) == (True, 0.0)
+    lead_in.setValue(1.0)
+    start_tick = threaded.selection.span[0]
+    led_s = clock.seconds(float(start_tick - threaded.project.metre_map.felt_ticks_at(start_tick)))
+    led = dialog._requested_span()
+    assert led_s < start_s
+    assert (led.first_frame_s, led.end_s) == pytest.approx((led_s, end_s), abs=1 / 30)
+    lead_in.setValue(0.0)
     again = film(threaded, tmp_path / "film.mp4", [])
     assert child(again, QComboBox, "playblast_range").currentText() == "Selection"
     threaded.set_loop((2.0, 2.5))
     assert ranges.currentText() == "Loop"
+    assert lead_in.isVisible()
     # Another choice stays until another range is made.
     QTest.keyClick(ranges, Qt.Key.Key_Up)
     assert ranges.currentText() == "Whole piece"
     assert dialog._requested_span().count > 1000
+    assert not lead_in.isVisible()
     hand.click(places[0])
     assert ranges.currentText() == "Whole piece"
     threaded.set_loop((2.0, 3.0))

@@ -410,6 +410,11 @@ def test_a_scale_has_every_note_of_the_range_with_its_first_choice(run: Run) -> 
         (["--from-bar", "99"], "bar 99 does not exist; the piece has bars 1 to 44"),
         (["--to-bar", "0"], "bar 0 does not exist; the piece has bars 1 to 44"),
         (["--from-bar", "9", "--to-bar", "3"], "the first bar (9) is after the last bar (3)"),
+        (
+            ["--to-bar", "3", "--lead-in", "2"],
+            "--lead-in shows beats before --from-bar, which is not given; "
+            "--preroll sets the beats before the first note",
+        ),
     ],
 )
 def test_bars_that_cannot_be_are_named(bars: list[str], reported: str, capsys: pytest.CaptureFixture[str]) -> None:

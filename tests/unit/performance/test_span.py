@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -17,6 +18,7 @@ from app.project.performers import Dancer
 from app.score.model import PercussionHit, Score
 from app.score.tempo import TempoMap
 from tests.unit.project.pieces import small_project
+from tests.unit.viewport.poses import quartet
 
 rates = st.sampled_from([Fraction(24), Fraction(25), Fraction(30000, 1001), Fraction(30), Fraction(60)])
 
@@ -51,7 +53,40 @@ def test_bars_of_drums_that_someone_dances_to_are_bars_of_the_piece() -> None:
     performance = Performance(replace(project, score=score, players=(), dancers=(dancer,)))
     assert score.last_bar == 8
     assert score.bar_starts.tolist() == [1920 * bar for bar in range(8)]
-    third = bars_span(performance, Fraction(30), (3, 3), 0.0)
-    assert third.first_frame_s + third.count / 30 == pytest.approx(6.0, abs=0.04)
-    last = bars_span(performance, Fraction(30), (8, 8), 0.0)
-    assert last.first + last.count == whole_span(performance.time_frame, Fraction(30)).count
+    # Bars of two seconds, on the grid of frames.
+    for bar in (1, 3, 8):
+        span = bars_span(performance, Fraction(30), (bar, bar))
+        assert (span.first_frame_s, span.count) == (pytest.approx(2.0 * (bar - 1)), 60)
+
+
+def test_a_side_without_a_bar_is_that_of_the_performance() -> None:
+    performance = Performance(small_project())
+    fps = Fraction(24)
+    whole, first_bars = whole_span(performance.time_frame, fps), bars_span(performance, fps, (None, 1))
+    last_bars = bars_span(performance, fps, (1, None))
+    assert bars_span(performance, fps, (None, None)) == whole
+    assert (first_bars.first, first_bars.first_frame_s) == (0, performance.time_frame.first_frame_s)
+    assert last_bars.end_s == whole.end_s
+    assert last_bars.first_frame_s == pytest.approx(0.0, abs=float(1 / fps))
+
+
+def test_a_lead_in_is_of_felt_beats_and_ends_where_the_performance_begins() -> None:
+    performance = Performance(quartet())
+    fps, beat_s = Fraction(60), 60.0 / 78.0
+    bars = bars_span(performance, fps, (9, 11))
+    assert bars.first_frame_s == pytest.approx(8 * 3 * beat_s, abs=float(1 / fps))
+    assert bars.end_s == pytest.approx(11 * 3 * beat_s, abs=float(1 / fps))
+    led = bars_span(performance, fps, (9, 11), 2.0)
+    assert led.end_s == bars.end_s
+    assert bars.first_frame_s - led.first_frame_s == pytest.approx(2 * beat_s, abs=float(1 / fps))
+    assert bars_span(performance, fps, (1, 1), 64.0).first == 0
+
+
+@pytest.mark.parametrize("fps", [Fraction(12), Fraction(30000, 1001), Fraction(60)])
+def test_bars_join_without_a_frame_twice_or_missing(fps: Fraction) -> None:
+    performance = Performance(quartet())
+    bars = [bars_span(performance, fps, (bar, bar)) for bar in range(1, 10)]
+    for one, following in pairwise(bars):
+        assert following.first == one.first + one.count
+    for number, bar in enumerate(bars):
+        assert abs(bar.first_frame_s - number * 3 * 60.0 / 78.0) <= float(1 / fps) / 2 + 1e-4

@@ -96,6 +96,10 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
         assert [bone.name for bone in scene.bones] == figure["bones"]
         assert scene.clip.frames == reported["frames"]
     assert [bar["number"] for bar in reported["bars"]] == [1]
+    # Where frame 0 is in the whole piece.
+    first_s = request.performance.time_frame.first_frame_s + reported["first_frame"] / 12
+    assert reported["first_frame_s"] == pytest.approx(first_s)
+    assert (reported["first_frame"], reported["bars"][0]["frame"]) == (request.span.first, 0)
     score = request.performance.project.score
     assert reported["bars"][0]["s"] == pytest.approx(
         score.tempo_map.seconds(float(score.metre_map.tick_of_bar(1))) - request.span.first_frame_s

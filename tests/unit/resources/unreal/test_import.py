@@ -103,6 +103,13 @@ def test_the_quartet_is_imported(editor: Editor) -> None:
     expected |= body_assets(*bodies)
     assert own_assets(editor) == expected
     assert all(editor.studio.metadata[path]["SuisouPiece"] == "quartet" for path in editor.studio.assets)
+    moving = [path for path in editor.studio.assets if path.rpartition("/")[2].startswith(("A_", "LS_"))]
+    assert len(moving) > 2
+    exported = description(editor)
+    for path in moving:
+        tags = editor.studio.metadata[path]
+        assert tags["SuisouFirstFrame"] == str(exported["first_frame"])
+        assert float(tags["SuisouFirstSecond"]) == pytest.approx(exported["first_frame_s"], abs=1e-6)
     assert editor.studio.saved == [ROOT]
     assert editor.studio.opened == [f"{ROOT}/LS_quartet"]
     assert editor.studio.actors == []

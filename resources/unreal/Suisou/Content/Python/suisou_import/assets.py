@@ -19,6 +19,8 @@ _Asset = TypeVar("_Asset", bound=unreal.Object)
 PIECE_TAG = "SuisouPiece"
 MADE_FOR_TAG = "SuisouMadeFor"
 """On what an importer makes beside a mesh, its materials: the path of the mesh."""
+FIRST_FRAME_TAG, FIRST_SECOND_TAG = "SuisouFirstFrame", "SuisouFirstSecond"
+"""On what moves: the number of its first frame in the whole piece, and that frame's seconds after the first beat."""
 BONES_TAG = "SuisouBones"
 
 
@@ -35,6 +37,9 @@ def is_ours(asset: unreal.Object, piece: str) -> bool:
 def tag(asset: unreal.Object, performance: Performance) -> None:
     """Mark an asset as ours."""
     unreal.EditorAssetLibrary.set_metadata_tag(asset, PIECE_TAG, performance.piece)
+    if isinstance(asset, (unreal.AnimSequence, unreal.LevelSequence)):
+        unreal.EditorAssetLibrary.set_metadata_tag(asset, FIRST_FRAME_TAG, str(performance.first_frame))
+        unreal.EditorAssetLibrary.set_metadata_tag(asset, FIRST_SECOND_TAG, f"{performance.first_frame_s:.6f}")
 
 
 def import_mesh(performance: Performance, figure: Figure) -> bool:

@@ -69,7 +69,7 @@ class LeftOut(NamedTuple):
 
 class Performance(NamedTuple):
     """A piece, played. ``bars`` are numbers and frames, ``markers`` texts, bars and frames, ``files`` lengths and
-    hashes."""
+    hashes; ``first_frame`` is the number that frame 0 has in the whole piece, ``first_frame_s`` its time there."""
 
     folder: Path
     piece: str
@@ -84,6 +84,8 @@ class Performance(NamedTuple):
     markers: tuple[tuple[str, int, int], ...]
     files: dict[str, tuple[int, str]]
     left_out: tuple[LeftOut, ...]
+    first_frame: int
+    first_frame_s: float
 
     @property
     def staying(self) -> set[str]:
@@ -197,6 +199,9 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
             LeftOut(str(one["name"]), str(one["reason"]), tuple(_matching(_ASSET, path) for path in one["assets"]))
             for one in content.get("left_out", ())
         ),
+        # Of an export of an earlier Suisou there is none.
+        first_frame=_at_least(0, content.get("first_frame", 0)),
+        first_frame_s=_finite(content["first_frame_s"]),
     )
     if read_performance.content != ROOT + piece:
         raise ValueError("its assets are not in its own folder")

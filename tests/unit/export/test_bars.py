@@ -1,0 +1,113 @@
+"""Bars that were asked for are exactly what every file shows, and a lead-in only on request."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.arrays import FloatArray
+from app.cli import main
+from app.export.character import character_scene
+from app.export.playback import ScenePlayback
+from app.export.targets import target_skeleton
+from app.formats.bvh.read import read_bvh
+from app.formats.fbx.read import read_scene
+from app.formats.usd_package import usd_installed
+from app.performance.bodies import character_of
+from app.performance.ensemble import Performance
+from app.performance.span import cut_span
+from tests.support.performed import player_motion
+from tests.support.skinned import GlbFile, UsdFile
+from tests.unit.cli.test_main import QUARTET
+from tests.unit.viewport.poses import quartet
+
+PLAYER = "Trumpet 1"
+FPS = Fraction(30)
+BARS = (9, 9)
+HALF_A_FRAME_S = 0.5 / 30 + 1e-4
+BAR_S = 3 * 60.0 / 78.0
+FORMATS = ("fbx", "bvh", "glb", *(("usd",) if usd_installed() else ()))
+WITHIN_CM = 0.01
+
+
+def export(folder: Path, *options: str, file: Path = QUARTET) -> dict[str, Any]:
+    """The report on an export of the player."""
+    arguments = ["export", str(file), "--to", str(folder), "--fps", str(FPS), "--player", PLAYER, *options]
+    assert main(arguments) == 0
+    report: dict[str, Any] = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    return report
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("bars")
+    first, last = map(str, BARS)
+    export(folder, "--from-bar", first, "--to-bar", last, "--format", ",".join(FORMATS), "--sound")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def joints_cm() -> FloatArray:
+    """The joints (B, 3) where the first bar begins, in the motion of a longer stretch."""
+    performance = Performance(quartet())
+    player = performance.project.players[0]
+    first_s = (BARS[0] - 1) * BAR_S
+    span = cut_span(performance.time_frame, FPS, first_s - 4.0, first_s + 1.0)
+    character = character_of(player)
+    motion = player_motion(performance, player, span)
+    scene = character_scene(character, motion, player.name, "Suisou", target_skeleton(character, "own"))
+    assert scene.clip is not None
+    frame = round((first_s - span.first_frame_s) * 30)
+    return 100.0 * ScenePlayback(scene, scene.clip).world(frame, frame + 1)[0, :, :3, 3]
+
+
+def _fbx(path: Path) -> FloatArray:
+    scene = read_scene(path)
+    assert scene.clip is not None
+    return 100.0 * ScenePlayback(scene, scene.clip).world(0, 1)[0, :, :3, 3]
+
+
+READ: dict[str, Callable[[Path], FloatArray]] = {
+    "fbx": _fbx,
+    "glb": lambda path: GlbFile(path).shown(0).joints_cm,
+    "usd": lambda path: UsdFile(path).shown(0).joints_cm,
+}
+
+
+def test_the_report_names_the_bars_and_no_more(folder: Path) -> None:
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert report["bars"] == [*BARS]
+    assert report["first_frame_s"] == pytest.approx((BARS[0] - 1) * BAR_S, abs=HALF_A_FRAME_S)
+    assert report["end_s"] == pytest.approx(BARS[1] * BAR_S, abs=HALF_A_FRAME_S)
+    assert report["frames"] == pytest.approx(BAR_S * 30, abs=1)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FORMATS if kind in READ])
+def test_the_first_pose_is_that_of_the_bar(folder: Path, joints_cm: FloatArray, kind: str) -> None:
+    (path,) = (path for path in folder.iterdir() if path.stem == PLAYER and path.suffix.startswith(f".{kind}"))
+    np.testing.assert_allclose(READ[kind](path), joints_cm, atol=WITHIN_CM)
+
+
+def test_a_bvh_has_as_many_frames(folder: Path) -> None:
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert len(read_bvh(folder / f"{PLAYER}.bvh").rotations_xyzw) == report["frames"]
+
+
+def test_beats_before_the_bars_come_on_request(tmp_path: Path) -> None:
+    bars = ("--format", "bvh", "--from-bar", str(BARS[0]), "--to-bar", str(BARS[0]))
+    report = export(tmp_path, *bars, "--lead-in", "2")
+    assert report["first_frame_s"] == pytest.approx((BARS[0] - 1) * BAR_S - 2 * BAR_S / 3, abs=HALF_A_FRAME_S)
+    assert report["bars"] == [BARS[0], BARS[0]]
+
+
+def test_the_preroll_is_before_the_first_note_only(tmp_path: Path) -> None:
+    report = export(tmp_path / "first", "--format", "bvh", "--to-bar", "1", "--preroll", "6")
+    assert report["first_frame_s"] == pytest.approx(-6 * BAR_S / 3, abs=1e-3)
+    report = export(tmp_path / "second", "--format", "bvh", "--from-bar", "1", "--to-bar", "1", "--preroll", "6")
+    assert report["first_frame_s"] == pytest.approx(0.0, abs=HALF_A_FRAME_S)
