@@ -15,15 +15,16 @@ from scipy.spatial.transform import Rotation
 
 from app.arrays import FloatArray
 from app.choreography.anatomy import t_pose
-from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_check import Checked, checked, stands, unlike
 from app.choreography.captured import Captured
 from app.choreography.joints_by_lengths import joints_by_lengths
+from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
 from app.choreography.sides import exchanged, joints_by_side
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.rig import quaternion
-from app.rig.characters.joint_mapping import JointMapping, map_joints
+from app.rig.characters.joint_mapping import JointMapping, corrected, map_joints
 from app.rig.characters.t_pose import facing_ahead, rest_of, turns_to_t_pose, upright
 from app.rig.figure import Figure
 
@@ -57,6 +58,8 @@ class CapturedBody:
     guesses : tuple of Message
     checked : tuple of Checked
         By how much the T-pose is off.
+    found : JointMapping
+        Its bones, or those that were found before a user corrected them.
     """
 
     body: Captured
@@ -67,36 +70,72 @@ class CapturedBody:
     up: str
     guesses: tuple[Message, ...]
     checked: tuple[Checked, ...]
+    found: JointMapping
 
 
-def captured_body(bvh: BvhClip, file: str) -> CapturedBody:
-    """Find the body in a clip; ``file`` is for messages.
+def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = None) -> CapturedBody:
+    """Find the body in a clip.
+
+    Parameters
+    ----------
+    file : str
+        For messages.
+    joints : mapping of str to str
+        A user's corrections, see `RawSkeleton.corrected`; what they say is left as it is, sides too.
 
     Raises
     ------
-    FileError
+    BodyError
         ``motion.incomplete`` if a leg, an arm, the hips or the head cannot be found; ``motion.misread`` if what was
-        found is no body, ``motion.no_size`` if all of it is at one place.
+        found is no body.
+    FileError
+        ``motion.no_size`` if all of it is at one place; ``figure.no_joint`` or ``figure.no_bone`` if a correction names
+        what there is not.
     """
     motion = _Motion(bvh, file)
+    body, found, wrong, missing = _automatic(motion)
+    used = found
+    if joints:
+        used = corrected(motion.figure, found, joints, JOINTS)
+        body, wrong, missing = _by_hand(motion, used)
+    if body is not None:
+        return replace(body, found=found)
+    if wrong and not np.ptp(motion.places, axis=1).any():
+        raise FileError("motion.no_size", file=file)
+    id, named = ("motion.misread", wrong) if wrong else ("motion.incomplete", missing)
+    raise BodyError(id, motion.skeleton(found, used.bones), file=file, joints=", ".join(named))
+
+
+def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequence[str], Sequence[str]]:
+    """The body that is found by itself, its bones or the likeliest ones, and which joints are wrong or missing."""
     named = map_joints(motion.figure)
     wrong: tuple[str, ...] = ()
     if named.profile and not _missing(named.bones):
-        for found in (motion.by_zero_pose(named, True), motion.by_motion(_by_names(motion.figure), True)):
-            if isinstance(found, CapturedBody):
-                return found
-            wrong = found or wrong
+        for body in (motion.by_zero_pose(named, True), motion.by_motion(_by_names(motion.figure), True)):
+            if isinstance(body, CapturedBody):
+                return body, body.found, (), ()
+            wrong = body or wrong
     by_lengths = motion.by_lengths()
     if not _missing(by_lengths.bones):
-        for found in (motion.by_zero_pose(by_lengths, False), motion.by_motion(by_lengths, False)):
-            if isinstance(found, CapturedBody):
-                return found
-            wrong = wrong or found
-    if wrong and not np.ptp(motion.places, axis=1).any():
-        raise FileError("motion.no_size", file=file)
-    if wrong:
-        raise FileError("motion.misread", file=file, joints=", ".join(wrong))
-    raise FileError("motion.incomplete", file=file, joints=", ".join(_missing(named.bones)))
+        for body in (motion.by_zero_pose(by_lengths, False), motion.by_motion(by_lengths, False)):
+            if isinstance(body, CapturedBody):
+                return body, body.found, (), ()
+            wrong = wrong or body
+    complete = [one for one in (_by_names(motion.figure), named, by_lengths) if not _missing(one.bones)]
+    missing = _missing(named.bones) or _missing(by_lengths.bones)
+    return None, complete[0] if complete else named, wrong, missing
+
+
+def _by_hand(motion: _Motion, mapping: JointMapping) -> tuple[CapturedBody | None, Sequence[str], Sequence[str]]:
+    """The body of bones that a user corrected, and which joints are wrong or missing."""
+    if missing := _missing(mapping.bones):
+        return None, (), missing
+    wrong: tuple[str, ...] = ()
+    for body in (motion.by_zero_pose(mapping, None), motion.by_motion(mapping, None)):
+        if isinstance(body, CapturedBody):
+            return body, (), ()
+        wrong = wrong or body
+    return None, wrong, ()
 
 
 class _Motion:
@@ -105,10 +144,24 @@ class _Motion:
     def __init__(self, bvh: BvhClip, file: str) -> None:
         self._bvh = bvh
         self.places, self._rotations = _world(bvh)
-        self.figure = _figure(bvh, file)
+        self.figure = zero_pose(bvh, file)
+        self._file = file
 
-    def by_zero_pose(self, mapping: JointMapping, named: bool) -> CapturedBody | tuple[str, ...]:
-        """The body whose T-pose the zero pose says; what of it is wrong where that is no standing body."""
+    def skeleton(self, found: JointMapping, bones: Mapping[str, int]) -> RawSkeleton:
+        """The first frame, Y up as far as these bones say where up is."""
+        known = {"head", *FEET} <= bones.keys()
+        turn = np.asarray(UPS[_up(self.places, bones) if known else "+Y"].as_quat(), np.float64)
+        places = quaternion.rotate(turn, self.places[0])
+        return raw_skeleton(self._bvh, self._file, found, places, quaternion.multiply(turn, self._rotations[0]))
+
+    def by_zero_pose(self, mapping: JointMapping, named: bool | None) -> CapturedBody | tuple[str, ...]:
+        """The body whose T-pose the zero pose says; what of it is wrong where that is no standing body.
+
+        Parameters
+        ----------
+        named : bool or None
+            True if names say the sides, None if the user does: then they stay.
+        """
         bvh, figure = self._bvh, self.figure
         standing = upright(figure, mapping.bones)
         standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
@@ -129,16 +182,17 @@ class _Motion:
             for side in ("left", "right")
             for start, end in (("UpperLeg", "LowerLeg"), ("LowerLeg", "Foot"))
         ]
-        if joints_by_side(body, named) != mapping.bones or not stands(body, zero, legs):
+        exchanges = named is not None and joints_by_side(body, named) != mapping.bones
+        if exchanges or not stands(body, zero, legs):
             return ()
         return self._checked(body, up, mapping, zero, (rest.positions_m[None], rest.rotations[None]))
 
-    def by_motion(self, mapping: JointMapping, named: bool) -> CapturedBody | tuple[str, ...]:
-        """The body whose T-pose its motion says; what of it is wrong where that is no body."""
+    def by_motion(self, mapping: JointMapping, named: bool | None) -> CapturedBody | tuple[str, ...]:
+        """The body whose T-pose its motion says; what of it is wrong where that is no body. See `by_zero_pose`."""
         if _missing(mapping.bones):
             return ()
         body, up = self._captured(mapping.bones)
-        joints = joints_by_side(body, named)
+        joints = mapping.bones if named is None else joints_by_side(body, named)
         if joints != mapping.bones:
             body, up = self._captured(joints)
         return self._checked(body, up, mapping, None, (self.places, self._rotations))
@@ -169,7 +223,8 @@ class _Motion:
             return tuple(wrong.values())
         hanging = {name: _hanging(self._bvh, *poses, body.segments[name]) for name in ENDS}
         guesses = () if zero is not None else (Message("motion.rest"),)
-        return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found)
+        bones = JointMapping(mapping.profile, body.joints, (), mapping.doubtful)
+        return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found, bones)
 
     def _captured(self, bones: Mapping[str, int]) -> tuple[Captured, str]:
         """Return the body with Y up, and the axis of the file that points up."""
@@ -187,15 +242,8 @@ def _by_names(figure: Figure) -> JointMapping:
     return replace(mapping, bones=bones, doubtful=())
 
 
-def _figure(bvh: BvhClip, file: str) -> Figure:
-    """The zero pose, in the file's unit: nothing that reads it depends on the size."""
-    still = np.zeros((len(bvh.names), 4))
-    still[:, 3] = 1.0
-    return Figure(file, "bvh", bvh.names, bvh.parents, np.asarray(bvh.offsets_cm, np.float64), still, ())
-
-
 def _missing(bones: Mapping[str, int]) -> list[str]:
-    return [joint for joint in SEGMENTS if joint not in ("spine", "chest") and joint not in bones]
+    return [joint for joint in REQUIRED if joint not in bones]
 
 
 def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:

@@ -22,6 +22,7 @@ from app.choreography.body_check import report
 from app.choreography.captured_body import captured_body
 from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
+from app.choreography.raw_skeleton import RawSkeleton, raw_skeleton
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.formats.motion_limits import require_frames, require_rate
@@ -71,6 +72,8 @@ class ReadMotion:
         Whose bones were guessed.
     checked : Message
         By how much the T-pose of the body that was found is off.
+    skeleton : RawSkeleton
+        The file's own, in the clip's first frame.
     rate_guess, file_guesses
         See `BvhClip`; also how the unit of the hips' positions was understood.
     apart_m : float
@@ -87,6 +90,7 @@ class ReadMotion:
     joints_doubtful: tuple[str, ...]
     apart_m: float
     checked: Message
+    skeleton: RawSkeleton
     rate_guess: Message | None = None
     file_guesses: tuple[Message, ...] = ()
 
@@ -101,7 +105,9 @@ class ReadMotion:
         return self.cleaned.start_s
 
 
-def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> ReadMotion:
+def read_motion(
+    path: str | os.PathLike[str], fps: Fraction | None = None, joints: Mapping[str, str] | None = None
+) -> ReadMotion:
     """Read the motion of any humanoid.
 
     Parameters
@@ -110,6 +116,8 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
         A BVH, FBX or glTF file (also VRM Animation), by its content.
     fps : Fraction, optional
         The true frame rate, where the file's is wrong.
+    joints : mapping of str to str, optional
+        Corrections of bones, see `captured_body`.
 
     Raises
     ------
@@ -122,7 +130,7 @@ def read_motion(path: str | os.PathLike[str], fps: Fraction | None = None) -> Re
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
     require_frames(str(file), seconds, float(rate), len(SEGMENTS), file.stat().st_size)
-    return motion_of(bvh, str(file), fps)
+    return motion_of(bvh, str(file), fps, joints)
 
 
 def guesses(motion: ReadMotion) -> tuple[Message, ...]:
@@ -143,16 +151,18 @@ def guesses(motion: ReadMotion) -> tuple[Message, ...]:
     return tuple(found)
 
 
-def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotion:
+def motion_of(
+    bvh: BvhClip, file: str, fps: Fraction | None = None, joints: Mapping[str, str] | None = None
+) -> ReadMotion:
     """Motion of a clip; ``file`` is for messages. See `read_motion`."""
     lengths = (bvh.offsets_cm, bvh.root_translation_cm, *bvh.end_sites_cm.values(), *bvh.translations_cm.values())
     if any((np.abs(one) > FARTHEST_CM).any() for one in lengths):
         raise FileError("motion.far", file=file)
-    found = captured_body(bvh, file)
+    found = captured_body(bvh, file, joints)
     factor = _places_factor(found.body.positions, found.body.joints)
     if factor != 1.0:
         bvh = _with_places(bvh, found.body.joints["hips"], factor)
-        found = captured_body(bvh, file)
+        found = captured_body(bvh, file, joints)
     held = list(found.body.segments.values())
     t_pose = np.array([found.t_pose[name] for name in SEGMENTS])
     rotations = quaternion.multiply(found.body.rotations[:, held], quaternion.conjugate(t_pose))
@@ -173,9 +183,11 @@ def motion_of(bvh: BvhClip, file: str, fps: Fraction | None = None) -> ReadMotio
     proper = slice(before, len(whole) - after)
     apart_m = _apart(whole.span(proper.start, proper.stop), (positions - positions[:, :1])[proper])
     clip = replace(done.clip, hips_m=done.clip.hips_m - done.clip.hips_m[0] * (1.0, 0.0, 1.0))
+    first = found.body.positions[before], found.body.rotations[before]
     return ReadMotion(
         replace(done, clip=clip), found.profile, unit, unit_m, found.up, bvh.fps, found.doubtful, apart_m,
-        report(found.checked), bvh.rate_guess, (*bvh.guesses, *found.guesses),
+        report(found.checked), raw_skeleton(bvh, file, found.found, *first), bvh.rate_guess,
+        (*bvh.guesses, *found.guesses),
     )  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -42,6 +42,7 @@ def read_pair(
     fps: Fraction | None = None,
     credits: Path | None = None,
     cuts: Path | None = None,
+    joints: Mapping[str, str] | None = None,
 ) -> ReadPair:
     """Read a pair.
 
@@ -62,13 +63,15 @@ def read_pair(
     cuts : Path, optional
         Where the motion is cut, as times of its file (`app.choreography.cuts_by_hand.read_times`); without it the cuts
         are to be found.
+    joints : mapping of str to str, optional
+        Corrections of the motion's bones by joint, see `app.choreography.raw_skeleton.JOINTS`; empty: none.
 
     Raises
     ------
     AppError
         A file cannot be read, is none of the kind, or has cuts that do not fit the motion.
     """
-    read = read_motion(motion, fps)
+    read = read_motion(motion, fps, joints)
     score = uncast_score(read_contents(music))
     rhythm = audible_rhythm(score)
     if not len(rhythm.hits_s):

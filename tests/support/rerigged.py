@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -123,4 +123,20 @@ def without_joints(bvh: BvhClip, lost: Callable[[str], bool]) -> BvhClip:
         rotations_xyzw=bvh.rotations_xyzw[:, kept],
         end_sites_cm=ends,
         translations_cm={new[joint]: ways for joint, ways in bvh.translations_cm.items() if joint in new},
+    )
+
+
+def with_prop(bvh: BvhClip, bone: str, ways: Sequence[tuple[float, float, float]]) -> BvhClip:
+    """The same motion with a stiff chain of further bones in a hand, as of a sword; lengths in centimetres."""
+    first, at = len(bvh.names), bvh.names.index(bone)
+    still = np.zeros((len(bvh.rotations_xyzw), len(ways), 4))
+    still[..., 3] = 1.0
+    ends = {joint: end for joint, end in bvh.end_sites_cm.items() if joint != at}
+    return replace(
+        bvh,
+        names=(*bvh.names, *(f"prop{number}" for number in range(len(ways)))),
+        parents=(*bvh.parents, at, *range(first, first + len(ways) - 1)),
+        offsets_cm=np.concatenate([bvh.offsets_cm, ways]),
+        end_sites_cm={**ends, first + len(ways) - 1: np.array(ways[-1])},
+        rotations_xyzw=np.concatenate([bvh.rotations_xyzw, still], axis=1),
     )

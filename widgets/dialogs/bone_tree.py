@@ -72,9 +72,11 @@ class BoneTree(QWidget):
         self.tree.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
 
     def _filter(self, text: str) -> None:
-        """Show the bones whose name holds the text, and those above them."""
+        """Show the bones whose name holds the text, and those above them; that which is named so is marked, else
+        the first."""
         requested = text.strip().casefold()
         first: QTreeWidgetItem | None = None
+        exact: QTreeWidgetItem | None = None
         # Children come after their parents.
         for item in reversed(self._items):
             hit = requested in item.text(0).casefold()
@@ -83,6 +85,9 @@ class BoneTree(QWidget):
             item.setHidden(bool(requested) and not hit and not below)
             if hit and requested:
                 first = item
+            if item.text(0).casefold() == requested:
+                exact = item
+        first = exact or first
         if first is not None:
             self.tree.setCurrentItem(first)
             self.tree.scrollToItem(first)

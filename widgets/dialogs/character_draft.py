@@ -102,6 +102,11 @@ class DraftHistory:
         self._of_gesture = False
         """True if the last step belongs to the running gesture."""
 
+    @classmethod
+    def empty(cls) -> DraftHistory:
+        """History that begins without a correction."""
+        return cls(CharacterDraft(""))
+
     @property
     def now(self) -> CharacterDraft:
         """The draft as it is."""

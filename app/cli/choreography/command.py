@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -15,7 +15,7 @@ from app.cli.progress import Progress
 from app.cli.summary import columns
 from app.cli.terminal import say, warn
 from app.encoding import shown
-from app.errors import UsageError
+from app.errors import Message, UsageError
 from app.messages import text
 from app.project.frame_rate import USUAL_RATE
 
@@ -53,6 +53,7 @@ class PairFiles:
     fps: Fraction | None = None
     credits: Path | None = None
     cuts: Path | None = None
+    joints: Mapping[str, str] = field(default_factory=dict)
 
 
 class _AddPair(argparse.Action):
@@ -76,6 +77,23 @@ class _OfPair(argparse.Action):
         if getattr(pair, self.dest) is not None:
             raise argparse.ArgumentError(self, f"the pair of {pair.motion.name} has it twice")
         namespace.pairs = (*before, replace(pair, **{self.dest: values}))
+
+
+class _CorrectBone(argparse.Action):
+    """``--bone JOINT=NAME`` of the pair before it."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
+    ) -> None:
+        if not namespace.pairs:
+            raise argparse.ArgumentError(self, "it belongs to a pair: write it behind a --pair")
+        joint, equals, bone = values.partition("=")
+        if not equals or not joint:
+            raise argparse.ArgumentError(self, text(Message("characters.joint", {"text": values})))
+        *before, pair = namespace.pairs
+        if joint in pair.joints:
+            raise argparse.ArgumentError(self, f"the pair of {pair.motion.name} has {joint} twice")
+        namespace.pairs = (*before, replace(pair, joints={**pair.joints, joint: bone}))
 
 
 def _add_learn(actions: Actions) -> None:
@@ -125,6 +143,14 @@ def _add_learn(actions: Actions) -> None:
         type=Path,
         metavar="FILE",
     )
+    of_pair.add_argument(
+        "--bone",
+        action=_CorrectBone,
+        default=argparse.SUPPRESS,
+        metavar="JOINT=NAME",
+        help="the motion's bone that is a VRM 1.0 joint, against what is found, e.g. leftHand=Wrist_L; repeatable; "
+        "none after '=': there is no such joint",
+    )
     command.add_argument(
         "--states",
         type=bounded_number(1, MOST_STATES, "a number of basic motions", int),
@@ -154,7 +180,15 @@ def learn(arguments: argparse.Namespace) -> None:
         for number, one in enumerate(files):
             progress(0.5 * number / len(files), one.motion.name)
             read.append(
-                read_pair(one.motion, one.music, offset_s=one.offset_s, fps=one.fps, credits=one.credits, cuts=one.cuts)
+                read_pair(
+                    one.motion,
+                    one.music,
+                    offset_s=one.offset_s,
+                    fps=one.fps,
+                    credits=one.credits,
+                    cuts=one.cuts,
+                    joints=one.joints,
+                )
             )
         model = learned(
             [one.pair for one in read],

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Set
+from collections.abc import Collection, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cache
 from typing import Final
@@ -48,6 +48,8 @@ ENOUGH: Final = 8
 """A table that knows fewer of the required joints than this is not the figure's."""
 THUMB_BASE: Final = 0.5
 """A thumb's bone that begins nearer to the wrist than this, of the way to the index finger, is the metacarpal."""
+MOST_LISTED: Final = 100
+"""Bones that the error of an unknown one lists."""
 SHORTEST_AFFIXED: Final = 3
 """Names shorter than this count only as they are: too many others end in them."""
 
@@ -112,7 +114,21 @@ def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> Jo
     doubtful = set(found.astray) | guessed
     doubtful |= _turn_sides(tree, bones)
     _place_thumbs(tree, bones)
-    for joint, bone in _corrections(figure, requested or {}).items():
+    return corrected(figure, _mapping(found.profile, bones, doubtful), requested or {})
+
+
+def corrected(
+    figure: Figure, mapping: JointMapping, requested: Mapping[str, str], joints: Sequence[str] = ()
+) -> JointMapping:
+    """Mapping with a user's corrections, see `map_joints`.
+
+    Parameters
+    ----------
+    joints : sequence of str
+        Joints that can be corrected; empty: all.
+    """
+    bones, doubtful = dict(mapping.bones), set(mapping.doubtful)
+    for joint, bone in _corrections(figure, requested, joints or _joints()).items():
         if bone is not None:
             for other in [one for one, held in bones.items() if held == bone]:
                 del bones[other]
@@ -120,9 +136,13 @@ def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> Jo
         if bone is not None:
             bones[joint] = bone
         doubtful.discard(joint)
+    return _mapping(mapping.profile, bones, doubtful)
+
+
+def _mapping(profile: str, bones: Mapping[str, int], doubtful: Collection[str]) -> JointMapping:
     joints = _joints()
     return JointMapping(
-        profile=found.profile,
+        profile=profile,
         bones={joint: bones[joint] for joint in joints if joint in bones},
         missing=tuple(joint for joint in joints if joint not in bones),
         doubtful=tuple(joint for joint in joints if joint in doubtful and joint in bones),
@@ -398,13 +418,14 @@ def _place_thumbs(tree: Tree, bones: dict[str, int]) -> None:
             bones[next_] = bones.pop(base)
 
 
-def _corrections(figure: Figure, requested: Mapping[str, str]) -> dict[str, int | None]:
+def _corrections(figure: Figure, requested: Mapping[str, str], joints: Sequence[str]) -> dict[str, int | None]:
     """The user's corrections as bones."""
     found: dict[str, int | None] = {}
     for joint, name in requested.items():
-        if joint not in _joints():
-            raise FileError("figure.no_joint", file=figure.file, joint=joint, joints=", ".join(_joints()))
+        if joint not in joints:
+            raise FileError("figure.no_joint", file=figure.file, joint=joint, joints=", ".join(joints))
         if name and name not in figure.bone_names:
-            raise FileError("figure.no_bone", file=figure.file, joint=joint, bone=name)
+            listed = [*figure.bone_names[:MOST_LISTED], *(["…"] if len(figure.bone_names) > MOST_LISTED else [])]
+            raise FileError("figure.no_bone", file=figure.file, joint=joint, bone=name, bones=", ".join(listed))
         found[joint] = figure.bone_names.index(name) if name else None
     return found

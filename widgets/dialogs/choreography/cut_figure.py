@@ -1,9 +1,11 @@
-"""The pose at a frame of a motion as a stick figure, as seen from the front."""
+"""The pose at a frame of a motion as a stick figure, and the skeleton of its file, as seen from the front."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
-from PySide6.QtCore import QPointF, QSize
+from PySide6.QtCore import QLineF, QPointF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -11,8 +13,12 @@ from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import Cut
-from app.choreography.features import POSES, features
+from app.choreography.features import POSES, facing, features, height_m
+from app.choreography.raw_skeleton import RawSkeleton
+from app.choreography.read_motion import ReadMotion
 from app.editor.session import Session
+from app.rig import quaternion
+from app.rig.characters.joint_mapping import JointMapping
 from widgets.common.choreography.figures import HIGHEST, draw_figures, placed
 
 _WIDEST = 0.95
@@ -54,6 +60,11 @@ class PoseFigure(QWidget):
         self._pose = pose
         self.update()
 
+    def _room(self) -> tuple[float, float]:
+        """Height of `HIGHEST`, and place of the floor, in pixels."""
+        height_px = 0.95 * min(self.height(), self.width() * HIGHEST / _WIDEST)
+        return height_px, 0.5 * (self.height() + height_px) - 4.0
+
     # Qt's own names
 
     def sizeHint(self) -> QSize:
@@ -65,9 +76,82 @@ class PoseFigure(QWidget):
         painter.fillRect(self.rect(), QColor(tokens.sunken))
         if self._pose is None:
             return
-        height_px = 0.95 * min(self.height(), self.width() * HIGHEST / _WIDEST)
-        floor_px = 0.5 * (self.height() + height_px) - 4.0
+        height_px, floor_px = self._room()
         painter.setPen(QPen(QColor(tokens.line_strong), 1.0))
         painter.drawLine(QPointF(0.0, floor_px), QPointF(self.width(), floor_px))
         points = placed(self._pose[None], np.array([self.width() / 2.0]), floor_px, height_px)
         draw_figures(painter, points, QColor(tokens.text), _PEN_PX, height_px)
+
+
+@dataclass(frozen=True, eq=False)
+class SkeletonPose:
+    """A file's skeleton as seen from the front: X to the right, Y up from its lowest point, in parts of the height.
+
+    Attributes
+    ----------
+    lines : ndarray, shape (L, 2, 2)
+    marked : ndarray, shape (2,), or None
+        The joint to mark.
+    """
+
+    lines: FloatArray
+    marked: FloatArray | None
+
+
+def skeleton_pose(
+    skeleton: RawSkeleton, mapping: JointMapping, motion: ReadMotion | None, bone: int | None
+) -> SkeletonPose:
+    """The skeleton as the read motion faces in its first frame, or as its hip joints do; ``bone`` is marked."""
+    across = np.zeros(3)
+    if {"leftUpperLeg", "rightUpperLeg"} <= mapping.bones.keys():
+        left, right = (skeleton.places[mapping.bones[f"{side}UpperLeg"]] for side in ("left", "right"))
+        across = left - right
+    turn = quaternion.from_axis_angle((0.0, 1.0, 0.0), float(np.arctan2(across[2], across[0])))
+    if motion is not None:
+        turn = quaternion.conjugate(facing(motion.clip.span(0, 1))[0])
+    ends = skeleton.lines.reshape(-1, 3)
+    tall = float(np.ptp(skeleton.places[:, 1])) if motion is None else height_m(motion.clip) / motion.unit_m
+    middle = skeleton.places[mapping.bones.get("hips", 0)] * (1.0, 0.0, 1.0)
+    low = np.array([0.0, float(ends[:, 1].min()), 0.0])
+
+    def seen(places: FloatArray) -> FloatArray:
+        return np.asarray(quaternion.rotate(turn, places - middle - low)[..., :2] / max(tall, 1e-9))
+
+    return SkeletonPose(seen(skeleton.lines), None if bone is None else seen(skeleton.places[bone]))
+
+
+class SkeletonFigure(PoseFigure):
+    """Draws the skeleton of a file."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(session, parent)
+        self._skeleton: SkeletonPose | None = None
+
+    @property
+    def skeleton(self) -> SkeletonPose | None:
+        """The skeleton that is drawn."""
+        return self._skeleton
+
+    def show_skeleton(self, skeleton: SkeletonPose | None) -> None:
+        """Draw another skeleton, or none."""
+        self._skeleton = skeleton
+        self.update()
+
+    # Qt's own names
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        super().paintEvent(event)
+        if self._skeleton is None:
+            return
+        tokens, (height_px, floor_px) = self._session.tokens, self._room()
+        middle_px = np.array([self.width() / 2.0])
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(QColor(tokens.text), 1.5))
+        lines = placed(self._skeleton.lines.reshape(1, -1, 2), middle_px, floor_px, height_px).reshape(-1, 4)
+        painter.drawLines([QLineF(*line) for line in lines.tolist()])
+        if self._skeleton.marked is not None:
+            x, y = placed(self._skeleton.marked[None, None], middle_px, floor_px, height_px)[0, 0].tolist()
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(tokens.accent))
+            painter.drawEllipse(QPointF(x, y), 4.0, 4.0)

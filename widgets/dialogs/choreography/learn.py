@@ -9,7 +9,7 @@ from typing import Final
 import msgspec
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QKeyEvent
-from PySide6.QtWidgets import QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QPushButton, QSpinBox, QTabWidget, QWidget
 
 from app.audio.output import open_output
 from app.audio.playback import Playback
@@ -30,6 +30,8 @@ from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dro
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX, AutomaticNumber
+from widgets.dialogs.character_draft import DraftHistory
+from widgets.dialogs.choreography.body_panel import BodyPanel
 from widgets.dialogs.choreography.cut_panel import CutHistory, CutPanel
 from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft, with_files
 from widgets.dialogs.choreography.learn_pair import PairForm
@@ -38,6 +40,7 @@ from widgets.dialogs.choreography.learn_rows import (
     PairRead,
     PairRow,
     missing_text,
+    take_contents,
 )
 from widgets.dialogs.choreography.learn_work import LearnedChoreography, learning, reading
 from widgets.dialogs.working import WorkingDialog
@@ -46,6 +49,8 @@ MOST_STATES: Final = 1000
 MOST_SEED: Final = 2**31 - 1
 _POLL_MS: Final = 100
 _FORM_PX: Final = 420
+_STATE_PX: Final = 52
+"""Room for three lines."""
 _SIZE: Final = QSize(1180, 840)
 _LEAST_PX: Final = 900
 
@@ -86,6 +91,7 @@ class LearnDialog(WorkingDialog):
         # Where the piece has no sound, as in a picture made without a window, the pair plays in time without one.
         playback = playback or Playback(open_output if session.playback is not None else lambda: None)
         self.form, self.cuts = PairForm(), CutPanel(session, playback)
+        self.body, self.tabs = BodyPanel(session), named(QTabWidget(), "learn_tabs")
         self._add = Button("learn_dialog.add", self._ask_for_files, "learn_add")
         self._remove = Button("learn_dialog.remove", self._remove_pair, "learn_remove")
         self._states = self.texted(
@@ -117,7 +123,7 @@ class LearnDialog(WorkingDialog):
         for edit in (self._file, self._seed.lineEdit()):
             edit.setAcceptDrops(False)
         self._state.setWordWrap(True)
-        self._state.setMinimumHeight(40)
+        self._state.setMinimumHeight(_STATE_PX)
         self._use.hide()
 
         tools = in_row(self._add, self._remove, STRETCH)
@@ -135,13 +141,17 @@ class LearnDialog(WorkingDialog):
             self._learn,
             self._close,
         )
-        in_column((self._top, 2), (self.cuts, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
+        self.tabs.addTab(panel(in_column((self.cuts, 1), margins=(0, 8, 0, 0))), "")
+        self.tabs.addTab(panel(in_column((self.body, 1), margins=(0, 8, 0, 0))), "")
+        self.texted(self.tabs, tabs=("body_panel.cuts", "body_panel.body"))
+        in_column((self._top, 2), (self.tabs, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
 
     def _connect(self) -> None:
         session = self._session
         self.list.currentItemChanged.connect(lambda *_: self._show_pair())
         self.form.changed.connect(self._change_pair)
         self.cuts.changed.connect(self._set_cuts)
+        self.body.changed.connect(self._correct_bones)
         self._states.changed.connect(self._edited)
         self._seed.valueChanged.connect(lambda _: self._edited())
         self._file.textChanged.connect(lambda _: self._edited())
@@ -202,6 +212,10 @@ class LearnDialog(WorkingDialog):
             if (draft.motion, draft.fps) != (before.motion, before.fps):
                 # Its frames are others.
                 draft, row.history = msgspec.structs.replace(draft, cuts=None), CutHistory()
+                row.cut_clip = None
+            if draft.motion != before.motion:
+                # Its bones too.
+                draft, row.bones = msgspec.structs.replace(draft, joints={}), DraftHistory.empty()
             row.draft = draft
             if draft.files != before.files:
                 self._read(row)
@@ -211,6 +225,17 @@ class LearnDialog(WorkingDialog):
         row = self._row
         if row is not None:
             row.draft = msgspec.structs.replace(row.draft, cuts=cuts)
+            self._edited()
+
+    def _correct_bones(self) -> None:
+        row = self._row
+        if row is not None:
+            row.draft = msgspec.structs.replace(row.draft, joints=row.bones.now.joints)
+            skeleton = row.found.skeleton
+            self._read(row)
+            if row.reading:
+                # The bones to choose from stay.
+                row.found = PairContents(skeleton=skeleton)
             self._edited()
 
     def _read(self, row: PairRow) -> None:
@@ -227,7 +252,7 @@ class LearnDialog(WorkingDialog):
     def _was_read(self, result: PairRead) -> None:
         for row in self._rows:
             if row.reading == result.number:
-                row.reading, row.found = 0, result.found
+                take_contents(row, result.found)
                 self._show_list()
                 self._show_state()
                 if row is self._row:
@@ -315,15 +340,20 @@ class LearnDialog(WorkingDialog):
 
     def _show_pair(self) -> None:
         row = self._row
-        for widget in (self.form, self.cuts):
+        for widget in (self.form, self.tabs):
             widget.setEnabled(row is not None and not self._running)
         self._remove.setEnabled(row is not None and not self._running)
         if row is None:
             self.form.show_pair(PairDraft(), PairContents(), busy=False)
             self.cuts.show_pair(PairDraft(), PairContents(), CutHistory())
+            self.body.show_pair(PairContents(), DraftHistory.empty())
         else:
             self.form.show_pair(row.draft, row.found, bool(row.reading))
             self.cuts.show_pair(row.draft, row.found, row.history)
+            if row.found is not self.body.found and row.found.error is not None and row.found.skeleton is not None:
+                # Bones are to be corrected first.
+                self.tabs.setCurrentIndex(1)
+            self.body.show_pair(row.found, row.bones)
 
     def _show_state(self) -> None:
         missing, path, result = self._missing(), self._target, self._result

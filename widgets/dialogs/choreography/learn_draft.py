@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import msgspec
 
 from app.choreography.cuts_by_hand import Cuts
 from app.choreography.learn import Analysis
+from app.choreography.raw_skeleton import RawSkeleton
 from app.choreography.read_pair import CREDITS_SUFFIX, ReadPair
 from app.errors import Message
 from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
@@ -29,6 +30,8 @@ class PairDraft(msgspec.Struct, frozen=True):
         None: as the motion's file says.
     cuts : tuple of Cut or None
         Frames of the analysed clip, as the user set them; None: those that were found.
+    joints : mapping of str to str
+        Corrections of the motion's bones by joint; empty: none.
     """
 
     motion: Path | None = None
@@ -37,19 +40,21 @@ class PairDraft(msgspec.Struct, frozen=True):
     offset_s: float | None = None
     fps: Fraction | None = None
     cuts: Cuts | None = None
+    joints: Mapping[str, str] = msgspec.field(default_factory=dict)
 
     @property
-    def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None]:
+    def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None, Mapping[str, str]]:
         """The fields that make the files be read again when they change."""
-        return self.motion, self.music, self.credits, self.fps
+        return self.motion, self.music, self.credits, self.fps, self.joints
 
 
 class PairContents(msgspec.Struct, frozen=True):
-    """Contents of a pair's files, or the error of reading them."""
+    """Contents of a pair's files, or the error of reading them; the motion's skeleton is known with some errors too."""
 
     read: ReadPair | None = None
     analysis: Analysis | None = None
     error: Message | None = None
+    skeleton: RawSkeleton | None = None
 
 
 def offset_s_of(draft: PairDraft, found: PairContents) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
+import msgspec
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QTreeWidgetItem
@@ -18,6 +19,7 @@ from app.editor.translated import tr
 from app.encoding import shown
 from widgets.common.controls import ColumnList
 from widgets.common.text import message_text
+from widgets.dialogs.character_draft import DraftHistory
 from widgets.dialogs.choreography.cut_panel import CutHistory
 from widgets.dialogs.choreography.learn_draft import (
     PairContents,
@@ -49,6 +51,10 @@ class PairRow:
     ----------
     history : CutHistory
         Of the cuts of the draft.
+    bones : DraftHistory
+        Of its corrections of bones.
+    cut_clip : tuple of float and int, or None
+        Start and length of the clip that the cuts are of, see `take_contents`.
     reading : int
         Number of the reading whose result is awaited; 0: none.
     states : int or None
@@ -58,6 +64,8 @@ class PairRow:
     draft: PairDraft
     found: PairContents = field(default_factory=PairContents)
     history: CutHistory = field(default_factory=CutHistory)
+    bones: DraftHistory = field(default_factory=DraftHistory.empty)
+    cut_clip: tuple[float, int] | None = None
     reading: int = 0
     states: int | None = None
 
@@ -68,6 +76,16 @@ class PairRead:
 
     number: int
     found: PairContents
+
+
+def take_contents(row: PairRow, found: PairContents) -> None:
+    """Give a row what was read; cuts set by hand stay if the clip still has the frames that they are of."""
+    row.reading, row.found = 0, found
+    if found.read is not None and found.analysis is not None:
+        clip = (found.read.motion.start_s, len(found.analysis.clip))
+        if row.cut_clip not in (None, clip):
+            row.draft, row.history = msgspec.structs.replace(row.draft, cuts=None), CutHistory()
+        row.cut_clip = clip
 
 
 def training_pair(row: PairRow) -> Pair | None:

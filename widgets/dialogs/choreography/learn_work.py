@@ -11,6 +11,7 @@ from app.choreography.learn import analyse, learn
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
 from app.choreography.pairing import report
+from app.choreography.raw_skeleton import BodyError
 from app.choreography.read_pair import read_pair
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
@@ -34,12 +35,13 @@ def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callabl
 
     def work(progress: Progress, stop_requested: StopRequested) -> PairRead:
         try:
-            read = read_pair(motion, music, fps=draft.fps, credits=draft.credits)
-            return PairRead(number, PairContents(read, analyse(read.pair)))
+            read = read_pair(motion, music, fps=draft.fps, credits=draft.credits, joints=draft.joints)
+            return PairRead(number, PairContents(read, analyse(read.pair), skeleton=read.motion.skeleton))
         except Cancelled:
             raise
         except AppError as error:
-            return PairRead(number, PairContents(error=error.message))
+            skeleton = error.skeleton if isinstance(error, BodyError) else None
+            return PairRead(number, PairContents(error=error.message, skeleton=skeleton))
 
     return work
 

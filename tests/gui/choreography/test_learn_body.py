@@ -1,0 +1,121 @@
+"""Bones of a pair's motion corrected by mouse and keys, judged by the motion that is learned from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QPushButton, QToolButton
+from pytestqt.qtbot import QtBot
+
+from app.choreography.body import SEGMENTS
+from app.choreography.read_motion import read_motion
+from app.editor.session import Session
+from app.formats.bvh.read import read_bvh
+from app.formats.bvh.write import write_bvh
+from tests.gui.choreography.test_learn_dialog import drop, shown, state
+from tests.support.rerigged import with_prop, without_names
+from tests.support.windows import child
+from tests.unit.choreography.test_command import write_clip, write_drums
+from tests.unit.choreography.test_cuts import arm_swings
+from widgets.dialogs.bone_tree import BoneTree
+from widgets.dialogs.choreography.learn import LearnDialog
+
+SWORD = [(30.0, 0.0, 0.0)] * 4
+"""The arm that holds it is no arm by its lengths."""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    named = read_bvh(write_clip(tmp_path / "swings.bvh", arm_swings(60)))
+    armed = with_prop(named, "leftHand", SWORD)
+    write_bvh(tmp_path / "sword.bvh", without_names(armed))
+    write_drums(tmp_path / "drums.mid")
+    return tmp_path
+
+
+@pytest.fixture
+def dialog(session: Session, qtbot: QtBot, folder: Path) -> LearnDialog:
+    made = shown(session, qtbot, folder)
+    drop(made, folder / "sword.bvh", folder / "drums.mid")
+    return made
+
+
+def tree(dialog: LearnDialog) -> BoneTree:
+    assert dialog.body.bones is not None
+    return dialog.body.bones
+
+
+def give(dialog: LearnDialog, joint: str, bone: str) -> None:
+    """Click a joint of the drawn body and type its bone."""
+    place = dialog.body.body.place(joint).toPoint()
+    QTest.mouseClick(dialog.body.body, Qt.MouseButton.LeftButton, pos=place)
+    assert dialog.body.joint == joint
+    QTest.keyClick(dialog.body.body, Qt.Key.Key_Return)
+    QTest.keyClicks(tree(dialog).search, bone)
+    QTest.keyClick(tree(dialog).search, Qt.Key.Key_Return)
+
+
+def true_bones(folder: Path) -> dict[str, str]:
+    """Bones of the file without names by joint."""
+    named = read_bvh(folder / "swings.bvh")
+    return dict(zip(named.names, without_names(with_prop(named, "leftHand", SWORD)).names, strict=False))
+
+
+def wrong_bones(dialog: LearnDialog, folder: Path) -> dict[str, str]:
+    """Bones to correct."""
+    skeleton = dialog._rows[0].found.skeleton
+    assert skeleton is not None
+    shown = {joint: skeleton.figure.bone_names[bone] for joint, bone in skeleton.found.bones.items()}
+    return {
+        joint: bone
+        for joint, bone in true_bones(folder).items()
+        if joint not in ("spine", "chest") and shown.get(joint) != bone
+    }
+
+
+def test_a_motion_that_is_not_understood_is_corrected_bone_by_bone(dialog: LearnDialog, folder: Path) -> None:
+    assert "bones were not found for" in state(dialog) or "not recognised" in state(dialog)
+    # The bones to correct are shown, with the file's skeleton.
+    assert dialog.tabs.currentWidget().isAncestorOf(dialog.body)
+    assert dialog.body.raw.skeleton is not None
+    assert dialog.body.first.pose is dialog.body.rest.pose is None
+    corrections = wrong_bones(dialog, folder)
+    for joint, bone in corrections.items():
+        give(dialog, joint, bone)
+    assert dialog.drafts[0].joints == corrections
+    assert child(dialog, QPushButton, "learn_start").isEnabled()
+    read = dialog._rows[0].found.read
+    assert read is not None
+    expected = read_motion(folder / "swings.bvh").clip
+    assert np.abs(read.motion.clip.rotations - expected.rotations).max() < 0.05
+    for figure in (dialog.body.first, dialog.body.rest):
+        assert figure.pose is not None
+    # In the T-pose both hands are as high as the shoulders.
+    arms = [at for at, name in enumerate(SEGMENTS) if "Arm" in name or "Hand" in name]
+    assert np.ptp(dialog.body.rest.pose[arms, 1]) < 0.05
+
+
+def test_corrections_are_taken_back(dialog: LearnDialog, folder: Path) -> None:
+    joint, bone = next(iter(wrong_bones(dialog, folder).items()))
+    give(dialog, joint, bone)
+    assert dialog.drafts[0].joints == {joint: bone}
+    QTest.mouseClick(child(dialog, QToolButton, "body_undo"), Qt.MouseButton.LeftButton)
+    assert dialog.drafts[0].joints == {}
+    QTest.keyClick(dialog.body, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    assert dialog.drafts[0].joints == {joint: bone}
+    QTest.mouseClick(child(dialog, QPushButton, "body_automatic"), Qt.MouseButton.LeftButton)
+    assert dialog.drafts[0].joints == {}
+    give(dialog, joint, bone)
+    QTest.mouseClick(child(dialog, QPushButton, "body_no_bone"), Qt.MouseButton.LeftButton)
+    assert dialog.drafts[0].joints == {joint: ""}
+    QTest.mouseClick(child(dialog, QPushButton, "body_reset"), Qt.MouseButton.LeftButton)
+    assert dialog.drafts[0].joints == {}
+    # Of another motion the bones are others.
+    give(dialog, joint, bone)
+    dialog.form._change(motion=folder / "swings.bvh")
+    assert dialog.drafts[0].joints == {}
+    assert child(dialog, QPushButton, "learn_start").isEnabled()
