@@ -82,6 +82,11 @@ def stands(clip: MotionClip, contacts: BoolArray) -> tuple[FootPlant, ...]:
     return tuple(sorted(own[0] + own[1], key=lambda stand: (stand.start, stand.foot)))
 
 
+def foot_speeds_m_s(clip: MotionClip) -> FloatArray:
+    """(F, 2) speeds of the tips of the feet."""
+    return np.asarray(np.linalg.norm(np.gradient(tips_m(clip), axis=0), axis=-1) * float(clip.fps))
+
+
 def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
     """Times for which feet are off the floor between stands at two places."""
     found = []

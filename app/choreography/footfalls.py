@@ -31,6 +31,8 @@ LEAST_SWING_S: Final = 0.25
 """A foot stands, and is off the floor for a step, no shorter than this; unless the motion has it so."""
 STEP_SHARE: Final = 0.9
 """A step takes no less than this share of the usual time, if both feet have time."""
+FASTEST_M_S: Final = 5.0
+"""A foot that goes faster kicks, and comes down as the body has it: a moment later its place is far from the body's."""
 NEVER: Final = -1e9
 
 
@@ -49,7 +51,13 @@ class Footfalls:
 
 
 def on_beats(
-    standing: Sequence[FootPlant], frames: int, fps: float, first_s: float, grid: AccentGrid, step_s: float
+    standing: Sequence[FootPlant],
+    frames: int,
+    fps: float,
+    first_s: float,
+    grid: AccentGrid,
+    step_s: float,
+    speeds_m_s: FloatArray | None = None,
 ) -> Footfalls:
     """Stands that begin on places of the grid where one is near.
 
@@ -63,17 +71,30 @@ def on_beats(
         Time of its frame 0.
     step_s : float
         Usual time of a step.
+    speeds_m_s : (F, 2) float64, optional
+        Of the feet.
     """
+    kicked = set() if speeds_m_s is None else _kicked(standing, speeds_m_s)
     falls = [at for at, stand in enumerate(standing) if stand.start > 0]
     starts = {at: float(stand.start) for at, stand in enumerate(standing)}
-    starts.update(zip(falls, _chosen([standing[at] for at in falls], fps, first_s, grid), strict=True))
+    by_foot = [[at for at, stand in enumerate(standing) if stand.foot == foot] for foot in range(2)]
+    # The first frame is no fall, and a stand that ends when it did does not begin at its end.
+    after = {at: following for own in by_foot for at, following in pairwise(own)}
+    kept = {at for own in by_foot for at in own if at not in after or after[at] in kicked}
+    latest = [
+        0.0 if at in kicked else standing[at].stop - LEAST_STAND_S * fps if at in kept else frames - 1.0 for at in falls
+    ]
+    bounds_s = [(first_s + 1.0 / fps, first_s + last / fps) for last in latest]
+    starts.update(zip(falls, _chosen([standing[at] for at in falls], fps, first_s, grid, bounds_s), strict=True))
     moved = [replace(stand, start=round(starts[at])) for at, stand in enumerate(standing)]
     shown = np.tile(np.arange(frames, dtype=np.float64)[:, None], (1, 2))
-    for foot in range(2):
-        own = [at for at, stand in enumerate(standing) if stand.foot == foot]
+    for foot, own in enumerate(by_foot):
         others = [(stand, new) for stand, new in zip(standing, moved, strict=True) if stand.foot != foot]
-        for at, after in pairwise(own):
-            stop = _leaves(standing[at], standing[after], moved[at].start, moved[after].start, others, fps, step_s)
+        for at, following in pairwise(own):
+            if at in kept:
+                continue
+            starts_at = moved[at].start, moved[following].start
+            stop = _leaves(standing[at], standing[following], *starts_at, others, fps, step_s)
             moved[at] = replace(moved[at], stop=stop)
         knots = [(0, 0)]
         for at in own:
@@ -85,6 +106,16 @@ def on_beats(
             shown[:, foot] = PchipInterpolator(places[ascends, 0], places[ascends, 1])(shown[:, foot])
     moved.sort(key=lambda stand: (stand.start, stand.foot))
     return Footfalls(tuple(moved), np.clip(shown, 0.0, frames - 1.0))
+
+
+def _kicked(standing: Sequence[FootPlant], speeds_m_s: FloatArray) -> set[int]:
+    """Numbers of the stands to which a foot comes down from a kick."""
+    found, left = set(), [0, 0]
+    for at, stand in enumerate(standing):
+        if speeds_m_s[left[stand.foot] : stand.start, stand.foot].max(initial=0.0) > FASTEST_M_S:
+            found.add(at)
+        left[stand.foot] = stand.stop
+    return found
 
 
 def _leaves(
@@ -111,10 +142,15 @@ def _leaves(
     return max(came + 1, min(max(comes - takes, first), last))
 
 
-def _chosen(falls: Sequence[FootPlant], fps: float, first_s: float, grid: AccentGrid) -> list[float]:
-    """Frames in which feet come down: the worthiest choice for all, by dynamic programming over pairs in a row."""
+def _chosen(
+    falls: Sequence[FootPlant], fps: float, first_s: float, grid: AccentGrid, bounds_s: Sequence[tuple[float, float]]
+) -> list[float]:
+    """Frames in which feet come down: the worthiest choice for all, by dynamic programming over pairs in a row.
+
+    ``bounds_s`` are the first and the last time that each can be moved to.
+    """
     times = [first_s + fall.start / fps for fall in falls]
-    options = [_options(time_s, grid) for time_s in times]
+    options = [_options(time_s, grid, *bounds) for time_s, bounds in zip(times, bounds_s, strict=True)]
     # By the options of the last fall but one and of the last: the worth so far.
     value = np.zeros((1, 1))
     back: list[np.ndarray] = []
@@ -143,10 +179,11 @@ def _chosen(falls: Sequence[FootPlant], fps: float, first_s: float, grid: Accent
     return [(options[at][number][0] - first_s) * fps for at, number in enumerate(reversed(way))]
 
 
-def _options(time_s: float, grid: AccentGrid) -> list[tuple[float, float]]:
+def _options(time_s: float, grid: AccentGrid, earliest_s: float, latest_s: float) -> list[tuple[float, float]]:
     """Times at which a foot can come down, and their worth; the time of the motion is the first."""
     found = [(time_s, 0.0)]
-    for at in range(*np.searchsorted(grid.times_s, (time_s - REACH_S, time_s + REACH_S)).tolist()):
+    reach_s = max(time_s - REACH_S, earliest_s), min(time_s + REACH_S, latest_s)
+    for at in range(*np.searchsorted(grid.times_s, reach_s).tolist()):
         place_s = float(grid.times_s[at])
         worth = ON_BEAT if grid.on_beat[at] else BETWEEN
         found.append((place_s, worth - MOVED * ((place_s - time_s) / REACH_S) ** 2))

@@ -15,6 +15,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.arrivals import (
+    FALLS_SHARE,
     FPS,
     alignment,
     arrival_frames,
@@ -27,8 +28,8 @@ from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.features import height_m
-from app.choreography.feet import STEP_S, planted, stands, steps_s
-from app.choreography.footfalls import on_beats
+from app.choreography.feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
+from app.choreography.footfalls import Footfalls, on_beats
 from app.choreography.hands import out_of_body
 from app.choreography.heard import Hearing, hearing
 from app.choreography.joins import distances_m
@@ -51,7 +52,7 @@ from app.rig import quaternion
 
 DRAFT_FPS: Final = Fraction(30)
 """Frame rate of the draft in which arrivals are looked for."""
-DRAFTS: Final = 3
+DRAFTS: Final = 2
 """Drafts, each by the best time map that follows from the one before."""
 _LEAST_S: Final = 0.01
 """Beyond the first start and the last end; a segment may meet its beat at either."""
@@ -124,11 +125,21 @@ class Choreographer:
     @cached_property
     def _beat_s(self) -> float:
         """Usual time from one footfall to the next in the capture."""
-        gaps_s: list[float] = []
-        for clip, contacts in zip(self.model.clips, self._stitcher.contacts, strict=True):
-            falls = sorted({stand.start for stand in stands(clip, contacts)})
-            gaps_s += (np.diff(falls) / float(clip.fps)).tolist()
-        return float(np.median(gaps_s)) if gaps_s else BEAT_S
+        gaps_s = np.concatenate([np.diff(falls) for falls in self._falls_s])
+        return float(np.median(gaps_s)) if len(gaps_s) else BEAT_S
+
+    @cached_property
+    def _stands(self) -> list[tuple[FootPlant, ...]]:
+        """Stands of the feet in each clip."""
+        return [stands(*pair) for pair in zip(self.model.clips, self._stitcher.contacts, strict=True)]
+
+    @cached_property
+    def _falls_s(self) -> list[FloatArray]:
+        """Times at which feet come down in each clip, ascending."""
+        return [
+            np.array(sorted({stand.start / float(clip.fps) for stand in standing}), np.float64)
+            for clip, standing in zip(self.model.clips, self._stands, strict=True)
+        ]
 
     @cached_property
     def _idle(self) -> FloatArray:
@@ -144,8 +155,8 @@ class Choreographer:
     def _step_s(self) -> float:
         """Usual time of a step in the capture."""
         found = []
-        for clip, contacts in zip(self.model.clips, self._stitcher.contacts, strict=True):
-            found += steps_s(stands(clip, contacts), float(clip.fps))
+        for clip, standing in zip(self.model.clips, self._stands, strict=True):
+            found += steps_s(standing, float(clip.fps))
         return float(np.median(found)) if found else STEP_S
 
     @cached_property
@@ -203,7 +214,7 @@ class Choreographer:
         if manner.mirrored:
             clip, contacts = mirrored(clip), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
-        falls = on_beats(stands(clip, contacts), len(clip), float(fps), first_s, grid_of(rhythm), self._step_s)
+        falls = self._on_beats(clip, stands(clip, contacts), first_s, grid_of(rhythm))
         clip = planted(clip, falls.standing, manner.weight, falls.shown)
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
@@ -271,31 +282,42 @@ class Choreographer:
             )
             return _Plan(tuple(steps), times, hits)
 
-        first = map_with_arrivals(plain, self._arrivals_s(segments, hits), grid)
+        beats_s = grid.times_s[grid.on_beat]
+        first = map_with_arrivals(plain, self._arrivals_s(segments, hits), grid, self._falls_along(segments, hits))
         first_s = float(plain.times_s[0])
         count = math.ceil((float(plain.times_s[-1]) - first_s) * float(DRAFT_FPS))
         if count < 2:
             return planned(first)
         draft_s = first_s + np.arange(count) / float(DRAFT_FPS)
-        beats_s = grid.times_s[grid.on_beat]
         shown, best, best_value = first, first, -1.0
         for number in range(DRAFTS):
-            clip, falls_s = self._draft(planned(shown), body, draft_s, grid)
+            clip, falls_s, down_s = self._draft(planned(shown), body, draft_s, grid)
             arrivals = draft_s[arrival_frames(joint_speed_m_s(clip), float(DRAFT_FPS))]
-            value = alignment(arrivals, beats_s)
+            value = alignment(arrivals, beats_s) + FALLS_SHARE * alignment(down_s, beats_s)
             if value > best_value:
                 best, best_value = shown, value
             if number < DRAFTS - 1:
                 shown = best_arrival_map(clip, first_s, shown, plain, grid, falls_s)
         return planned(best)
 
-    def _draft(self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid) -> tuple[MotionClip, FloatArray]:
-        """A plan in motion at `DRAFT_FPS`, feet on the beats, and when they would come down by the plan alone."""
+    def _draft(
+        self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid
+    ) -> tuple[MotionClip, FloatArray, FloatArray]:
+        """A plan in motion at `DRAFT_FPS`, feet on the beats, and when they would come down by the plan alone and do
+        come down."""
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
         standing = stands(draft.clip, draft.contacts)
-        falls = on_beats(standing, len(times_s), float(DRAFT_FPS), float(times_s[0]), grid, self._step_s)
+        falls = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
         frames = sorted(stand.start for stand in standing if stand.start)
-        return planted(draft.clip, falls.standing, shown=falls.shown), times_s[frames]
+        down = sorted(stand.start for stand in falls.standing if stand.start)
+        return planted(draft.clip, falls.standing, shown=falls.shown), times_s[frames], times_s[down]
+
+    def _on_beats(
+        self, clip: MotionClip, standing: tuple[FootPlant, ...], first_s: float, grid: AccentGrid
+    ) -> Footfalls:
+        """See `app.choreography.footfalls.on_beats`."""
+        speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
+        return on_beats(standing, len(clip), float(clip.fps), first_s, grid, self._step_s, speeds_m_s)
 
     def _slowest_s(self) -> FloatArray:
         """(S,) time in its clip at which each segment arrives: where the body is slowest from the accent to the end."""
@@ -319,6 +341,16 @@ class Choreographer:
             at_s = (self._hits_s[segments] - hits)[which[here]] + along[here]
             speed[here] = np.interp(at_s * float(clip.fps), np.arange(len(clip)), self._speeds[number])
         return np.asarray(along[arrival_frames(speed, FPS)])
+
+    def _falls_along(self, segments: IntArray, hits: FloatArray) -> FloatArray:
+        """Return how far along all motions feet come down in segments laid end to end."""
+        found = []
+        for segment, hit, hit_s in zip(segments.tolist(), hits, self._hits_s[segments], strict=True):
+            one = self.model.segments[segment]
+            falls_s, fps = self._falls_s[one.clip], float(self.model.clips[one.clip].fps)
+            first, stop = np.searchsorted(falls_s, (one.start / fps, one.end / fps))
+            found.append(falls_s[first:stop] - hit_s + hit)
+        return np.concatenate(found)
 
     def _motion(self, plan: _Plan, body: int, fps: Fraction, times_s: FloatArray) -> _Motion:
         """The frames of a plan on their stage."""

@@ -55,12 +55,14 @@ def bend(
     distance = np.maximum(_softly(requested, upper + lower), np.minimum(requested, natural))
     distance = np.maximum(distance, abs(upper - lower) + 1e-4)
     way = line / np.maximum(requested, 1e-9)[:, None]
-    points = quaternion.rotate(thigh, np.array(ahead))
     # The knee stays off the line from hip to ankle where it was, whose plane turns with the line alone; of a leg that
-    # is straight, or a little more than straight, it goes where the thigh faces, for there is no plane to keep.
+    # is straight, or a little more than straight, it goes where the thigh faces, for there is no plane to keep. So that
+    # the thigh always faces across the line, it turns with it too: a leg that kicks would face along a line downwards.
     before = (was - hip) / np.maximum(natural, 1e-9)[:, None]
     off = knee - hip - before * np.einsum("fi,fi->f", knee - hip, before)[:, None]
-    carried = quaternion.rotate(quaternion.between(before, way), off)
+    swung = quaternion.between(before, way)
+    carried = quaternion.rotate(swung, off)
+    points = quaternion.rotate(quaternion.multiply(swung, thigh), np.array(ahead))
     forward = _unit(points - way * np.einsum("fi,fi->f", points, way)[:, None])
     bent = np.linalg.norm(carried, axis=-1, keepdims=True) / (upper + lower)
     share = np.clip((bent - STRAIGHT) / (BENT - STRAIGHT), 0.0, 1.0)

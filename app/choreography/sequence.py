@@ -69,7 +69,7 @@ class Weights:
     heard: float = 1.3
     chance: float = 0.6
     lately: float = 2.0
-    returns: float = 5.0
+    returns: float = 2.0
 
 
 LATELY_S: Final = 12.0

@@ -23,14 +23,16 @@ REST_S: Final = 0.4
 """A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""
 MOST_S: Final = 0.6
 """No arrival is moved farther than this."""
-LOOK_BACK: Final = 10
-"""Most arrivals and footfalls in a row that may be left unchanged."""
+LOOK_BACK: Final = 6
+"""Most arrivals in a row that may be left unchanged."""
 ARRIVES: Final = 1.0
 ARRIVES_BETWEEN: Final = 0.1
 ANCHOR: Final = 0.05
 """Worth of an arrival on a beat, of one in the middle between two, and of a segment that stays where it was put."""
-FALLS: Final = 0.15
-"""Worth of a footfall on a beat: little, for a foot alone can be moved too (`app.choreography.footfalls`)."""
+STEPPED: Final = 0.2
+"""Added worth of an arrival on a beat with which a foot comes down, ..."""
+STEPPED_S: Final = 0.12
+"""... no farther from it than this, for so far a foot alone can be moved (`app.choreography.footfalls`)."""
 SPEED: Final = 0.2
 """Cost of going from one to the next at a limit of `SPEEDS`; by the square in between."""
 MOVED: Final = 0.2
@@ -87,7 +89,7 @@ class TimeMap:
 def map_with_arrivals(
     plain: TimeMap, arrivals: FloatArray, grid: AccentGrid, footfalls: FloatArray | None = None
 ) -> TimeMap:
-    """The map that puts arrivals, and footfalls, on beats, where the limits of speed allow it.
+    """The map that puts arrivals on beats, those with footfalls rather, where the limits of speed allow it.
 
     Parameters
     ----------
@@ -102,9 +104,10 @@ def map_with_arrivals(
         (float(along), float(time)) for time, along in zip(plain.times_s[1:-1], plain.along_s[1:-1], strict=True)
     ]
     items: list[_Item] = [_Item(along, ((time, ANCHOR),)) for along, time in anchors]
-    items += _to_meet(plain, arrivals, grid, ARRIVES, ARRIVES_BETWEEN)
-    if footfalls is not None:
-        items += _to_meet(plain, footfalls, grid, FALLS, 0.0)
+    falls = np.zeros(0) if footfalls is None else footfalls
+    stepped = np.abs(arrivals[:, None] - falls).min(axis=1, initial=np.inf) <= STEPPED_S
+    items += _to_meet(plain, arrivals[stepped], grid, ARRIVES + STEPPED)
+    items += _to_meet(plain, arrivals[~stepped], grid, ARRIVES)
     met = _met(sorted(items, key=lambda item: item.along_s))
     if not met:
         return plain
@@ -128,7 +131,7 @@ class _Item:
     options: tuple[tuple[float, float], ...]
 
 
-def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float, between: float) -> list[_Item]:
+def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float) -> list[_Item]:
     """Moments along the motions that may be put on places of the grid, each with its worth there."""
     items = []
     for along, time in zip(moments.tolist(), plain.when(moments).tolist(), strict=True):
@@ -137,7 +140,7 @@ def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: flo
         for at in near:
             place_s = float(grid.times_s[at])
             moved = MOVED * ((place_s - time) / MOST_S) ** 2
-            options.append((place_s, (on_beat if grid.on_beat[at] else between) - moved))
+            options.append((place_s, (on_beat if grid.on_beat[at] else ARRIVES_BETWEEN) - moved))
         items.append(_Item(along, tuple(options)))
     return items
 

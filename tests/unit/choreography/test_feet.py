@@ -62,6 +62,21 @@ def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
     assert angular_jumps(found).max() < 0.5
 
 
+def test_a_leg_that_kicks_while_its_foot_still_stands_does_not_flip() -> None:
+    # A straight leg goes up to 120 degrees; its thigh faces along the line from hip to floor on the way.
+    clip = still(60)
+    turns = clip.rotations.copy()
+    angles = np.linspace(0.0, -2.1, 60)
+    across = np.array((1.0, 0.0, 0.02)) / np.hypot(1.0, 0.02)
+    turns[:, SEGMENTS.index("leftUpperLeg")] = quaternion.from_axis_angle(across, angles)
+    sunk = replace(clip, rotations=turns, hips_m=clip.hips_m - np.array((0.0, 0.1, 0.0)))
+    found = planted(sunk, (FootPlant(0, 0, 60, (0.1, 0.0, 0.2)),))
+    for name in ("leftUpperLeg", "leftLowerLeg"):
+        at = SEGMENTS.index(name)
+        steps = quaternion.multiply(quaternion.conjugate(found.rotations[:-1, at]), found.rotations[1:, at])
+        assert np.linalg.norm(quaternion.to_rotation_vector(steps), axis=-1).max() < 0.2
+
+
 @pytest.mark.parametrize("weight", [-1.0, 0.5, 1.0])
 def test_the_heavy_bend_their_knees_and_step_where_they_stepped(weight: float) -> None:
     clip = stepping(12)

@@ -67,11 +67,13 @@ def test_no_stand_and_no_swing_is_lost_where_footfalls_crowd() -> None:
             if other is None or other.start - 2 > one.start
         ]
     standing.sort(key=lambda stand: (stand.start, stand.foot))
-    found = on_beats(standing, at + 60, FPS, 0.0, grid_of(beaten(40)), 0.45)
-    assert len(found.standing) == len(standing)
-    for foot in range(2):
-        own = [stand for stand in found.standing if stand.foot == foot]
-        assert all(one.start < one.stop < other.start for one, other in pairwise(own))
+    kicks = np.where(random.uniform(size=(at + 60, 2)) < 0.02, 8.0, 1.0)
+    for speeds in (None, kicks):
+        found = on_beats(standing, at + 60, FPS, 0.0, grid_of(beaten(40)), 0.45, speeds)
+        assert len(found.standing) == len(standing)
+        for foot in range(2):
+            own = [stand for stand in found.standing if stand.foot == foot]
+            assert all(one.start < one.stop < other.start for one, other in pairwise(own))
 
 
 def test_a_foot_shown_at_another_time_still_stands_at_its_place() -> None:
@@ -82,3 +84,21 @@ def test_a_foot_shown_at_another_time_still_stands_at_its_place() -> None:
     tips = tips_m(planted(clip, falls.standing, shown=falls.shown))
     stand = falls.standing[0]
     assert np.abs(tips[stand.start : stand.stop, 0] - stand.place_m).max() < 1e-3
+
+
+def test_a_last_stand_near_the_end_is_not_moved_beyond_it() -> None:
+    standing = [FootPlant(0, 0, 60, (0.0, 0.0, 0.0)), FootPlant(0, 85, 91, (0.1, 0.0, 0.0))]
+    # Frame 92 would be on a beat, 0.12 s after the stand begins.
+    found = on_beats(standing, 91, FPS, 2.0 - 92 / FPS, grid_of(beaten(8)), 0.4)
+    assert all(0 <= stand.start < stand.stop <= 91 for stand in found.standing)
+    assert (np.diff(found.shown, axis=0) >= 0.0).all()
+
+
+def test_a_foot_that_kicks_comes_down_as_the_body_has_it() -> None:
+    standing, speeds = walking(0.07), np.ones((420, 2))
+    kick = standing[6]
+    speeds[kick.start - 5, kick.foot] = 8.0
+    found = on_beats(standing, 420, FPS, 0.0, grid_of(beaten(14)), 0.3, speeds).standing
+    assert [one.start == other.start for one, other in zip(standing, found, strict=True)] == [
+        one.start == 0 or one is kick for one in standing
+    ]

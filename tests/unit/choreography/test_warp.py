@@ -56,3 +56,12 @@ def test_there_and_back() -> None:
     way = TimeMap(np.array([0.0, 1.0, 1.8, 4.0]), np.array([0.0, 0.8, 2.0, 4.5]))
     times_s = np.linspace(0.0, 4.0, 33)
     assert way.when(way.at(times_s)[0]) == pytest.approx(times_s, abs=1e-4)
+
+
+def test_of_two_arrivals_that_with_a_footfall_comes_on_the_beat() -> None:
+    arrivals = 0.25 * np.arange(4, 68)
+    steps = arrivals[1::2]
+    found = map_with_arrivals(even(18.0, 6.0), arrivals, grid_of(beaten(37)), steps - 0.04)
+    assert np.median(np.abs(found.when(steps) - 0.5 * np.round(found.when(steps) / 0.5))) < 0.01
+    without = map_with_arrivals(even(18.0, 6.0), arrivals, grid_of(beaten(37)))
+    assert np.median(np.abs(without.when(steps) - 0.5 * np.round(without.when(steps) / 0.5))) > 0.2
