@@ -102,7 +102,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert (reported["first_frame"], reported["bars"][0]["frame"]) == (request.span.first, 0)
     score = request.performance.project.score
     assert reported["bars"][0]["s"] == pytest.approx(
-        score.tempo_map.seconds(float(score.metre_map.tick_of_bar(1))) - request.span.first_frame_s
+        score.tempo_map.seconds(float(score.metre_map.tick_of_bar(1))) - request.span.first_frame_s, abs=1e-6
     )
     assert set(reported["files"]) == {"Audio/S_quartet.wav", player["character"]["file"], player["instrument"]["file"]}
     report = json.loads((unreal.folder / SOURCES / "report.json").read_text(encoding="utf-8"))
