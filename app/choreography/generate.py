@@ -61,7 +61,7 @@ STANDING: Final = 4.0
 PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
 BEAT_S: Final = 0.5
-"""The same, of a capture in which nobody steps."""
+"""The same, for a capture without steps."""
 IDLE: Final = 4.0
 """Log odds against a segment that idles."""
 IDLE_SHARE: Final = 0.4

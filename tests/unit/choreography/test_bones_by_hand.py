@@ -27,7 +27,7 @@ SWORD: Final = without_names(with_prop(SALSA, "lHand", [(30.0, 0.0, 0.0)] * 4))
 
 
 def corrections(skeleton_bones: dict[str, int]) -> dict[str, str]:
-    """What a user corrects: bones that are not the true ones."""
+    """Corrections by a user of bones that are not the true ones."""
     return {joint: SWORD.names[bone] for joint, bone in TRUE.items() if skeleton_bones.get(joint) != bone}
 
 

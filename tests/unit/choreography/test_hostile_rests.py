@@ -103,7 +103,7 @@ def test_any_axis_may_be_up(axis: tuple[float, float, float], names: str) -> Non
 
 
 def _local_deg(clip: MotionClip, other: MotionClip) -> list[float]:
-    """As `off_deg`, but relative to the hips: these face elsewhere in another world."""
+    """Compare as `off_deg` does, but relative to the hips, which face elsewhere in another world."""
     found = []
     for at in range(1, len(SEGMENTS)):
         turns = [

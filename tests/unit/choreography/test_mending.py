@@ -61,7 +61,7 @@ def outside(clip: MotionClip, left_out: tuple[Damage, ...]) -> BoolArray:
 def test_no_damage_is_danced(
     kind: str, part: str, axis: tuple[float, float, float], fps: int, start: float, length: int
 ) -> None:
-    """What is not left out is what was captured, but for where the body goes on; little is left out beside damage."""
+    """All that is kept is as captured, but for where the body goes on; little is left out beside damage."""
     clip, first = dancing(fps), round(start * fps)
     if kind == "bump":
         length = min(length, int(0.12 * fps) - 1)  # A slower one is a motion.
