@@ -31,7 +31,20 @@ from tests.support import readers
 ROOT = Path(__file__).parents[3]
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
 PLAYERS = ("Trumpet 1", "Trombone 2")
-ARGUMENTS = ("--fps", "30", "--from-bar", "2", "--to-bar", "4", "--player", PLAYERS[0], "--player", PLAYERS[1])
+ARGUMENTS = (
+    "--fps",
+    "30",
+    "--from-bar",
+    "2",
+    "--to-bar",
+    "4",
+    "--lead-in",
+    "6",
+    "--player",
+    PLAYERS[0],
+    "--player",
+    PLAYERS[1],
+)
 
 
 def export(folder: Path, *arguments: str) -> dict[str, Any]:
