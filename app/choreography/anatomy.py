@@ -101,7 +101,7 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
 def _carried(line: FloatArray, seen: FloatArray, alike_deg: float = ALIKE_DEG) -> FloatArray:
     """Return a line of the bone below in the axes of the next, if these are alike; else as it is seen in the mean.
 
-    Programs that lay bones along an axis turn neighbours about it alike: their zero pose tells nothing about how they
+    Programs that lay bones along an axis turn neighbours about it alike: their zero pose does not show how they
     lean, but which way they face.
     """
     return line if angle_deg(line, seen) < alike_deg else seen

@@ -24,7 +24,7 @@ LEARNED: Final = 2.0 / 3.0
 ORDERS: Final = 199
 """Other orders of the music that are tried."""
 TELLS: Final = 0.05
-"""Share of the other orders that tell as much, up to which the music tells something."""
+"""Largest share of the other orders that inform as much, for music that informs about the motion."""
 STRETCH: Final = (3, 7)
 """Fewest and most motions whose music stays together."""
 LEAST: Final = 20
@@ -50,7 +50,7 @@ class Pairing:
 
     @property
     def tells(self) -> bool:
-        """Return whether the music tells something that other music would not."""
+        """Return whether the music informs about the motion as other music would not."""
         return self.bits > 0.0 and self.chance <= TELLS
 
 
@@ -70,7 +70,7 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
 
 
 def report(model: ChoreographyModel) -> Message:
-    """Say whether a model's music tells anything about its motion."""
+    """Report whether a model's music informs about its motion."""
     found = pairing_of(model)
     if found is None:
         return Message("learn.pairing_unknown", {"least": LEAST})

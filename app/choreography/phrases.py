@@ -11,7 +11,7 @@ from app.arrays import FloatArray, IntArray
 from app.choreography.rhythm import Rhythm
 
 POSITIONS: Final = 12
-"""Places in a beat at which hits are told apart: thirds and quarters of it."""
+"""Places in a beat at which hits are distinguished: thirds and quarters of it."""
 AROUND_BARS: Final = 2
 """A bar returns together with so many bars before and after it."""
 APART_BARS: Final = 4
