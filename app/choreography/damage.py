@@ -110,6 +110,7 @@ def damage(clip: MotionClip, tolerance: float = 1.0) -> tuple[Damage, ...]:
         found.update(_off_the_cubic(clip, speeds, length, tolerance))
     found = _with_held(speeds, found)
     found.update((start, stop, part) for start, stop in _frozen(speeds) for part in range(len(PARTS)))
+    found.update(_stopped(speeds))
     return tuple(_merged(found))
 
 
@@ -239,6 +240,19 @@ def _frozen(speeds: FloatArray) -> Iterator[tuple[int, int]]:
         beside = max(fast[start - 1] if start else 0.0, fast[stop] if stop < len(fast) else 0.0)
         if stop - start >= FROZEN and start and stop < len(fast) and beside > STARTS_RAD_S:
             yield start, stop + 1
+
+
+def _stopped(speeds: FloatArray) -> Iterator[tuple[int, int, int]]:
+    """Spans in which a segment that moves stops within a frame, as where its marker is lost."""
+    for part in range(PLACE):
+        turned = speeds[:, part]
+        still = turned == 0.0
+        if still.mean() > MOST_FROZEN:
+            continue
+        for start, stop in runs(still):
+            inside = start > 0 and stop < len(turned)
+            if inside and stop - start >= FROZEN and max(turned[start - 1], turned[stop]) > STARTS_RAD_S:
+                yield start - 1, stop + 1, part
 
 
 def runs(of: BoolArray) -> list[tuple[int, int]]:

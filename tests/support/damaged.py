@@ -21,7 +21,7 @@ def damaged(clip: MotionClip, kind: str, part: str, start: int, count: int, axis
     Parameters
     ----------
     kind : str
-        flip: a segment turned by half a turn; bump: there and back by 80 degrees, smoothly; lean: turned by 50; zero
+        flip: a segment turned by half a turn; bump: there and back by 80 degrees, smoothly; lean: turned by 75; zero
         and all_zero: markers lost, the rest pose instead; root and root_zero: hips elsewhere, or nowhere; frozen: the
         last frame again.
     axis : (3,) float64
@@ -32,7 +32,7 @@ def damaged(clip: MotionClip, kind: str, part: str, start: int, count: int, axis
     angles = {
         "flip": np.full(count, np.pi),
         "bump": np.radians(80.0) * np.sin(np.pi * np.arange(1, count + 1) / (count + 1)),
-        "lean": np.full(count, np.radians(50.0)),
+        "lean": np.full(count, np.radians(75.0)),
     }
     if kind in angles:
         rotations[bad, at] = quaternion.multiply(rotations[bad, at], quaternion.from_axis_angle(axis, angles[kind]))

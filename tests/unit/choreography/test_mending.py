@@ -61,7 +61,10 @@ def outside(clip: MotionClip, left_out: tuple[Damage, ...]) -> BoolArray:
 def test_no_damage_is_danced(
     kind: str, part: str, axis: tuple[float, float, float], fps: int, start: float, length: int
 ) -> None:
-    """All that is kept is as captured, but for where the body goes on; little is left out beside damage."""
+    """All that is kept is near to what was captured; little is left out beside damage.
+
+    A lost frame of a fast limb at 30 frames a second leaves up to half a radian: less than bodies turn meanwhile.
+    """
     clip, first = dancing(fps), round(start * fps)
     if kind == "bump":
         length = min(length, int(0.12 * fps) - 1)  # A slower one is a motion.
@@ -69,10 +72,10 @@ def test_no_damage_is_danced(
     found = mended(spoilt)
     kept = outside(clip, found.left_out)
     assert (~kept).sum() / fps <= length / fps + 0.45
-    assert angle(found.clip.rotations[kept, 1:], clip.rotations[kept, 1:]).max() < 0.35
+    assert angle(found.clip.rotations[kept, 1:], clip.rotations[kept, 1:]).max() < 0.6
     both = kept[1:] & kept[:-1]
     turned = angle(found.clip.rotations[:-1], found.clip.rotations[1:])[both] * fps
-    assert turned[:, 0].max() < 6.0
+    assert turned[:, 0].max() < 0.8 * FASTEST_HIPS_RAD_S
     assert np.linalg.norm(np.diff(found.clip.hips_m, axis=0), axis=1)[both].max() * fps < 1.5
     assert np.linalg.norm(found.clip.rotations, axis=-1) == pytest.approx(1.0)
 
@@ -113,6 +116,18 @@ def test_a_punch_and_a_waving_hand_stay() -> None:
     fades = np.clip(np.minimum(times - 4.0, 7.0 - times) / 0.3, 0.0, 1.0)
     fast = turning(fast, "leftHand", 0.78 * fades * np.sin(10.0 * np.pi * times), (0.0, 0.0, 1.0))
     assert mended(fast).clip is fast
+
+
+@pytest.mark.parametrize("part", ["rightLowerLeg", "leftUpperLeg"])
+def test_a_marker_lost_where_the_limb_is_near_its_rest_is_left_out(part: str) -> None:
+    """A segment that moves stops within one frame, without a jump, and does not move for a second."""
+    clip, at = dancing(60), SEGMENTS.index(part)
+    near = angle(clip.rotations[:, at], quaternion.IDENTITY)
+    first = 60 + int(near[60:300].argmin())
+    found = mended(damaged(clip, "zero", part, first, 60, np.array(AXES[0])))
+    assert len(found.left_out) == 1
+    assert found.left_out[0].start < first
+    assert found.left_out[0].stop >= first + 60
 
 
 @pytest.mark.parametrize("length", range(1, 7))
