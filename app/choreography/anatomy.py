@@ -40,6 +40,8 @@ TIP_DEG: Final = 16.0
 """Angle by which the ways from ankle to ball and to the tip of the toes usually go down in standing zero poses."""
 USUAL_PART: Final = 0.65
 """Weight of the usual angle against the one that is seen where the foot stands: soles are not flat, and heels rise."""
+THUMB_DEG: Final = 15.0
+"""Angle by which a thumb is below the plane of the palm in a T-pose."""
 SLOW_PART: Final = 3
 """A foot stands in the slowest of so many parts of the frames,"""
 FLAT_DEG: Final = 8.0
@@ -153,7 +155,7 @@ def _limb_frame(way: FloatArray, across: FloatArray, leg: bool, sign: float) -> 
 
 
 def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatArray:
-    """Turn of a hand: fingers along the arm, the palm down as its knuckles say, or as the forearm has it in the mean.
+    """Turn of a hand: fingers along the arm, the palm down as its knuckles or its thumb say, or as the forearm has it.
 
     Parameters
     ----------
@@ -173,6 +175,11 @@ def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatA
     if len(knuckles) > 1:
         ahead = body.mean(name, knuckles[0] - knuckles[-1])
         up = np.cross(ahead, sign * along)
+    elif np.linalg.norm(thumb := body.mean(name, body.thumbs[name])) > 0.5:
+        ahead = _beside(thumb, along)
+        up = np.cross(ahead, sign * unit(along))
+        # A thumb is below the palm.
+        up = up * np.cos(np.radians(THUMB_DEG)) - ahead * np.sin(np.radians(THUMB_DEG))
     else:
         lower = body.rotations[:, body.segments[f"{side}LowerArm"]]
         seen = body.mean(name, quaternion.rotate(quaternion.multiply(lower, quaternion.conjugate(forearm)), Y))
@@ -185,7 +192,11 @@ def _foot(body: Captured, side: str) -> FloatArray:
     name = f"{side}Foot"
     has_toes = f"{side}Toes" in body.joints
     toes = body.mean(name, body.at(f"{side}Toes") - body.at(name)) if has_toes else body.tips[name]
-    axis, sure = body.hinge(name, body.bend([side + part for part in LEG], 1.0))
+    bend = body.bend([side + part for part in LEG], 1.0)
+    far = np.linalg.norm(bend, axis=1)
+    # The ankle turns as well: the middle of its turns, in frames in which the knee shows its axis best.
+    axis = np.median(unit(body.within(name, bend))[far >= np.median(far)], axis=0)
+    sure = body.hinge(name, bend)[1]
     up = _sole_up(body, name)
     if not np.linalg.norm(toes):
         return _framed(axis if sure > SURE else body.mean(name, body.hip_line), up)

@@ -27,6 +27,8 @@ MOST_TURNED_DEG: Final = {"shoulders": 60.0, "knees": 75.0, "toes": 75.0}
 LEVEL: Final = np.array([1.0, 0.0, 1.0])
 UNLIKE: Final = 0.4
 """Less than this part of the other, and a bone is no upper or lower part of a limb."""
+CHANGES: Final = 0.4
+"""Nor is one whose length changes by more than this part of it."""
 
 
 @dataclass(frozen=True)
@@ -93,16 +95,35 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
     return tuple(found)
 
 
-def unlike(body: Captured) -> tuple[str, ...]:
-    """Lower parts of limbs that are much shorter or longer than the upper ones."""
+def unlike(body: Captured, parents: Sequence[int]) -> tuple[str, ...]:
+    """Joints of limbs that belong to no limb: a part much shorter or longer than the other or of changing length, or a
+    bone that hangs from the limb of the other side.
+
+    Parameters
+    ----------
+    parents : sequence of int
+        Of each bone, -1 for none.
+    """
     wrong = []
-    for side, _ in SIDES:
+    for side, other in (("left", "right"), ("right", "left")):
         for limb in (LEG, ARM):
-            ways = np.diff([body.at(side + name)[0] for name in limb], axis=0)
-            short, long = sorted(np.linalg.norm(ways, axis=1))
+            parts = np.linalg.norm(np.diff([body.at(side + name) for name in limb], axis=0), axis=2)
+            short, long = sorted(np.median(parts, axis=1))
             if short <= UNLIKE * long:
                 wrong.append(side + limb[1])
-    return tuple(wrong)
+            theirs = {body.joints[other + name] for name in limb}
+            for part, name in zip(parts, limb[1:], strict=True):
+                changes = np.ptp(np.percentile(part, (5.0, 95.0))) > CHANGES * np.median(part)
+                if changes or theirs & _above(parents, body.joints[side + name]):
+                    wrong.append(side + name)
+    return tuple(dict.fromkeys(wrong))
+
+
+def _above(parents: Sequence[int], bone: int) -> set[int]:
+    found = set()
+    while (bone := parents[bone]) >= 0:
+        found.add(bone)
+    return found
 
 
 def report(found: Sequence[Checked]) -> Message:

@@ -40,7 +40,10 @@ class Captured:
         Bones by segment.
     tips : mapping of str to ndarray, shape (3,)
         From the joint of each of `app.choreography.body.ENDS` to the next joint or the end of its bone, in the bone's
-        own axes: of a hand to the middle of these, of the others to the farthest; zero where there is none.
+        own axes: of a hand to the middle of these but the thumb, of the others to the farthest; zero where there is
+        none.
+    thumbs : mapping of str to ndarray, shape (F, 3)
+        From each hand's joint to the end of its thumb, in the world; zero where there is none.
     """
 
     positions: FloatArray
@@ -48,6 +51,7 @@ class Captured:
     joints: Mapping[str, int]
     segments: Mapping[str, int]
     tips: Mapping[str, FloatArray]
+    thumbs: Mapping[str, FloatArray]
 
     def at(self, joint: str) -> FloatArray:
         """Places (F, 3) of a joint."""

@@ -6,7 +6,7 @@ Joints are found by `app.rig.characters.joint_mapping`, by their names, or by `a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -37,6 +37,7 @@ UPS: Final = {
     "-X": Rotation.from_euler("z", -90.0, degrees=True),
 }
 """Turns that take an axis of a file to +Y."""
+THUMB: Final = ("Metacarpal", "Proximal", "Distal")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +82,8 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
     file : str
         For messages.
     joints : mapping of str to str
-        A user's corrections, see `RawSkeleton.corrected`; what they say is left as it is, sides too.
+        A user's corrections, see `RawSkeleton.corrected`. Legs, arms and eyes of which one is corrected keep the sides
+        that the corrections say; others are exchanged as without corrections.
 
     Raises
     ------
@@ -97,7 +99,7 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
     used = found
     if joints:
         used = corrected(motion.figure, found, joints, JOINTS)
-        body, wrong, missing = _by_hand(motion, used)
+        body, wrong, missing = _by_hand(motion, used, joints)
     if body is not None:
         return replace(body, found=found)
     if wrong and not np.ptp(motion.places, axis=1).any():
@@ -126,12 +128,15 @@ def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequ
     return None, complete[0] if complete else named, wrong, missing
 
 
-def _by_hand(motion: _Motion, mapping: JointMapping) -> tuple[CapturedBody | None, Sequence[str], Sequence[str]]:
-    """The body of bones that a user corrected, and which joints are wrong or missing."""
+def _by_hand(
+    motion: _Motion, mapping: JointMapping, kept: Collection[str]
+) -> tuple[CapturedBody | None, Sequence[str], Sequence[str]]:
+    """The body of bones of which a user corrected some joints, and which joints are wrong or missing."""
     if missing := _missing(mapping.bones):
         return None, (), missing
     wrong: tuple[str, ...] = ()
-    for body in (motion.by_zero_pose(mapping, None), motion.by_motion(mapping, None)):
+    named = bool(mapping.profile)
+    for body in (motion.by_zero_pose(mapping, named, kept), motion.by_motion(mapping, named, kept)):
         if isinstance(body, CapturedBody):
             return body, (), ()
         wrong = wrong or body
@@ -154,18 +159,22 @@ class _Motion:
         places = quaternion.rotate(turn, self.places[0])
         return raw_skeleton(self._bvh, self._file, found, places, quaternion.multiply(turn, self._rotations[0]))
 
-    def by_zero_pose(self, mapping: JointMapping, named: bool | None) -> CapturedBody | tuple[str, ...]:
+    def by_zero_pose(
+        self, mapping: JointMapping, named: bool, kept: Collection[str] = ()
+    ) -> CapturedBody | tuple[str, ...]:
         """The body whose T-pose the zero pose says; what of it is wrong where that is no standing body.
 
         Parameters
         ----------
-        named : bool or None
-            True if names say the sides, None if the user does: then they stay.
+        named : bool
+            True if names say the sides.
+        kept : collection of str
+            Joints that a user corrected.
         """
         bvh, figure = self._bvh, self.figure
         standing = upright(figure, mapping.bones)
         standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
-        if named and standing is not figure:
+        if named and not kept and standing is not figure:
             # Which side is left depends on where ahead is.
             mapping = map_joints(standing)
             if _missing(mapping.bones):
@@ -182,17 +191,19 @@ class _Motion:
             for side in ("left", "right")
             for start, end in (("UpperLeg", "LowerLeg"), ("LowerLeg", "Foot"))
         ]
-        exchanges = named is not None and joints_by_side(body, named) != mapping.bones
+        exchanges = joints_by_side(body, named, kept) != mapping.bones
         if exchanges or not stands(body, zero, legs):
             return ()
         return self._checked(body, up, mapping, zero, (rest.positions_m[None], rest.rotations[None]))
 
-    def by_motion(self, mapping: JointMapping, named: bool | None) -> CapturedBody | tuple[str, ...]:
+    def by_motion(
+        self, mapping: JointMapping, named: bool, kept: Collection[str] = ()
+    ) -> CapturedBody | tuple[str, ...]:
         """The body whose T-pose its motion says; what of it is wrong where that is no body. See `by_zero_pose`."""
         if _missing(mapping.bones):
             return ()
         body, up = self._captured(mapping.bones)
-        joints = mapping.bones if named is None else joints_by_side(body, named)
+        joints = joints_by_side(body, named, kept)
         if joints != mapping.bones:
             body, up = self._captured(joints)
         return self._checked(body, up, mapping, None, (self.places, self._rotations))
@@ -218,11 +229,11 @@ class _Motion:
         turns = t_pose(body, zero)
         found = checked(body, turns)
         wrong = {one.joint: f"{one.joint} {one.off_deg:.0f}°" for one in found if one.wrong}
-        wrong = {joint: joint for joint in unlike(body)} | wrong
+        wrong = {joint: joint for joint in unlike(body, self._bvh.parents)} | wrong
         if wrong:
             return tuple(wrong.values())
         hanging = {name: _hanging(self._bvh, *poses, body.segments[name]) for name in ENDS}
-        guesses = () if zero is not None else (Message("motion.rest"),)
+        guesses = () if zero is not None else (Message("motion.rest"), *_by_the_mean(body))
         bones = JointMapping(mapping.profile, body.joints, (), mapping.doubtful)
         return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found, bones)
 
@@ -232,7 +243,24 @@ class _Motion:
         turn = np.asarray(UPS[up].as_quat(), np.float64)
         segments = _segment_bones(self._bvh.parents, bones)
         turned = quaternion.rotate(turn, self.places), quaternion.multiply(turn, self._rotations)
-        return Captured(*turned, bones, segments, {name: _tip(self._bvh, name, segments[name]) for name in ENDS}), up
+        thumbs = {f"{side}Hand": _thumb(self._bvh, bones, side, *turned) for side in ("left", "right")}
+        others = {bone for joint, bone in bones.items() if "Thumb" in joint}
+        tips = {name: _tip(self._bvh, name, segments[name], others) for name in ENDS}
+        for name in ENDS:
+            if not tips[name].any():
+                # The next joint is at the same place: what is below it says where this one points, in the mean.
+                tips[name] = max(_hanging(self._bvh, self.places, self._rotations, segments[name]), key=np.linalg.norm)
+        return Captured(*turned, bones, segments, tips, thumbs), up
+
+
+def _by_the_mean(body: Captured) -> list[Message]:
+    """Parts that nothing but their mean in the motion says the turn of: a head without eyes, hands without fingers."""
+    parts = [] if {"leftEye", "rightEye"} <= body.joints.keys() else ["head"]
+    for side in ("left", "right"):
+        fingers = sum(f"{side}{finger}Proximal" in body.joints for finger in ("Index", "Middle", "Ring", "Little"))
+        if fingers < 2 and not body.thumbs[f"{side}Hand"].any():
+            parts.append(f"{side}Hand")
+    return [Message("motion.mean_turns", {"joints": ", ".join(parts)})] if parts else []
 
 
 def _by_names(figure: Figure) -> JointMapping:
@@ -307,12 +335,26 @@ def _above(parents: Sequence[int], bone: int) -> list[int]:
     return found
 
 
-def _tip(bvh: BvhClip, name: str, bone: int) -> FloatArray:
+def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray, rotations: FloatArray) -> FloatArray:
+    """See `Captured.thumbs`."""
+    parts = [bones[name] for part in THUMB if (name := f"{side}Thumb{part}") in bones]
+    if not parts:
+        return np.zeros_like(places[:, 0])
+    end = places[:, parts[-1]] + quaternion.rotate(
+        rotations[:, parts[-1]], bvh.end_sites_cm.get(parts[-1], np.zeros(3))
+    )
+    return np.asarray(end - places[:, bones[f"{side}Hand"]])
+
+
+def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatArray:
     """See `Captured.tips`."""
-    nexts = [bvh.offsets_cm[joint] for joint, parent in enumerate(bvh.parents) if parent == bone]
-    ways: FloatArray = np.array([*nexts, bvh.end_sites_cm.get(bone, np.zeros(3))], np.float64)
+    hand = name.endswith("Hand")
+    nexts = [joint for joint, parent in enumerate(bvh.parents) if parent == bone and not (hand and joint in thumbs)]
+    ways: FloatArray = np.array(
+        [*(bvh.offsets_cm[joint] for joint in nexts), bvh.end_sites_cm.get(bone, np.zeros(3))], np.float64
+    )
     sizes = np.linalg.norm(ways, axis=1)
-    tip: FloatArray = ways[sizes > 0.0].sum(axis=0) / len(ways) if name.endswith("Hand") else ways[int(sizes.argmax())]
+    tip: FloatArray = ways[sizes > 0.0].sum(axis=0) / len(ways) if hand else ways[int(sizes.argmax())]
     return tip
 
 

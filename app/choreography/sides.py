@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -15,7 +15,11 @@ CLEARLY: Final = 0.3
 """Knees and toes that together point back more than this exchange the legs that names say; each is 1 at most."""
 
 
-def joints_by_side(body: Captured, named: bool) -> dict[str, int]:
+LEGS: Final = ("UpperLeg", "LowerLeg", "Foot", "Toes")
+ARMS: Final = ("Shoulder", "Arm", "Hand", "Thumb", "Index", "Middle", "Ring", "Little")
+
+
+def joints_by_side(body: Captured, named: bool, kept: Collection[str] = ()) -> dict[str, int]:
     """Joints with the names left and right exchanged where the motion says so.
 
     Legs are exchanged if the knees would bend back and the toes point there; arms and eyes if their line runs against
@@ -25,22 +29,27 @@ def joints_by_side(body: Captured, named: bool) -> dict[str, int]:
     ----------
     named : bool
         True if names say the sides: then knees and toes must agree that they are wrong.
+    kept : collection of str
+        Joints that a user corrected: legs, arms or eyes of which one is corrected keep their sides.
     """
     joints = dict(body.joints)
     hips = unit(body.hip_line)
     knees, toes = _knees_ahead(body), _toes_ahead(body)
-    if (max(knees, toes) <= 0.0 and knees + toes < -CLEARLY) if named else knees + toes < 0.0:
-        joints = exchanged(joints, ("UpperLeg", "LowerLeg", "Foot", "Toes"))
+    back = (max(knees, toes) <= 0.0 and knees + toes < -CLEARLY) if named else knees + toes < 0.0
+    if back and not _any_of(kept, LEGS):
+        joints = exchanged(joints, LEGS)
         hips = -hips
-    lines: list[tuple[FloatArray, tuple[str, ...]]] = [
-        (body.shoulder_line, ("Shoulder", "Arm", "Hand", "Thumb", "Index", "Middle", "Ring", "Little"))
-    ]
+    lines: list[tuple[FloatArray, tuple[str, ...]]] = [(body.shoulder_line, ARMS)]
     if {"leftEye", "rightEye"} <= joints.keys():
         lines.append((body.at("leftEye") - body.at("rightEye"), ("Eye",)))
     for line, names in lines:
-        if float(np.einsum("fi,fi->f", unit(line), hips).mean()) < 0.0:
+        if not _any_of(kept, names) and float(np.einsum("fi,fi->f", unit(line), hips).mean()) < 0.0:
             joints = exchanged(joints, names)
     return joints
+
+
+def _any_of(joints: Collection[str], names: Sequence[str]) -> bool:
+    return any(name in joint for joint in joints for name in names)
 
 
 def _knees_ahead(body: Captured) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -16,7 +17,7 @@ from app.cli import main, parser
 from app.cli.choreography.command import PairFiles
 from app.cli.status import BAD_INPUT, BAD_USE
 from app.formats.bvh.write import write_bvh
-from tests.support.rerigged import REST_POSES, rerigged, with_prop, without_names
+from tests.support.rerigged import REST_POSES, mirrored, rerigged, with_prop, without_names
 from tests.unit.choreography.test_command import write_drums
 from tests.unit.choreography.test_hostile_rests import MOST_DEG, SALSA, off_deg
 
@@ -100,3 +101,34 @@ def test_a_correction_of_nothing_is_named_with_what_there_is(
     assert main(learn) == BAD_INPUT
     assert said in (error := capsys.readouterr().err)
     assert correction.startswith("left") or ", ".join(SALSA.names) in error
+
+
+@pytest.mark.parametrize("still", [False, True])
+@pytest.mark.parametrize("part", ["Foot", "Hand"])
+def test_crossed_limbs_are_named(part: str, still: bool) -> None:
+    """A lower leg that ends in the other foot is no leg, in a pose alone too."""
+    bvh = replace(SALSA, rotations_xyzw=SALSA.rotations_xyzw[:1], root_translation_cm=SALSA.root_translation_cm[:1])
+    crossed = {f"left{part}": f"r{part}", f"right{part}": f"l{part}"}
+    with pytest.raises(BodyError) as caught:
+        motion_of(bvh if still else SALSA, "a.bvh", joints=crossed)
+    assert caught.value.message.id == "motion.misread"
+    assert {f"left{part}", f"right{part}"} <= set(str(caught.value.message.arguments["joints"]).split(", "))
+
+
+@pytest.mark.parametrize("joint", ["neck", "leftIndexProximal"])
+def test_sides_are_exchanged_though_another_bone_was_corrected(joint: str) -> None:
+    """The names of a mirrored motion are wrong about both sides: the legs' even where a finger was corrected."""
+    bvh = mirrored(SALSA)
+    read, expected = motion_of(bvh, "a.bvh", joints={joint: ""}), motion_of(bvh, "b.bvh")
+    kept = "Arm" if joint.startswith("left") else ""
+    for name, off in off_deg(read.clip, expected.clip).items():
+        assert off < MOST_DEG or (kept and (kept in name or "Hand" in name)), name
+
+
+def test_sides_that_a_user_corrected_stay() -> None:
+    bvh = mirrored(SALSA)
+    legs = {f"{side}{part}": f"{side[0]}{bone}" for side in ("left", "right")
+            for part, bone in (("UpperLeg", "Thigh"), ("LowerLeg", "Shin"), ("Foot", "Foot"))}  # fmt: skip
+    with pytest.raises(BodyError) as caught:
+        motion_of(bvh, "a.bvh", joints=legs)
+    assert caught.value.message.id == "motion.misread"

@@ -10,6 +10,9 @@ from typing import Final
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
@@ -81,6 +84,30 @@ def test_the_dance_is_the_same_whatever_the_zero_pose_and_the_names_are(rest: st
     bvh = NAMES[names](rerigged(SALSA, REST_POSES[rest]))
     require_same(bvh)
     assert "motion.rest" in {guess.id for guess in guesses(motion_of(bvh, "a.bvh"))}
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.integers(0, 2**31 - 1))
+def test_the_dance_is_the_same_for_any_zero_pose(seed: int) -> None:
+    """Whole bodies, with head and hands: every bone turned anyhow."""
+    turns = np.asarray(Rotation.random(len(SALSA.names), random_state=seed).as_quat(), np.float64)
+    require_same(rerigged(SALSA, lambda _: turns))
+
+
+@pytest.mark.parametrize(
+    ("lost", "joints"),
+    [("Eye", "head"), ("Index|Ring|Pinky", ""), ("Thumb|Index|Mid|Ring|Pinky", "leftHand, rightHand")],
+)
+def test_parts_that_only_their_mean_turns_are_named(lost: str, joints: str) -> None:
+    """Eyes show where a face looks; knuckles, or one and a thumb, where a palm is."""
+    bvh = without_joints(SALSA, lambda name: re.search(lost, name) is not None)
+    read = motion_of(rerigged(bvh, REST_POSES["x"]), "a.bvh")
+    named = {guess.id: guess.arguments for guess in guesses(read)}
+    assert named.get("motion.mean_turns", {"joints": ""}) == {"joints": joints}
+    assert "motion.mean_turns" not in {guess.id for guess in guesses(motion_of(bvh, "a.bvh"))}
+    if not joints:
+        off = off_deg(read.clip, motion_of(bvh, "b.bvh").clip)
+        assert max(off["leftHand"], off["rightHand"]) < 10.0
 
 
 @pytest.mark.parametrize("names", NAMES)
