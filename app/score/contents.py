@@ -14,7 +14,7 @@ from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, Unp
 from app.score.parts import assigned_parts, rhythm_parts, stream_name
 from app.score.tempo import TempoMap
 from app.score.track_channel import TrackChannel
-from app.score.track_instrument import use_of
+from app.score.track_instrument import sounds_of, use_of
 
 
 class PieceContents(msgspec.Struct, frozen=True):
@@ -99,6 +99,6 @@ def _percussion(channels: Sequence[TrackChannel]) -> tuple[PercussionHit, ...]:
     hits = (
         hit
         for channel in channels
-        for hit in zip(channel.onset_ticks, channel.struck or channel.pitches, channel.velocities, strict=True)
+        for hit in zip(channel.onset_ticks, sounds_of(channel), channel.velocities, strict=True)
     )
     return tuple(PercussionHit(tick, pitch, velocity) for tick, pitch, velocity in sorted(hits))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import msgspec
 
-from app.score.channel_sound import KIT_PROGRAMS, Use
+from app.score.channel_sound import Use
 from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
@@ -15,6 +15,8 @@ from instrument_maps.instruments import Instrument
 _KIT, _EFFECT, _VOICE = "drums", "effect", "voice"
 """Ids in the vocabulary."""
 _KIT_NOTES = range(35, 60)
+_MOST_DRUMS = 6
+"""Most sounds of a part of small percussion; one of more is a tune, as steel drums have."""
 _NO_PROGRAM = 0
 _SAYS_NOTHING = re.compile(
     r"(?:(?:midi|new|part|track|staff|voice|channel|untitled|instrument|spur|stimme|system|piste|pista)[a-h]?|"
@@ -55,17 +57,51 @@ def use_of(channel: TrackChannel) -> Use:
     """Return what a track is: a melody, a rhythm part, whose notes name the sounds of a drum kit, or sound effects.
 
     What the sound module was set to decides, but where that is only what channel 10 or a bank usually is, a name of
-    anything but percussion makes it a melody. The name of a drum kit makes a rhythm part of any channel, if its
-    program may be a kit's and most notes are those of a kit.
+    anything but percussion makes it a melody. The name of drums or of another untuned percussion makes a rhythm part of
+    any channel; so does the program, where no name tells more. Tuned percussion stays a melody, and so does a tune of a
+    wind's program that is called after a drum.
     """
     telling, vague = _named(channel)
     if channel.use == "melodic":
-        kit = (
-            telling is not None and telling.id == _KIT and (channel.program is None or channel.program in KIT_PROGRAMS)
-        )
-        return "rhythm" if kit and _names_kit(channel.pitches) else "melodic"
+        return "rhythm" if _untuned(channel, telling, vague) is not None else "melodic"
     named = telling or vague
     return channel.use if channel.certain or named is None or named.kind == "percussion" else "melodic"
+
+
+def sounds_of(channel: TrackChannel) -> list[int]:
+    """The sounds of a rhythm part's notes as General MIDI numbers them: of a single drum that has one pitch outside a
+    kit's usual numbers, as notation has it, the drum's own."""
+    if channel.struck or channel.use != "melodic":
+        return channel.struck or channel.pitches
+    found = _untuned(channel, *_named(channel))
+    stroke = None if found is None or found.id == _KIT else vocabulary().stroke(found.names[0])
+    pitches = set(channel.pitches)
+    return (
+        channel.pitches
+        if stroke is None or len(pitches) > 1 or pitches <= {*_KIT_NOTES}
+        else [stroke] * len(channel.pitches)
+    )
+
+
+def _untuned(channel: TrackChannel, telling: Instrument | None, vague: Instrument | None) -> Instrument | None:
+    """The percussion without pitch that a track's names, or without one its program, give to it."""
+    words = vocabulary()
+    numbered = None if channel.program is None else words.by_program(channel.program)
+    found = numbered if telling is None and vague is None else telling
+    if channel.played_on or found is None or found.kind != "percussion":
+        return None
+    if found.various:
+        return found if len(set(channel.pitches)) <= _MOST_DRUMS else None
+    if words.stroke(found.names[0]) is None or (numbered is not None and _is_after_a_drum(channel, found, numbered)):
+        return None
+    return found
+
+
+def _is_after_a_drum(channel: TrackChannel, named: Instrument, numbered: Instrument) -> bool:
+    """Return whether a wind's tune is called after a drum, as "The Little Drummer Boy" is, by what its name and its
+    program mean."""
+    drum = numbered.kind == "wind" and vocabulary().stroke(named.names[0]) is not None
+    return drum and not _names_kit(channel.pitches)
 
 
 def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
@@ -147,12 +183,13 @@ def said_plainly(channel: TrackChannel) -> Instrument | None:
     telling, vague = _named(channel)
     use = use_of(channel)
     if use == "rhythm":
-        return telling if telling is not None and telling.kind == "percussion" else words.instruments[_KIT]
+        found = telling or (_untuned(channel, None, vague) if channel.use == "melodic" else None)
+        return found if found is not None and found.kind == "percussion" else words.instruments[_KIT]
     if use == "effect":
         return words.instruments[_EFFECT]
-    if telling is not None:
-        return telling
     numbered = None if channel.program is None else words.by_program(channel.program)
+    if telling is not None:
+        return numbered if numbered is not None and _is_after_a_drum(channel, telling, numbered) else telling
     # Many programs write 0, the piano, for no program at all: a name that is not understood is not a piano's for that.
     if channel.program == _NO_PROGRAM and vague is None and is_named(channel):
         return None

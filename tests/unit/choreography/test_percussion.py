@@ -27,12 +27,15 @@ def rhythm_of(
     bpm: float = 120.0,
     channel: int = 9,
     name: str = "",
+    program: int | None = None,
 ) -> Rhythm:
     """The rhythm of hits (tick, note, velocity), each 10 ticks long."""
     events = [(tick, mido.MetaMessage("time_signature", numerator=n, denominator=d)) for tick, n, d in metres]
     events.append((0, mido.MetaMessage("set_tempo", tempo=mido.bpm2tempo(bpm))))
     if name:
-        events.append((0, mido.MetaMessage("track_name", name=name)))
+        events.append((0, mido.MetaMessage("track_name", name=name.encode().decode("latin1"))))
+    if program is not None:
+        events.append((0, mido.Message("program_change", channel=channel, program=program)))
     for tick, note, velocity in hits:
         events.append((tick, mido.Message("note_on", channel=channel, note=note, velocity=velocity)))
         events.append((tick + 10, mido.Message("note_off", channel=channel, note=note)))
@@ -69,11 +72,55 @@ def test_hits_at_one_time_are_kept_and_a_doubled_sound_counts_once(tmp_path: Pat
     np.testing.assert_allclose(rhythm.strengths * 127, [60, 100, 80])
 
 
-@pytest.mark.parametrize(("channel", "name"), [(0, ""), (0, "Drums"), (9, "Trumpet")])
-def test_other_tracks_are_no_percussion(tmp_path: Path, channel: int, name: str) -> None:
-    rhythm = rhythm_of(tmp_path, [(0, 60, 90), (480, 62, 90)], channel=channel, name=name)
-    assert len(rhythm.hits_s) == 0
-    assert len(rhythm.beats_s) == 4
+LATIN, TUNE = (60, 61, 64, 69, 75, 81), (60, 62, 64, 65, 67, 69, 71, 72)
+
+
+@pytest.mark.parametrize(
+    ("name", "program", "pitches", "heard"),
+    [
+        *((name, None, LATIN, LATIN) for name in ("Drum Kit", "Drums", "ドラムセット", "パーカッション", "Schlagzeug")),
+        ("Drum Kit", 0, LATIN, LATIN),
+        ("Drum Kit", 118, LATIN, LATIN),
+        ("Drum Kit", None, TUNE, TUNE),
+        ("Drum Kit", 56, (36, 42, 38, 42), (36, 42, 38, 42)),
+        ("Congas", None, (62, 63, 64), (62, 63, 64)),
+        ("スネア", None, (60, 60), (38, 38)),
+        ("Bass Drum", 0, (60,), (36,)),
+        ("Kick", None, (35,), (35,)),
+        ("Snare Drum", None, (38, 40), (38, 40)),
+        ("", 116, (41, 43), (41, 43)),
+    ],
+)
+@pytest.mark.parametrize("channel", [0, 4])
+def test_untuned_percussion_is_heard_on_any_channel(
+    tmp_path: Path, channel: int, name: str, program: int | None, pitches: tuple[int, ...], heard: tuple[int, ...]
+) -> None:
+    hits = [(QUARTER * at, pitch, 90) for at, pitch in enumerate(pitches)]
+    rhythm = rhythm_of(tmp_path, hits, channel=channel, name=name, program=program)
+    assert tuple(notes(rhythm)) == heard
+
+
+@pytest.mark.parametrize(
+    ("channel", "name", "program", "pitches"),
+    [
+        (0, "", None, LATIN),
+        (0, "", 0, (36, 38, 42)),
+        (9, "Trumpet", None, LATIN),
+        (0, "Trumpet", None, (36, 38, 42)),
+        (0, "Tuba", 58, (36, 38, 42)),
+        (0, "Rhythm Guitar", 29, (40, 47, 52)),
+        (0, "The Little Drummer Boy", 56, TUNE),
+        (0, "Glockenspiel", None, TUNE),
+        (0, "マリンバ", 12, (48, 52)),
+        (0, "Timpani", 47, (41, 48)),
+        (0, "Steel Drums", 114, TUNE),
+    ],
+)
+def test_other_tracks_are_no_percussion(
+    tmp_path: Path, channel: int, name: str, program: int | None, pitches: tuple[int, ...]
+) -> None:
+    hits = [(QUARTER * at, pitch, 90) for at, pitch in enumerate(pitches)]
+    assert not len(rhythm_of(tmp_path, hits, channel=channel, name=name, program=program).hits_s)
 
 
 @pytest.mark.parametrize(
