@@ -7,6 +7,7 @@ together, from coarser shapes. All bones of all players travel in one float text
 from __future__ import annotations
 
 from collections import OrderedDict
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,6 @@ from vispy.gloo import gl
 
 from app.arrays import FloatArray, IndexArray, SingleArray
 from app.formats.video import Picture
-from widgets.viewport import shaders
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.geometry import (
@@ -49,26 +49,32 @@ SEEN_THROUGH = 0.85
 """Share of the pixels that are left out of who stands in the way."""
 
 
+_SHADERS = Path(__file__).with_name("shaders")
+"""In GLSL 120, which every driver of the last fifteen years runs."""
 RING_M = 0.48
 PODIUM_M = (0.28, 0.55)
 """Radii of the rings around a player, and of those that mark the conductor's place."""
+
+
+def _program(name: str) -> Any:
+    """Read a program of the graphics card, with the numbers of limbs in place of their names."""
+    numbers = {"SHADERS": str(SHADING + 1), "HELD": f"{HELD}.0", "LIMBS": str(LIMBS)}
+    sources = [(_SHADERS / f"{name}.{end}").read_text("utf-8") for end in ("vert", "frag")]
+    for word, number in numbers.items():
+        sources = [source.replace(word, number) for source in sources]
+    return gloo.Program(*sources)
 
 
 class Renderer:
     """Draws stages into the current GL context."""
 
     def __init__(self) -> None:
-        vertex = shaders.FIGURE_VERTEX.replace("SHADERS", str(SHADING + 1)).replace("HELD", f"{HELD}.0")
-        self._figures = gloo.Program(vertex, shaders.FIGURE_FRAGMENT)
-        self._batch = gloo.Program(vertex, shaders.FIGURE_FRAGMENT)
-        self._backdrop = gloo.Program(shaders.BACKDROP_VERTEX, shaders.BACKDROP_FRAGMENT)
-        fragment = shaders.SHADOW_FRAGMENT.replace("LIMBS", str(LIMBS))
-        self._shadows = gloo.Program(shaders.SHADOW_VERTEX, fragment)
-        self._ring = gloo.Program(shaders.RING_VERTEX, shaders.RING_FRAGMENT)
+        self._figures, self._batch = _program("figure"), _program("figure")
+        self._backdrop, self._shadows, self._ring = _program("backdrop"), _program("shadow"), _program("ring")
         corners = np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)], np.float32)
         self._backdrop["a_corner"] = corners
         self._ring["a_corner"] = corners
-        self._video = gloo.Program(shaders.VIDEO_VERTEX, shaders.VIDEO_FRAGMENT)
+        self._video = _program("video")
         self._video["a_corner"] = corners
         self._video_picture: Picture | None = None
         self._solids: dict[int, Solid] = {}
