@@ -34,8 +34,8 @@ class Parameter:
 
     Attributes
     ----------
-    label, tip, unit : str
-        Ids of texts; empty: none.
+    unit : str
+        Id of a text; empty: none.
     bounds : (low, high) or None
         None: its type alone bounds it.
     usual : float or None
@@ -59,14 +59,16 @@ class Parameter:
         It makes one player differ from the others, and is in no preset.
     since : int
         The first version of project files that has it.
-    before : Value or UNSET
-        What files of earlier versions mean; by default its default.
+    in_older_files : Value
+        Value for files without it; by default its default.
+    has_tip : bool
+        A text explains it.
+    texts : str
+        Before its name in the id of its label, and of its tip.
     name, kind, default
         Of the field.
     """
 
-    label: str
-    tip: str = ""
     unit: str = ""
     _: KW_ONLY
     bounds: Bounds | None = None
@@ -81,21 +83,27 @@ class Parameter:
     spread: float = 0.0
     is_own: bool = False
     since: int = 1
-    before: Value | msgspec.UnsetType = msgspec.UNSET
+    in_older_files: Any = msgspec.UNSET
+    has_tip: bool = True
+    texts: str = ""
     name: str = ""
     kind: Any = None
     default: Any = None
 
     @property
+    def label(self) -> str:
+        """Id of its name in words."""
+        return f"{self.texts}.{self.name}"
+
+    @property
+    def tip(self) -> str:
+        """Id of what explains it; empty: none."""
+        return f"{self.label}_tip" if self.has_tip else ""
+
+    @property
     def words(self) -> tuple[str, ...]:
         """Every text that the user may see."""
         return tuple(filter(None, (self.label, self.tip, self.unit, *(word for _, word in self.choices))))
-
-    @property
-    def in_older_files(self) -> Value:
-        """Value for files without it."""
-        value: Value = self.default if self.before is msgspec.UNSET else self.before
-        return value
 
     @property
     def possible(self) -> str:
@@ -148,8 +156,8 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def declared(struct: type[msgspec.Struct]) -> dict[str, Parameter]:
-    """The parameters of a struct by name, in the order of its fields."""
+def declared(struct: type[msgspec.Struct], texts: str) -> dict[str, Parameter]:
+    """The parameters of a struct by name, in the order of its fields; ``texts``: as of `Parameter`."""
     found = {}
     hints = get_type_hints(struct, include_extras=True)
     for field in msgspec.structs.fields(struct):
@@ -157,167 +165,101 @@ def declared(struct: type[msgspec.Struct]) -> dict[str, Parameter]:
         kind, *said = get_args(hint) if get_origin(hint) is Annotated else (hint,)
         for parameter in said:
             if isinstance(parameter, Parameter):
-                found[field.name] = replace(parameter, name=field.name, kind=kind, default=field.default)
+                found[field.name] = replace(
+                    parameter,
+                    texts=texts,
+                    name=field.name,
+                    kind=kind,
+                    default=field.default,
+                    in_older_files=field.default
+                    if parameter.in_older_files is msgspec.UNSET
+                    else parameter.in_older_files,
+                )
     return found
 
 
 _SHARE: Final = (0.0, 1.0)
 _NATURAL: Final = (0.0, 2.0)
 """Limits of multiples of the natural amount."""
-_BEATS: Final = (0.0, 64.0)
 _BREATHS: Final[frozenset[Decided]] = frozenset({"breaths"})
+_RULES: Final[frozenset[Decided]] = frozenset({"rules", "motion"})
+
+
+def _times(section: str, spread: float, *also: Decided, since: int = 10) -> Parameter:
+    """A multiple of the natural amount, which decides the motion and what is named."""
+    decides = frozenset[Decided]({"motion", *also})
+    return Parameter("unit.times", bounds=_NATURAL, section=section, spread=spread, decides=decides, since=since)
+
+
+def _beats(usual: float) -> Parameter:
+    """A number of beats that decides breaths."""
+    return Parameter("unit.beats", bounds=(0.0, 64.0), usual=usual, step=0.25, section="breath", decides=_BREATHS)
 
 
 class PlayerParameters(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Parameters of one player; every field is a `--set` parameter by its name."""
 
     # fmt: off
-    amplitude: Annotated[float, Parameter(
-        "parameter.amplitude", "parameter.amplitude_tip",
-        bounds=_SHARE, section="motion", spread=0.5,
-    )] = 0.5
-    breath_min_beats: Annotated[float, Parameter(
-        "parameter.breath_min_beats", "parameter.breath_min_beats_tip", "unit.beats",
-        bounds=_BEATS, usual=4.0, step=0.25, section="breath", decides=_BREATHS,
-    )] = 0.5
-    breath_last_beat_beats: Annotated[float, Parameter(
-        "parameter.breath_last_beat_beats",
-        "parameter.breath_last_beat_beats_tip", "unit.beats",
-        bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
-    )] = 1.0
-    breath_prepare_beats: Annotated[float, Parameter(
-        "parameter.breath_prepare_beats",
-        "parameter.breath_prepare_beats_tip", "unit.beats",
-        bounds=_BEATS, usual=8.0, step=0.25, section="breath", decides=_BREATHS,
-    )] = 2.0
+    amplitude: Annotated[float, Parameter(bounds=_SHARE, section="motion", spread=0.5)] = 0.5
+    breath_min_beats: Annotated[float, _beats(usual=4.0)] = 0.5
+    breath_last_beat_beats: Annotated[float, _beats(usual=8.0)] = 1.0
+    breath_prepare_beats: Annotated[float, _beats(usual=8.0)] = 2.0
     lung_s: Annotated[float, Parameter(
-        "parameter.lung_s",
-        "parameter.lung_s_tip", "unit.seconds",
-        bounds=(1.0, 60.0), usual=20.0, step=0.5, decimals=1,
+        "unit.seconds", bounds=(1.0, 60.0), usual=20.0, step=0.5, decimals=1,
         section="breath", row=1, decides=_BREATHS, spread=4.0,
     )] = 9.0
-    embouchure_tension: Annotated[float, Parameter(
-        "parameter.embouchure_tension", "parameter.embouchure_tension_tip", "unit.times",
-        bounds=_NATURAL, section="face", decides=frozenset({"lips", "motion"}), spread=0.5,
-    )] = 1.0
-    sway: Annotated[float, Parameter(
-        "parameter.sway", "parameter.sway_tip", "unit.times",
-        bounds=_NATURAL, section="motion", spread=1.0,
-    )] = 1.0
-    weight_shift: Annotated[float, Parameter(
-        "parameter.weight_shift", "parameter.weight_shift_tip", "unit.times",
-        bounds=_NATURAL, section="motion", spread=1.0,
-    )] = 1.0
-    bell_height: Annotated[float, Parameter(
-        "parameter.bell_height", "parameter.bell_height_tip", "unit.times",
-        bounds=_NATURAL, section="motion", spread=1.0,
-    )] = 1.0
+    embouchure_tension: Annotated[float, _times("face", 0.5, "lips", since=1)] = 1.0
+    sway: Annotated[float, _times("motion", 1.0, since=1)] = 1.0
+    weight_shift: Annotated[float, _times("motion", 1.0, since=1)] = 1.0
+    bell_height: Annotated[float, _times("motion", 1.0, since=1)] = 1.0
     posture: Annotated[Literal["standing", "seated"], Parameter(
-        "parameter.posture", choices=(("standing", "choice.standing"), ("seated", "choice.seated")),
+        choices=(("standing", "choice.standing"), ("seated", "choice.seated")), has_tip=False,
         section="player", decides=frozenset({"poses", "motion"}),
     )] = "standing"
     cue_leader: Annotated[bool | None, Parameter(
-        "parameter.cue_leader", choices=((None, "choice.automatic"), (True, "choice.yes"), (False, "choice.never")),
+        choices=((None, "choice.automatic"), (True, "choice.yes"), (False, "choice.never")), has_tip=False,
         section="player", decides=frozenset({"cues"}), is_own=True,
     )] = None
     """None: the piece decides (the highest part that plays first leads)."""
     seed: Annotated[int, Parameter(
-        "parameter.seed", "parameter.seed_tip",
         bounds=SEED, section="motion", row=2, decides=frozenset({"breaths", "motion"}), is_own=True,
     )] = 0
     breath_need: Annotated[float, Parameter(
-        "parameter.breath_need",
-        "parameter.breath_need_tip",
-        bounds=_SHARE, section="breath", decides=_BREATHS, since=6, before=0.0,
+        bounds=_SHARE, section="breath", decides=_BREATHS, since=6, in_older_files=0.0,
     )] = 0.35
     """Scale of the playing and the air that a rest needs to be breathed in (`app.plan.breath.rests_for_breath`); 0:
     every rest is breathed in (T6), 1: only when out of air."""
     circular_breathing: Annotated[bool, Parameter(
-        "parameter.circular_breathing",
-        "parameter.circular_breathing_tip",
         choices=((False, "choice.no"), (True, "choice.yes")), section="breath", row=2, decides=_BREATHS,
     )] = False
-    choreography: Annotated[str, Parameter(
-        "parameter.choreography", "parameter.choreography_tip",
-        section="motion", row=1, since=8,
-    )] = ""
+    choreography: Annotated[str, Parameter(section="motion", row=1, since=8)] = ""
     """Dance of hips, trunk and head while playing: the name of a bundled choreography or the absolute path of a
     ``.choreography`` file; empty: they move as is generated."""
-    dance_amount: Annotated[float, Parameter(
-        "parameter.dance_amount",
-        "parameter.dance_amount_tip",
-        bounds=_SHARE, section="dance", since=8,
-    )] = 0.5
-    dance_variation: Annotated[int, Parameter(
-        "parameter.dance_variation",
-        "parameter.dance_variation_tip",
-        bounds=SEED, section="dance", is_own=True, since=8,
-    )] = 0
+    dance_amount: Annotated[float, Parameter(bounds=_SHARE, section="dance", since=8)] = 0.5
+    dance_variation: Annotated[int, Parameter(bounds=SEED, section="dance", is_own=True, since=8)] = 0
     """Another one is another dance to the same music, the same for everyone who has it; 0: a dance of the player's own,
     by ``seed``."""
-    style: Annotated[str, Parameter(
-        "parameter.style", "parameter.style_tip",
-        section="acting", row=-1, decides=frozenset({"rules", "motion"}), since=10,
-    )] = SECTION_PLAYER
+    style: Annotated[str, Parameter(section="acting", row=-1, decides=_RULES, since=10)] = SECTION_PLAYER
     """Name of a table of ``metadata/styles`` or of the user's own."""
-    habits: Annotated[str, Parameter(
-        "parameter.habits", "parameter.habits_tip",
-        section="acting", row=-1, decides=frozenset({"rules", "motion"}), since=10,
-    )] = ""
+    habits: Annotated[str, Parameter(section="acting", row=-1, decides=_RULES, since=10)] = ""
     """Names of tables of ``metadata/habits`` or of the user's own, with commas between them."""
-    phrase_motion: Annotated[float, Parameter(
-        "parameter.phrase_motion", "parameter.phrase_motion_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
-    )] = 1.0
-    stillness: Annotated[float, Parameter(
-        "parameter.stillness", "parameter.stillness_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, decides=frozenset({"gestures", "motion"}), since=10,
-    )] = 1.0
-    footwork: Annotated[float, Parameter(
-        "parameter.footwork", "parameter.footwork_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
-    )] = 1.0
-    toe_taps: Annotated[float, Parameter(
-        "parameter.toe_taps", "parameter.toe_taps_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, decides=frozenset({"gestures", "motion"}), since=10,
-    )] = 1.0
-    breath_motion: Annotated[float, Parameter(
-        "parameter.breath_motion", "parameter.breath_motion_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.3, since=10,
-    )] = 1.0
-    cue_size: Annotated[float, Parameter(
-        "parameter.cue_size", "parameter.cue_size_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.3, since=10,
-    )] = 1.0
-    face_intensity: Annotated[float, Parameter(
-        "parameter.face_intensity", "parameter.face_intensity_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
-    )] = 1.0
-    lip_motion: Annotated[float, Parameter(
-        "parameter.lip_motion", "parameter.lip_motion_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.3, since=10,
-    )] = 1.0
-    gaze: Annotated[float, Parameter(
-        "parameter.gaze", "parameter.gaze_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
-    )] = 1.0
-    blinks: Annotated[float, Parameter(
-        "parameter.blinks", "parameter.blinks_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.3, since=10,
-    )] = 1.0
-    gestures: Annotated[float, Parameter(
-        "parameter.gestures", "parameter.gestures_tip", "unit.times",
-        bounds=_NATURAL, section="acting", spread=0.5, since=10,
-    )] = 1.0
-    layers_off: Annotated[str, Parameter(
-        "parameter.layers_off", "parameter.layers_off_tip",
-        names=AMOUNTS, decides=frozenset({"gestures", "motion"}), since=13,
-    )] = ""
+    phrase_motion: Annotated[float, _times("acting", 0.5)] = 1.0
+    stillness: Annotated[float, _times("acting", 0.5, "gestures")] = 1.0
+    footwork: Annotated[float, _times("acting", 0.5)] = 1.0
+    toe_taps: Annotated[float, _times("acting", 0.5, "gestures")] = 1.0
+    breath_motion: Annotated[float, _times("acting", 0.3)] = 1.0
+    cue_size: Annotated[float, _times("acting", 0.3)] = 1.0
+    face_intensity: Annotated[float, _times("acting", 0.5)] = 1.0
+    lip_motion: Annotated[float, _times("acting", 0.3)] = 1.0
+    gaze: Annotated[float, _times("acting", 0.5)] = 1.0
+    blinks: Annotated[float, _times("acting", 0.3)] = 1.0
+    gestures: Annotated[float, _times("acting", 0.5)] = 1.0
+    layers_off: Annotated[str, Parameter(names=AMOUNTS, decides=frozenset({"gestures", "motion"}), since=13)] = ""
     """Amounts whose layers are not shown, whatever they are, with commas between them."""
     # fmt: on
 
 
-PARAMETERS: Final[Mapping[str, Parameter]] = declared(PlayerParameters)
+PARAMETERS: Final[Mapping[str, Parameter]] = declared(PlayerParameters, "parameter")
 """Every parameter of a player by name."""
 _DECIDING: Final = {
     kind: tuple(name for name, parameter in PARAMETERS.items() if kind in parameter.decides)

@@ -45,7 +45,7 @@ from app.score.take import Take
 from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Expression
 
-DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer)
+DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer, "dancer_parameter")
 """Every parameter of a dancer by name."""
 
 

@@ -78,29 +78,14 @@ class Dancer(msgspec.Struct, frozen=True):
     character_id: str
     stage: StagePosition
     # fmt: off
-    seed: Annotated[int, Parameter(
-        "dancer_parameter.seed", "dancer_parameter.seed_tip",
-        section="dancer", bounds=SEED, is_own=True,
-    )] = 0
+    seed: Annotated[int, Parameter(section="dancer", bounds=SEED, is_own=True)] = 0
     delay_beats: Annotated[float, Parameter(
-        "dancer_parameter.delay_beats", "dancer_parameter.delay_beats_tip", "unit.beats",
-        bounds=(0.0, 10_000.0), usual=32.0, step=1.0, decimals=1, section="dancer", row=1,
+        "unit.beats", bounds=(0.0, 10_000.0), usual=32.0, step=1.0, decimals=1, section="dancer", row=1,
     )] = 0.0
     mirrored: bool = False
-    source: Annotated[int, Parameter(
-        "dancer_parameter.source", "dancer_parameter.source_tip",
-        bounds=(-1, limits.CHOREOGRAPHY_INDEX[1]),
-    )] = -1
-    size: Annotated[float, Parameter(
-        "dancer_parameter.size", "dancer_parameter.size_tip", "unit.times", section="dancer", bounds=(0.0, 1.5),
-    )] = 1.0
-    weight: Annotated[float, Parameter(
-        "dancer_parameter.weight", "dancer_parameter.weight_tip",
-        section="dancer", bounds=(-1.0, 1.0), since=8,
-    )] = 0.0
-    melody: Annotated[float, Parameter(
-        "dancer_parameter.melody", "dancer_parameter.melody_tip",
-        section="dancer", bounds=(0.0, 1.0), since=16,
-    )] = 0.5
+    source: Annotated[int, Parameter(bounds=(-1, limits.CHOREOGRAPHY_INDEX[1]))] = -1
+    size: Annotated[float, Parameter("unit.times", section="dancer", bounds=(0.0, 1.5))] = 1.0
+    weight: Annotated[float, Parameter(section="dancer", bounds=(-1.0, 1.0), since=8)] = 0.0
+    melody: Annotated[float, Parameter(section="dancer", bounds=(0.0, 1.0), since=16)] = 0.5
     # fmt: on
     colour: str = ""
