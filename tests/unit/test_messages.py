@@ -13,6 +13,8 @@ import pytest
 
 from app.errors import Message
 from app.messages import LANGUAGES, WORDINGS, filled, text, touch_name
+from app.plan.parameters import PARAMETERS
+from app.project.model import DANCER_PARAMETERS
 from instrument_maps.model import PARTS
 
 ROOT = Path(__file__).parents[2]
@@ -125,7 +127,8 @@ def test_no_template_is_left_over() -> None:
     # A reader of bytes puts its room before the word, f"fbx.{word}"; an edit of many names begins them all alike,
     # f"edit.parameter_{name}".
     begun = tuple(string for string in strings("app", "widgets") if ID.fullmatch(string) and string.endswith("_"))
-    written = strings(*FOLDERS)
+    parameters = (*PARAMETERS.values(), *DANCER_PARAMETERS.values())
+    written = strings(*FOLDERS) | {word for parameter in parameters for word in parameter.words}
     left_over = [
         id
         for id in WORDINGS
