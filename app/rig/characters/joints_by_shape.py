@@ -36,6 +36,8 @@ UPWARDS: Final = 0.3
 """A neck leads up by more than this part of its length; a jaw leads ahead."""
 HEAD_TOP: Final = 0.1
 """A last bone that lies so far above the one before is the top of a head, not the head."""
+NEAR_LEGS: Final = 0.4
+"""Hips lie below the height of the upper legs by less than this part of the legs' length."""
 LEG_LENGTH: Final = 0.46
 """Hip to ankle. All of the figure's height."""
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
@@ -192,7 +194,8 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
         return joints
     for side, end in (("left", tip), ("right", halves.partner[tip])):
         joints |= _arm(halves, side, tree.path(chest, end))
-    return joints | spread_spine(tree, tree.path(hips, chest) if chest != hips else []) | _head(halves, chest)
+    hips, chain = _hips(tree, joints, hips, tree.path(hips, chest) if chest != hips else [])
+    return joints | {"hips": hips} | spread_spine(tree, chain) | _head(halves, chest)
 
 
 def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
@@ -208,9 +211,28 @@ def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
     chest = max(under_arms, key=tree.depth)
     if chest == hips:
         return {}
-    chain = tree.path(hips, chest)
+    hips, chain = _hips(tree, limbs, hips, tree.path(hips, chest))
     carrying = [bone for bone in chain if bone in tree.skinned]
     return {"hips": hips} | spread_spine(tree, carrying or chain) | _head(_Halves(tree), chest)
+
+
+def _hips(tree: Tree, limbs: Mapping[str, int], carrier: int, chain: list[int]) -> tuple[int, list[int]]:
+    """The hips and the bones from there to the chest: legs may hang beside them, from a root or a control.
+
+    Parameters
+    ----------
+    carrier : int
+        The bone that legs and trunk hang from.
+    chain : list of int
+        From below it to the chest.
+    """
+    places = tree.positions_m
+    legs = [limbs[f"{side}UpperLeg"] for side in ("left", "right")]
+    height, floor = places[legs, 1].mean(), places[[limbs[f"{side}Foot"] for side in ("left", "right")], 1].mean()
+    low = height - places[carrier, 1] > NEAR_LEGS * (height - floor)
+    if low and len(chain) > 1 and chain[0] in tree.skinned:
+        return chain[0], chain[1:]
+    return carrier, chain
 
 
 def _legs(halves: _Halves, ends: list[int]) -> tuple[int | None, dict[str, int]]:
@@ -309,8 +331,11 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     tree, height = halves.tree, halves.height
     hand = _hand_of_fingers(halves, path)
     if hand is None:
-        # No fingers: the last bone that is about an arm away from the first.
-        hand = min(path, key=lambda bone: abs(tree.distance(path[0], bone) - (ARM_LENGTH + 0.07) * height))
+        # No fingers: the bone that makes the best arm of those before it.
+        ends = path[2:]
+        if not ends:
+            return {}
+        hand = min(ends, key=lambda bone: _off(tree, path[: path.index(bone)], bone, ARM_LENGTH * height))
     upper = path[: path.index(hand)]
     if len(upper) < 2:
         return {}
@@ -334,14 +359,27 @@ def _hand_of_fingers(halves: _Halves, path: list[int]) -> int | None:
 
 def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
     """Return where a limb begins and its middle joint: halves alike, and about as long as a limb is."""
-    pairs = [(start, middle) for at, start in enumerate(upper) for middle in upper[at + 1 :]]
     return min(
-        pairs,
+        _pairs(upper),
         key=lambda pair: (
             abs(tree.distance(pair[0], pair[1]) - tree.distance(pair[1], end))
             + 0.5 * abs(tree.distance(pair[0], end) - length_m)
         ),
     )
+
+
+def _pairs(upper: list[int]) -> list[tuple[int, int]]:
+    return [(start, middle) for at, start in enumerate(upper) for middle in upper[at + 1 :]]
+
+
+def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
+    """How much the best limb of some bones differs from a usual one, whose halves are alike: in ratios, since a child
+    of a toy has arms half as long."""
+    ratios = []
+    for start, middle in _pairs(upper):
+        halves = np.maximum((tree.distance(start, middle), tree.distance(middle, end)), 1e-9)
+        ratios.append(abs(np.log(halves[0] / halves[1])) + 0.5 * abs(np.log(halves.sum() / length_m)))
+    return float(min(ratios))
 
 
 def fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
