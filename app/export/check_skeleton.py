@@ -29,11 +29,7 @@ MOST_LISTED: Final = 8
 POSITION_MM: Final = 0.5
 ROTATION_DEG: Final = 0.1
 _MEASURED: Final[dict[str, str]] = {"position": "skeleton.position", "rotation": "skeleton.rotation"}
-_COUNTED: Final[dict[str, str]] = {
-    "additional": "skeleton.additional",
-    "requested": "skeleton.requested",
-    "missing": "skeleton.missing",
-}
+_COUNTED: Final[dict[str, str]] = {kind: f"skeleton.{kind}" for kind in ("additional", "requested", "missing")}
 UNIT: Final = (0.2, 5.0)
 """Lengths that differ by more than these factors are of another unit, not of another body."""
 

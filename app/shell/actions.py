@@ -21,11 +21,7 @@ from widgets.common.text import message_text
 
 CONTEXTS: Final = {
     "window": "context.everywhere",
-    "timeline": "context.in_timeline",
-    "viewport": "context.in_viewport",
-    "players": "context.in_players",
-    "dancers": "context.in_dancers",
-    "inspector": "context.in_inspector",
+    **{id: f"context.in_{id}" for id in ("timeline", "viewport", "players", "dancers", "inspector")},
 }
 
 

@@ -13,24 +13,10 @@ from widgets.common.morph_names import morph_name
 from widgets.common.numbers import number_text
 
 _PARTS: Final = {
-    "bell": "channel.bell",
-    "head": "channel.head",
-    "torso": "channel.torso",
-    "left_elbow": "channel.left_elbow",
-    "right_elbow": "channel.right_elbow",
-    "shoulders": "channel.shoulders",
-    "hips": "channel.hips",
-    "knees": "channel.knees",
-    "eyes": "channel.eyes",
+    part: f"channel.{part}"
+    for part in ("bell", "head", "torso", "left_elbow", "right_elbow", "shoulders", "hips", "knees", "eyes")
 }
-_WAYS: Final = {
-    "up": "channel.up",
-    "left": "channel.left",
-    "roll": "channel.roll",
-    "ahead": "channel.ahead",
-    "bend": "channel.bend",
-    "tilt": "channel.tilt",
-}
+_WAYS: Final = {way: f"channel.{way}" for way in ("up", "left", "roll", "ahead", "bend", "tilt")}
 _FACE_GROUPS: Final = {
     "brow": "channel.brows",
     "cheek": "channel.cheeks",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from functools import partial
-from typing import Final
+from typing import Final, get_args
 
 import msgspec
 from PySide6.QtCore import Qt, QTimer, Signal
@@ -47,9 +47,7 @@ _COLUMNS: Final = tuple(
     )
 )
 _TAKES: Final[Mapping[TakeReason, str]] = {
-    "recorded": "import_dialog.take_recorded",
-    "name": "import_dialog.take_name",
-    "breath": "import_dialog.take_breath",
+    reason: f"import_dialog.take_{reason}" for reason in get_args(TakeReason) if reason
 }
 """Text ids of the reasons for which a track looks like a take; each says what cleaning it does."""
 _INSTRUMENT_LETTERS = 31

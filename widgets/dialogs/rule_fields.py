@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QDoubleSpinBox, QMenu, QPushButton, QSizePolicy
 
-from metadata.rules import Place, When
+from metadata.rules import Place
 from widgets.common.clicks import on_click
 from widgets.common.controls import Check, named
 from widgets.common.plain import verbatim
@@ -32,7 +32,7 @@ class Field(NamedTuple):
     first: float
 
 
-_ASKED: Final = (
+CONDITIONS: Final = (
     Field("loudness_above", "rules_dialog.loudness_above", 0.0, 1.0, 0.05, "", 0.8),
     Field("loudness_below", "rules_dialog.loudness_below", 0.0, 1.0, 0.05, "", 0.4),
     Field("accent", "rules_dialog.accent", 0.0, 1.0, 0.05, "", 0.1),
@@ -47,30 +47,14 @@ _ASKED: Final = (
     Field("rest_after_longer_s", "rules_dialog.rest_after_longer_s", 0.0, 600.0, 0.5, SECONDS, 2.0),
     Field("played_longer_s", "rules_dialog.played_longer_s", 0.0, 3600.0, 10.0, SECONDS, 60.0),
 )
-CONDITIONS: Final = tuple(field for field in _ASKED if field.name in When.__struct_fields__)
 """Numbers that may be asked of a note."""
-_PLACES: Final[Mapping[str, str]] = {
-    "first": "rules_dialog.place_first",
-    "after_rest": "rules_dialog.place_after_rest",
-    "climax": "rules_dialog.place_climax",
-    "phrase_end": "rules_dialog.place_phrase_end",
-    "before_rest": "rules_dialog.place_before_rest",
-    "last": "rules_dialog.place_last",
-}
-PLACES: Final[Mapping[str, str]] = {id: text for id, text in _PLACES.items() if id in get_args(Place)}
+PLACES: Final[Mapping[str, str]] = {place: f"rules_dialog.place_{place}" for place in get_args(Place)}
 MOMENTS: Final[Mapping[str, str]] = {
     "": "rules_dialog.moment_note",
-    "gives_entry": "rules_dialog.moment_gives_entry",
-    "takes_entry": "rules_dialog.moment_takes_entry",
-    "ending": "rules_dialog.moment_ending",
+    **{id: f"rules_dialog.moment_{id}" for id in ("gives_entry", "takes_entry", "ending")},
 }
 GROWTHS: Final[Mapping[str, str]] = {
-    "loudness": "rules_dialog.growth_loudness",
-    "height": "rules_dialog.growth_height",
-    "depth": "rules_dialog.growth_depth",
-    "length": "rules_dialog.growth_length",
-    "accent": "rules_dialog.growth_accent",
-    "effort": "rules_dialog.growth_effort",
+    id: f"rules_dialog.growth_{id}" for id in ("loudness", "height", "depth", "length", "accent", "effort")
 }
 ANCHORS: Final[Mapping[str, str]] = {"onset": "rules_dialog.anchor_onset", "end": "rules_dialog.anchor_end"}
 

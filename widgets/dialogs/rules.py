@@ -40,13 +40,8 @@ PREVIEW_MS = 250
 PROBLEM_PX = 40
 """Room for two lines, so that nothing moves when there is something to say."""
 FAULTS = {
-    "name": "rules_dialog.fault_name",
-    "do": "rules_dialog.fault_do",
-    "fades": "rules_dialog.fault_fades",
-    "stays": "rules_dialog.fault_stays",
-    "moment": "rules_dialog.fault_moment",
-    "growth_at_moment": "rules_dialog.fault_growth_at_moment",
-    "when": "rules_dialog.fault_when",
+    kind: f"rules_dialog.fault_{kind}"
+    for kind in ("name", "do", "fades", "stays", "moment", "growth_at_moment", "when")
 }
 """By the kind of fault what is said of it; of a growth that has nothing to begin from see `NEEDED`."""
 NEEDED = {

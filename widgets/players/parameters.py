@@ -49,12 +49,7 @@ _TITLES: Final = (
     "parameter_sections.face",
     "parameter_sections.player",
 )
-_LABELS: Final = {
-    "part": "parameter_sections.part",
-    "instrument": "parameter_sections.instrument",
-    "character": "parameter_sections.character",
-    "colour": "parameter_sections.colour",
-}
+_LABELS: Final = {name: f"parameter_sections.{name}" for name in ("part", "instrument", "character", "colour")}
 
 
 class ParameterSections(Retranslated, QWidget):

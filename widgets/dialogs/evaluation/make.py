@@ -6,7 +6,7 @@ import os
 import secrets
 from collections.abc import Callable
 from pathlib import Path
-from typing import Final, TypeAlias
+from typing import Final, TypeAlias, get_args
 
 from PySide6.QtCore import QSize, QTimer
 from PySide6.QtWidgets import QDoubleSpinBox, QLayout, QSpinBox, QWidget
@@ -14,7 +14,8 @@ from PySide6.QtWidgets import QDoubleSpinBox, QLayout, QSpinBox, QWidget
 from app.editor.session import Session, Severity
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, Progress, StopRequested
-from app.evaluation.key import KEY_FILE, Variant
+from app.evaluation.design import Presentations
+from app.evaluation.key import KEY_FILE, VARIANTS, Variant
 from app.evaluation.process import EvaluationFinished, Report
 from app.evaluation.request import EXCERPTS, LEAST_S, MOST_EXCERPTS, MOST_S, SECONDS, EvaluationRequest
 from app.formats.video import SUFFIXES
@@ -46,32 +47,15 @@ _AT_CONTROLS: Final = {
 }
 """By the id of an error the one that says which controls of the dialog to use, instead of options."""
 _OF_FILES: Final[tuple[Variant, ...]] = ("film", "keyframes")
-_VARIANTS: Final[dict[Variant, str]] = {
-    "film": "evaluation_dialog.variant_film",
-    "generated": "evaluation_dialog.variant_generated",
-    "still": "evaluation_dialog.variant_still",
-    "shifted": "evaluation_dialog.variant_shifted",
-    "keyframes": "evaluation_dialog.variant_keyframes",
-}
+_VARIANTS: Final[dict[Variant, str]] = {variant: f"evaluation_dialog.variant_{variant}" for variant in VARIANTS}
 _PLACES: Final = {
     _BY_SOUND: "evaluation_dialog.by_sound",
     _FOLLOWED: "evaluation_dialog.followed",
     _BY_HAND: "evaluation_dialog.by_hand",
 }
 _KEYFRAMES_PLACES: Final = {_BY_SOUND: "evaluation_dialog.found", _BY_HAND: "evaluation_dialog.by_hand"}
-_VIEWS: Final = {
-    "ensemble": "playblast_dialog.ensemble",
-    "front": "playblast_dialog.front",
-    "side": "playblast_dialog.side",
-    "hands": "playblast_dialog.hands",
-    "mouth": "playblast_dialog.mouth",
-    "feet": "playblast_dialog.feet",
-}
-_PRESENTATIONS: Final = {
-    "both": "evaluation_dialog.presentation_both",
-    "single": "evaluation_dialog.presentation_single",
-    "pair": "evaluation_dialog.presentation_pair",
-}
+_VIEWS: Final = {view: f"playblast_dialog.{view}" for view in ("ensemble", "front", "side", "hands", "mouth", "feet")}
+_PRESENTATIONS: Final = {id: f"evaluation_dialog.presentation_{id}" for id in get_args(Presentations)}
 """Text ids of the choices, by value."""
 
 

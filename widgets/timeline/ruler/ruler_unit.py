@@ -12,11 +12,7 @@ from app.editor.session import Session, TimeDisplay
 from widgets.common.controls import Retranslated
 from widgets.common.icons import icon
 
-_UNITS: Final[dict[TimeDisplay, str]] = {
-    "bars": "unit_button.bars",
-    "seconds": "unit_button.seconds",
-    "frames": "unit_button.frames",
-}
+_UNITS: Final[dict[TimeDisplay, str]] = {unit: f"unit_button.{unit}" for unit in get_args(TimeDisplay)}
 
 
 class UnitButton(Retranslated, QToolButton):
