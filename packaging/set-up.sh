@@ -6,7 +6,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 say() { printf '%s\n' "$*" >&2; }
 
-# Debian packages that are missing are installed when we may; otherwise they are reported.
+# Debian packages that are missing are installed when we may; otherwise they are reported. Where `asks` is set and
+# someone is at the terminal, they are asked before.
 need_packages() {
     command -v dpkg-query >/dev/null || return 0
     local missing=() package
@@ -17,6 +18,11 @@ need_packages() {
     if [ "$(id -u)" -ne 0 ]; then
         say "Missing Debian packages; please run: sudo apt-get install ${missing[*]}"
         return 0
+    fi
+    if [ -n "${asks:-}" ] && [ -t 0 ] && [ -t 2 ]; then
+        local answer=
+        read -r -p "Install the Debian packages ${missing[*]}? [Y/n] " answer || answer=n
+        case $answer in [nN]*) return 0 ;; esac
     fi
     say "Installing ${missing[*]} ..."
     apt-get update -qq >&2

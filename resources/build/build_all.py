@@ -97,9 +97,10 @@ STEPS = (
     Step("licences", ("docs/licences.md",), _modules("resources.build.build_licences")),
     Step(
         "pictures",
-        ("docs/*.png", "docs/pictures/*.png"),
+        ("docs/*.png", "docs/pictures/*.png", "docs/pictures/*.webp"),
         _modules(
             "resources.build.build_pictures",
+            "resources.build.build_loops",
             "tests.support.character_pictures docs/pictures",
             "tests.support.recording_pictures",
             "tests.support.unreal_pictures",

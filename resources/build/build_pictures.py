@@ -1,4 +1,4 @@
-"""Draws the pictures of the README into docs/ with ``suisou edit --screenshot``; needs Pillow and a display.
+"""Draws the pictures of the editor into docs/ with ``suisou edit --screenshot``; needs Pillow and a display.
 
 Run from the repository: ``python resources/build/build_pictures.py``; without a screen, under
 ``xvfb-run -a -s "-screen 0 3840x2160x24"``.
@@ -16,7 +16,7 @@ from PIL import Image
 
 ROOT = Path(__file__).parents[2]
 TARGET = ROOT / "docs"
-PIECE = ROOT / "tests" / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
+PIECE = ROOT / "resources" / "examples" / "quartet.mid"
 
 
 @dataclass(frozen=True)

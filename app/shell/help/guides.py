@@ -27,7 +27,8 @@ ORDER: Final = (
     *("from-your-notation-program", "piece-settings", "marks", "acting", "curves", "choreography"),
     *("record-your-first-take", "follow-a-recording", "reference-video", "bring-your-own-character"),
     *("into-unreal", "files-for-other-programs", "skeletons", "stream-live", "evaluate"),
-    *("add-an-instrument", "metadata", "inspect", "glossary", "licences", "architecture"),
+    *("add-an-instrument", "metadata", "command-line", "inspect", "glossary"),
+    *("install", "tested", "licences", "security", "conduct", "architecture"),
 )
 """Guides as the contents list them: the window, the music, the acting, recordings, characters, export, tables."""
 

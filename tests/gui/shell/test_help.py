@@ -72,7 +72,8 @@ def test_links_between_guides_lead_to_headings() -> None:
             name, _, anchor = link.partition("#")
             if "://" in link or (name and not name.endswith(".md")) or "/" in name:
                 continue
-            target = guide(Path(name).stem, "en") if name else guide(path.stem, "en")
+            language = "ja" if path.stem.endswith("_ja") else "en"
+            target = guide((Path(name).stem if name else path.stem).removesuffix("_ja"), language)
             assert target.number(anchor) is not None, f"{path.name}: {link}"
 
 

@@ -1,4 +1,4 @@
-"""The README's commands: what stands there can be typed."""
+"""Commands and labels of the README and the guides: what stands there can be typed, and is in the window."""
 
 from __future__ import annotations
 
@@ -13,11 +13,19 @@ from app.cli import _joined, main, parser
 from app.cli.status import DONE
 
 ROOT = Path(__file__).parents[3]
-LINES = [
-    words
-    for line in (ROOT / "README.md").read_text(encoding="utf-8").splitlines()
-    if re.match(r"    (\./run|suisou) ", line) and len(words := shlex.split(line, comments=True)) > 1
-]
+GUIDES = (ROOT / "README.md", ROOT / "README_ja.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")))
+TEXTS_OF_GUIDES = [guide.read_text(encoding="utf-8") for guide in GUIDES]
+
+
+def commands(pattern: str) -> list[tuple[str, ...]]:
+    """Commands in the guides' texts, as words; what the shell does with the output is left out."""
+    found = {command for text in TEXTS_OF_GUIDES for command in re.findall(pattern, text, re.MULTILINE)}
+    split = [shlex.split(command, comments=True) for command in sorted(found)]
+    return sorted({tuple(words[: words.index(">")] if ">" in words else words) for words in split if len(words) > 1})
+
+
+LINES = commands(r"^    ((?:\./run|suisou) .+)$")
+MENTIONED = commands(r"`suisou ([a-z][^`\n.]*)`")
 FROM_CHECKOUT = [words[1:] for words in LINES if words[0] == "./run"]
 _QUICK = ("inspect", "instruments", "metadata")
 
@@ -28,21 +36,30 @@ def test_there_are_examples_of_both_kinds() -> None:
 
 
 @pytest.mark.parametrize("words", [words[1:] for words in LINES], ids=" ".join)
-def test_every_example_is_understood(words: list[str]) -> None:
-    arguments = parser().parse_args(_joined(words), argparse.Namespace(given=()))
+def test_every_example_is_understood(words: tuple[str, ...]) -> None:
+    arguments = parser().parse_args(_joined([*words]), argparse.Namespace(given=()))
     assert arguments.command
 
 
+@pytest.mark.parametrize("words", MENTIONED, ids=" ".join)
+def test_commands_in_sentences_have_these_options(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    named = [word for word in words if word.startswith("--")]
+    with pytest.raises(SystemExit, match="0"):
+        parser().parse_args([word for word in words[:2] if word.isalpha()] + ["--help"])
+    shown = capsys.readouterr().out
+    assert all(re.search(rf"{option}\b", shown) for option in named)
+
+
 @pytest.mark.parametrize("words", FROM_CHECKOUT, ids=" ".join)
-def test_examples_name_files_that_are_there(words: list[str]) -> None:
+def test_examples_name_files_that_are_there(words: tuple[str, ...]) -> None:
     for word in words:
         assert word.startswith(("-", "out/")) or "/" not in word or (ROOT / word).exists()
 
 
 @pytest.mark.parametrize("words", [words for words in FROM_CHECKOUT if words[0] in _QUICK], ids=" ".join)
 def test_quick_examples_run(
-    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(ROOT)
-    assert main(words) == DONE
+    assert main([*words]) == DONE
     assert capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""What guides and messages name as a path of the menus is there, in both languages."""
+"""Menus, buttons and labels that guides and messages name are there, in both languages."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from app.shell.action import without_dots, without_key
 from app.shell.language import TEXTS
 from app.shell.menus import BAR
 from app.shell.rows import rows
+from metadata.library import bundled_gestures, metadata_library
 
 ROOT = Path(__file__).parents[3]
 SHOWN = 40
@@ -55,6 +56,36 @@ def test_a_path_that_is_not_there_is_found() -> None:
 @pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.name)
 def test_guides_name_menus_as_they_are(guide: Path) -> None:
     assert wrong(guide.read_text(encoding="utf-8"), int(guide.stem.endswith("_ja"))) == []
+
+
+@cache
+def labels(place: int) -> set[str]:
+    """All texts of the window as a guide writes them, and the names of styles, habits and gestures."""
+    language = tuple(LANGUAGES)[place]
+    texts = {
+        without_dots(without_key(re.sub(r" ?[(（]?\{\w+\}[)）]?", "", wording[place]))) for wording in TEXTS.values()
+    }
+    acting = metadata_library()
+    titles = [row.title for row in acting.styles.items.values()]
+    titles += [row.title for row in acting.habits.items.values()]
+    titles += [row.title for row in bundled_gestures().values()]
+    named = [title.in_language(language) for title in titles]
+    return {text.strip(" :：").lower() for text in [*texts, *named]}
+
+
+@pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.name)
+def test_guides_name_labels_as_they_are(guide: Path) -> None:
+    """All that stands in italics is a label, in Japanese in corner brackets; what is bold may be a heading."""
+    text = re.sub(r"^    .*$|`[^`]*`", "", guide.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    quoted = r"「([^」]+)」" if guide.stem.endswith("_ja") else r"(?<![\w*])\*(?![ *])([^*]+?)\*(?![\w*])"
+    named = re.findall(quoted, " ".join(text.split()))
+    known = labels(int(guide.stem.endswith("_ja")))
+    missing = [
+        name
+        for name in named
+        if not all(without_dots(part).strip(" :：.").lower() in known for part in name.split(" > "))
+    ]
+    assert missing == []
 
 
 @pytest.mark.parametrize("place", [0, 1], ids=list(LANGUAGES))
