@@ -129,7 +129,9 @@ def read_motion(
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)
-    require_frames(str(file), seconds, float(rate), len(SEGMENTS), file.stat().st_size)
+    # What lies beside a file counts, too.
+    size = max(file.stat().st_size, bvh.rotations_xyzw.nbytes)
+    require_frames(str(file), seconds, float(rate), len(SEGMENTS), size)
     return motion_of(bvh, str(file), fps, joints)
 
 

@@ -93,7 +93,7 @@ def read_gltf_motion(path: Path) -> BvhClip:
         raise FileError("motion.no_animation", file=str(path))
     first_s = min(channel.times_s[0] for channel in animation.channels)
     fps = _usual_fps(animation)
-    require_frames(str(path), _length_s(animation), float(fps), len(gltf.nodes), path.stat().st_size)
+    require_frames(str(path), _length_s(animation), float(fps), len(gltf.nodes), gltf.size_bytes)
     count = round(_length_s(animation) * float(fps)) + 1
     values = _sampled(gltf, animation, first_s + np.arange(count) / float(fps))
     parents = [node.parent for node in gltf.nodes]

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import json
 import struct
-from typing import Any
+from typing import Any, Final
 
 from app.errors import FileError
 
-_MAGIC = b"glTF"
-_JSON, _BINARY = 0x4E4F534A, 0x004E4942
+MAGIC: Final = b"glTF"
+JSON: Final = 0x4E4F534A
+BINARY: Final = 0x004E4942
+"""Kinds of chunks."""
 
 
 def field(owner: object, name: str) -> Any:
@@ -23,7 +25,7 @@ def field(owner: object, name: str) -> Any:
 
 def split(data: bytes, file: str) -> tuple[dict[str, Any], bytes | None]:
     """The document of a file and its binary chunk, if it has one. Raises FileError."""
-    text, binary = (data, None) if data[:4] != _MAGIC else _chunks(data, file)
+    text, binary = (data, None) if data[:4] != MAGIC else _chunks(data, file)
     try:
         document = json.loads(text.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:
@@ -44,10 +46,10 @@ def _chunks(data: bytes, file: str) -> tuple[bytes, bytes | None]:
         length, kind = struct.unpack_from("<II", data, at)
         if at + 8 + length > end:
             raise FileError("gltf.damaged", file=file, what="chunk")
-        if not kinds and kind != _JSON:
+        if not kinds and kind != JSON:
             break
         kinds.setdefault(kind, data[at + 8 : at + 8 + length])
         at += 8 + length
-    if _JSON not in kinds:
+    if JSON not in kinds:
         raise FileError("gltf.not_gltf", file=file)
-    return kinds[_JSON], kinds.get(_BINARY)
+    return kinds[JSON], kinds.get(BINARY)

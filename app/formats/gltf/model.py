@@ -185,6 +185,8 @@ class GltfModel:
         The program that wrote the file.
     animations : tuple of GltfAnimation
         Only where they were asked for.
+    size_bytes : int
+        Of the file and of what lies beside it.
     """
 
     nodes: tuple[GltfNode, ...]
@@ -196,3 +198,4 @@ class GltfModel:
     scene_extras: Mapping[str, Any] = field(default_factory=dict)
     generator: str = ""
     animations: tuple[GltfAnimation, ...] = ()
+    size_bytes: int = 0

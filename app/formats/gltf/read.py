@@ -1,9 +1,8 @@
-"""glTF 2.0 files (``.glb``, or ``.gltf`` with everything inside) -> plain values.
+"""glTF 2.0 files (``.glb``, ``.gltf``) -> plain values.
 
 Every index, offset and size is checked before any byte is touched, since characters come from anywhere. Nothing outside
-the file is ever opened. Units stay glTF's: metres,
-right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0 Specification", sections 3.6 (buffers and accessors),
-3.7 (geometry, skins, morph targets) and 4 (GLB).
+the file's folder is ever opened. Units stay glTF's: metres, right-handed, Y up, quaternions xyzw. Source: Khronos,
+"glTF 2.0 Specification", sections 3.6 (buffers and accessors), 3.7 (geometry, skins, morph targets) and 4 (GLB).
 """
 
 from __future__ import annotations
@@ -17,7 +16,6 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.errors import FileError, shortened
-from app.formats.files import read_file
 from app.formats.gltf.accessors import Accessors
 from app.formats.gltf.container import field, split
 from app.formats.gltf.model import (
@@ -31,9 +29,8 @@ from app.formats.gltf.model import (
     GltfPrimitive,
     GltfSkin,
 )
+from app.formats.gltf.whole import read_whole
 
-MOST_BYTES = 2**30
-"""Largest file; characters have a hundredth of it."""
 MOST_NODES = 20_000
 DEEPEST = 500
 """Deepest nesting of nodes; strands of hair have some dozens of bones."""
@@ -68,11 +65,9 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False, morphing: 
     Raises
     ------
     FileError
-        If it cannot be read, is damaged, or needs another file.
+        If it cannot be read, is damaged, or needs a file that is not in its folder.
     """
-    file = os.fspath(path)
-    data = read_file(path, MOST_BYTES)
-    return decode_gltf(data, file, animated=animated, morphing=morphing)
+    return decode_gltf(read_whole(path), os.fspath(path), animated=animated, morphing=morphing)
 
 
 def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: bool = False) -> GltfModel:
@@ -90,6 +85,7 @@ def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: boo
         images=reader.images(),
         extensions=reader.mapping(reader.document, "extensions"),
         scene_extras=reader.scene_extras(),
+        size_bytes=len(data),
         generator=str(field(reader.mapping(reader.document, "asset"), "generator") or ""),
         animations=tuple(reader.animation(one, counts) for one in reader.items("animations")) if animated else (),
     )
@@ -269,8 +265,8 @@ class _Reader(Accessors):
         return self.optional_index(texture, "source", len(self.items("images")))
 
     def images(self) -> tuple[bytes, ...]:
-        """The images' files; empty where one lies beside this file, which is not needed. The same bytes are there
-        once, however many images they are."""
+        """The images' files; empty where one lies elsewhere, which is not needed. The same bytes are there once,
+        however many images they are."""
         blobs: dict[int, bytes] = {}
         found = []
         for image in self.items("images"):

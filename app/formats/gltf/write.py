@@ -28,12 +28,12 @@ import pygltflib as gltf
 from app.arrays import AnyFloatArray, AnyIntArray, SingleArray
 from app.errors import FileError
 from app.formats.atomic import atomic_write
+from app.formats.gltf.container import BINARY, JSON, MAGIC
 from app.formats.gltf.primitives import Primitive, primitives
 from app.formats.gltf.samplers import METRES, Samplers, weights_move
 from app.formats.scene import Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 from app.formats.skin import influences
 
-_MAGIC, _JSON, _BINARY = b"glTF", 0x4E4F534A, 0x004E4942
 _MOST_BYTES = 2**32 - 1
 _PER_SET = 4
 _COMPONENTS = {
@@ -78,11 +78,11 @@ def glb_pieces(scenes: Iterable[Scene]) -> Pieces:
         document.gltf.buffers = [gltf.Buffer(byteLength=binary_size)]
     text = document.gltf.gltf_to_json().encode()
     text += b" " * (-len(text) % 4)
-    chunks = [struct.pack("<II", len(text), _JSON), text]
+    chunks = [struct.pack("<II", len(text), JSON), text]
     if binary_size:
-        chunks += [struct.pack("<II", binary_size, _BINARY), *binary]
+        chunks += [struct.pack("<II", binary_size, BINARY), *binary]
     whole = 12 + sum(_size(piece) for piece in chunks)
-    return [struct.pack("<4sII", _MAGIC, 2, whole & _MOST_BYTES), *chunks]
+    return [struct.pack("<4sII", MAGIC, 2, whole & _MOST_BYTES), *chunks]
 
 
 def _size(piece: bytes | memoryview) -> int:

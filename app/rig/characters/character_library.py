@@ -22,8 +22,8 @@ import msgspec
 from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
-from app.formats.files import cannot_write, open_file, read_file
-from app.formats.gltf.read import MOST_BYTES
+from app.formats.files import cannot_write, open_file
+from app.formats.gltf.whole import read_whole
 from app.formats.toml import read_toml, shaped, toml
 from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
 from app.rig.characters.figure_build import PLAUSIBLE_M
@@ -219,7 +219,7 @@ def add_character(
     morphs: Mapping[str, Mapping[str, float]] | None = None,
     height_m: float = 0.0,
 ) -> str:
-    """Copy a character's file into the user's folder and describe it there.
+    """Copy a character's file into the user's folder, with what it needs of others, and describe it there.
 
     Parameters
     ----------
@@ -248,7 +248,7 @@ def add_character(
     with LIBRARY.lock:
         id = _free_id(title, folder)
         suffix = path.suffix.lower() if path.suffix.lower() in SUFFIXES else _suffix_of(path)
-        content = read_file(path, MOST_BYTES)
+        content = read_whole(path)
         with atomic_write(folder / f"{id}{suffix}") as stream:
             stream.write(content)
         # A file without a description is no one: what fails between the two leaves no half of a character.

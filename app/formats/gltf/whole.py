@@ -1,0 +1,93 @@
+"""A glTF file with everything it needs in it: what lies beside it becomes data URIs.
+
+A document may name its buffers and images by addresses. Followed are those that lead to a file in the document's own
+folder or below it, after links are resolved. Source: Khronos, "glTF 2.0 Specification", section 2.8 (URIs).
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import re
+import struct
+from pathlib import Path
+from typing import Any, Final
+from urllib.parse import unquote
+
+from app.errors import FileError
+from app.formats.files import read_file
+from app.formats.gltf.container import BINARY, JSON, MAGIC, field, split
+
+MOST_BYTES: Final = 2**30
+"""Largest file; characters have a hundredth of it."""
+MOST_BESIDE: Final = 2**27
+"""All that lies beside it: a small document may name anything, and is held several times."""
+_SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
+
+
+def read_whole(path: str | os.PathLike[str]) -> bytes:
+    """Read a glTF file; the same bytes where it needs no other file, or is none.
+
+    Images that cannot be had are left as they are: only colours come from them.
+
+    Raises
+    ------
+    FileError
+        ``gltf.external`` if a buffer is not in the file's folder; those of reading.
+    """
+    file, data = Path(path), read_file(path, MOST_BYTES)
+    if b'"uri"' not in data or not (data[:4] == MAGIC or data[:64].lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"):
+        return data
+    document, binary = split(data, str(file))
+    left, changed = MOST_BESIDE, False
+    known: dict[str, str] = {}
+    for name in ("buffers", "images"):
+        entries = field(document, name)
+        for entry in entries if isinstance(entries, list) else []:
+            uri = field(entry, "uri")
+            if not isinstance(uri, str) or uri.startswith("data:"):
+                continue
+            if uri not in known:
+                try:
+                    content = read_file(_inside(file, uri), left)
+                except FileError as error:
+                    if name == "images":
+                        continue
+                    outside = error.message.id in ("file.cannot_read", "file.not_regular")
+                    raise (_external(file, uri) if outside else error) from error
+                left -= len(content)
+                known[uri] = f"data:application/octet-stream;base64,{base64.b64encode(content).decode()}"
+            elif (left := left - len(known[uri])) < 0:
+                raise FileError("gltf.too_large", file=str(file))
+            entry["uri"], changed = known[uri], True
+    return _joined(document, binary) if changed else data
+
+
+def _inside(file: Path, uri: str) -> Path:
+    """The file that an address leads to. Raises FileError where that is not in the document's folder or below it."""
+    name = unquote(uri)
+    if _SCHEME.match(name) or name.startswith(("/", "\\")) or "\0" in name:
+        raise _external(file, uri)
+    try:
+        folder = file.parent.resolve()
+        found = (folder / name.replace("\\", "/")).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise _external(file, uri) from error
+    if not found.is_relative_to(folder):
+        raise _external(file, uri)
+    return found
+
+
+def _external(file: Path, uri: str) -> FileError:
+    return FileError("gltf.external", file=str(file), uri=uri[:200])
+
+
+def _joined(document: dict[str, Any], binary: bytes | None) -> bytes:
+    """A document and its binary chunk as a file."""
+    text = json.dumps(document, ensure_ascii=False).encode()
+    if binary is None:
+        return text
+    text += b" " * (-len(text) % 4)
+    chunks = [struct.pack("<II", len(part), kind) + part for part, kind in ((text, JSON), (binary, BINARY))]
+    return MAGIC + struct.pack("<II", 2, 12 + sum(map(len, chunks))) + b"".join(chunks)
