@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Final
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.editor.session import Session
-from app.errors import MapError, Message
+from app.errors import Message
 from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit import events as edit_events
 from app.project.edit import notes as edit_notes
+from app.project.edit.players import instrument_of
 from app.project.model import Project
-from app.project.performers import Player
 from instrument_maps.fingering_label import says_words
 from instrument_maps.fingering_words import fingering_words
-from instrument_maps.library import find_map
 from instrument_maps.model import Fingering, InstrumentMap
 from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
@@ -41,11 +41,7 @@ EMBOUCHURE = ("tension", "effort", "air")
 _WORDS: Final = {
     "pitch": ("note_section.pitch", "", "note_section.name_or_midi_number_several"),
     "onset": ("note_section.bar", "", "note_section.bar_beat_ticks_several_notes"),
-    "length": (
-        "note_section.length",
-        "note_section.beats",
-        "note_section.in_beats_of_metre",
-    ),
+    "length": ("note_section.length", "note_section.beats", "note_section.in_beats_of_metre"),
     "velocity": ("note_section.velocity", "", "note_section.velocity_tip"),
     "tension": ("note_section.tension", "", "note_section.lips_0_relaxed_for_low"),
     "effort": ("note_section.effort", "", "note_section.effort_tip"),
@@ -140,9 +136,8 @@ class NoteSection(Retranslated, QWidget):
     @property
     def diagram_bottom_px(self) -> int:
         """Distance from the top of the section to the end of the diagram of the fingering; 0 without one."""
-        if not self._diagram.isVisible():
-            return 0
-        return self._diagram.mapTo(self, QPoint(0, self._diagram.height() + 4)).y()
+        end = QPoint(0, self._diagram.height() + 4)
+        return self._diagram.mapTo(self, end).y() if self._diagram.isVisible() else 0
 
     def show_notes(self) -> bool:
         """Show the selected notes; whether there are any."""
@@ -176,7 +171,7 @@ class NoteSection(Retranslated, QWidget):
     def _show_plan(self, shown: SelectedNotes) -> None:
         player = shown.player
         plan = self._session.plans.get(player.id) if player is not None else None
-        instrument = _instrument(player)
+        instrument = instrument_of(player) if player is not None else None
         there = plan is not None and player is not None and instrument is not None
         self._fingering.setVisible(there)
         self._lips_box.setVisible(there)
@@ -208,13 +203,10 @@ class NoteSection(Retranslated, QWidget):
         self._chips_box.setVisible(same_pitch)
         self._diagram.show_fingering(instrument, event.controls)
         pinned = self._pin_label(shown)
-        by_whom = (
-            self.tr("note_section.generator")
-            if pinned is not None and made is not None
-            else self.tr("note_section.why")
-        )
-        reason = made.reason if pinned is not None and made is not None else event.reason
-        self._why.setText(by_whom.format(reason=message_text(reason, self._session, plan.player_id)))
+        text_id, reason = "note_section.why", event.reason
+        if pinned is not None and made is not None:
+            text_id, reason = "note_section.generator", made.reason
+        self._why.setText(self.tr(text_id).format(reason=message_text(reason, self._session, plan.player_id)))
         if pinned is not None:
             self._fingering_by_hand.show_values(
                 None if made is None else _spaced(made.label, instrument), _spaced(pinned, instrument)
@@ -297,7 +289,8 @@ class NoteSection(Retranslated, QWidget):
     # Words of numbers
 
     def _transposition(self) -> int:
-        instrument = _instrument(self._shown.player) if self._shown is not None else None
+        player = self._shown.player if self._shown is not None else None
+        instrument = instrument_of(player) if player is not None else None
         return instrument.transposition_semitones if instrument is not None else 0
 
     def _pitch_text(self, value: float) -> str:
@@ -309,66 +302,73 @@ class NoteSection(Retranslated, QWidget):
 
     # Editing
 
-    def _edit(self, name: str, change: object, token: object | None) -> None:
-        assert callable(change)
-        count = len(self._shown.note_ids) if self._shown is not None else 0
-        if not self._session.attempt(Message(name, {"count": count}), change, token):
+    def _edit(
+        self, name: str, change: Callable[[Project, SelectedNotes], Project], token: object | None = None
+    ) -> None:
+        """Edit the shown notes, by a function that takes them."""
+        shown = self._shown
+        if shown is not None and not self._session.attempt(
+            Message(name, {"count": len(shown.note_ids)}), lambda project: change(project, shown), token
+        ):
             self.show_notes()
 
+    def _edit_own(
+        self, name: str, change: Callable[[Project, str, tuple[str, ...]], Project], token: object | None = None
+    ) -> None:
+        """Edit the shown notes of the player whose fingering is seen, by a function that takes its id and theirs."""
+        if self._shown is not None and self._shown.player is not None:
+            player_id = self._shown.player.id
+            self._edit(name, lambda project, shown: change(project, player_id, shown.own_ids), token)
+
     def _set_pitch(self, value: float, token: object | None) -> None:
-        if self._shown is not None:
-            ids, by = self._shown.note_ids, round(value) - self._shown.note.pitch
-            self._edit("edit.transpose_notes", lambda project: edit_notes.move(project, ids, 0, by), token)
+        self._edit(
+            "edit.transpose_notes",
+            lambda project, shown: edit_notes.move(project, shown.note_ids, 0, round(value) - shown.note.pitch),
+            token,
+        )
 
     def _set_onset(self, value: float, token: object | None) -> None:
-        if self._shown is not None:
-            ids, by = self._shown.note_ids, round(value) - self._shown.note.onset_tick
-            self._edit("edit.move_notes", lambda project: edit_notes.move(project, ids, by, 0), token)
+        self._edit(
+            "edit.move_notes",
+            lambda project, shown: edit_notes.move(project, shown.note_ids, round(value) - shown.note.onset_tick, 0),
+            token,
+        )
 
     def _set_length(self, value: float, token: object | None) -> None:
-        if self._shown is None:
-            return
-        notes, score = self._shown.notes, self._session.project.score
-        ticks = max(round(value * score.metre_map.beat_length(self._shown.note.onset_tick)), 1)
-
-        def resized(project: Project) -> Project:
-            for note in notes:
+        def resized(project: Project, shown: SelectedNotes) -> Project:
+            ticks = max(round(value * project.score.metre_map.beat_length(shown.note.onset_tick)), 1)
+            for note in shown.notes:
                 project = edit_notes.resize(project, (note.id,), ticks - note.duration_tick)
             return project
 
         self._edit("edit.resize_notes", resized, token)
 
     def _set_velocity(self, value: float, token: object | None) -> None:
-        if self._shown is not None:
-            ids = self._shown.note_ids
-            self._edit(
-                "edit.change_velocity", lambda project: edit_notes.set_velocity(project, ids, round(value)), token
-            )
+        self._edit(
+            "edit.change_velocity",
+            lambda project, shown: edit_notes.set_velocity(project, shown.note_ids, round(value)),
+            token,
+        )
 
     def _pin(self, label: str) -> None:
-        if self._shown is not None and self._shown.player is not None:
-            player_id, ids = self._shown.player.id, self._shown.own_ids
-            self._edit(
-                "edit.pin_fingerings",
-                lambda project: edit_events.pin_fingerings(project, player_id, dict.fromkeys(ids, label)),
-                None,
-            )
+        self._edit_own(
+            "edit.pin_fingerings",
+            lambda project, player_id, ids: edit_events.pin_fingerings(project, player_id, dict.fromkeys(ids, label)),
+        )
 
     def _set_lips(self, name: str, value: float, token: object | None) -> None:
-        if self._shown is not None and self._shown.player is not None:
-            player_id, ids = self._shown.player.id, self._shown.own_ids
-            self._edit(
-                "edit.set_embouchure",
-                lambda project: edit_events.set_embouchure(project, player_id, ids, **{name: value}),
-                token,
-            )
+        self._edit_own(
+            "edit.set_embouchure",
+            lambda project, player_id, ids: edit_events.set_embouchure(project, player_id, ids, **{name: value}),
+            token,
+        )
 
     def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None = None) -> None:
         """Take corrections of the shown notes back, or only one value of them."""
-        if self._shown is None or self._shown.player is None:
-            return
-        player_id, ids = self._shown.player.id, frozenset(self._shown.own_ids)
-        self._edit("edit.give_back", lambda project: edit_events.forget(project, player_id, kind, ids, field), None)
+        self._edit_own(
+            "edit.give_back",
+            lambda project, player_id, ids: edit_events.forget(project, player_id, kind, frozenset(ids), field),
+        )
 
     # Words and pictures
 
@@ -387,19 +387,8 @@ def _cents_text(cents: float) -> str:
     return f"{cents:+.0f}¢".replace("-", "−") if round(cents) else ""
 
 
-def _instrument(player: Player | None) -> InstrumentMap | None:
-    if player is None:
-        return None
-    try:
-        return find_map(player.instrument_id)
-    except MapError:
-        return None
-
-
 def _lips_of(plan: PlayerPlan | None, note_id: str) -> EmbouchureEvent | None:
-    if plan is None:
-        return None
-    return next((event for event in plan.embouchures if event.note_id == note_id), None)
+    return next((event for event in plan.embouchures if event.note_id == note_id), None) if plan is not None else None
 
 
 def _spaced(label: str, instrument: InstrumentMap) -> str:

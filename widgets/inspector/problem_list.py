@@ -16,7 +16,7 @@ from app.errors import Message
 from app.messages import filled
 from app.plan.model import Problem
 from app.plan.problem_lines import problem_kind, problems_by_kind
-from app.project.edit.ignored_problems import ignore, unignore
+from app.project.edit.corrections import ignore, unignore
 from app.project.performers import Dancer, Player
 from app.score.model import Score
 from widgets.common.clicks import on_click, on_switch

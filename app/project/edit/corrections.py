@@ -1,19 +1,23 @@
-"""Putting corrections into a project and taking them out: one for each place, the last one counts."""
+"""Corrections put into a project and taken out: one for each place, the last one counts; and problems let be."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from app.plan.by_hand.corrections import Correction
+from app.plan.model import Problem
 from app.project.edit.found_events import OWN as OWN
 from app.project.edit.found_events import Placed as Placed
 from app.project.edit.found_events import corrections_of as corrections_of
 from app.project.edit.found_events import events_of as events_of
 from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
+from app.project.ignored_problems import IgnoredProblem, ignored_problem, is_ignored
 from app.project.model import Project
+
+T = TypeVar("T")
 
 
 def with_corrections(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
@@ -32,11 +36,39 @@ def take_back(project: Project, player_id: str, corrections: Iterable[Correction
     return _with(project, player_id, tuple(item for item in before if item.place not in places))
 
 
+def ignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
+    """Let problems of a performer be."""
+    clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
+    added = (ignored_problem(problem, clock) for problem in problems)
+    return _ignoring(project, performer_id, tuple(dict.fromkeys((*known, *added))))
+
+
+def unignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
+    """Count problems of a performer again."""
+    clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
+    again = tuple(problems)
+    kept = tuple(item for item in known if not any(is_ignored(problem, (item,), clock) for problem in again))
+    return _ignoring(project, performer_id, kept)
+
+
 def _with(project: Project, player_id: str, corrections: tuple[Correction, ...]) -> Project:
-    if corrections == project.corrections.get(player_id, ()):
-        return project
-    others = {key: value for key, value in project.corrections.items() if key != player_id}
-    return replace(project, corrections={**others, player_id: corrections} if corrections else others)
+    now = _changed(project.corrections, player_id, corrections)
+    return project if now is project.corrections else replace(project, corrections=now)
+
+
+def _ignoring(project: Project, performer_id: str, ignored: tuple[IgnoredProblem, ...]) -> Project:
+    now = _changed(project.ignored_problems, performer_id, ignored)
+    return project if now is project.ignored_problems else replace(project, ignored_problems=now)
+
+
+def _changed(
+    known: Mapping[str, tuple[T, ...]], performer_id: str, items: tuple[T, ...]
+) -> Mapping[str, tuple[T, ...]]:
+    """Give a performer other items, of whom no row is left without any; the same mapping where nothing changes."""
+    if items == known.get(performer_id, ()):
+        return known
+    others = {id: kept for id, kept in known.items() if id != performer_id}
+    return {**others, performer_id: items} if items else others
 
 
 class Edited(NamedTuple):

@@ -15,8 +15,8 @@ from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.plan.model import Problem
 from app.project.document import Document
+from app.project.edit.corrections import ignore, unignore
 from app.project.edit.dancers import add_dancer, remove_dancers
-from app.project.edit.ignored_problems import ignore, unignore
 from app.project.edit.notes import move
 from app.project.edit.players import remove_players, rename
 from app.project.ignored_problems import split_by_ignored
