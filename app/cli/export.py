@@ -25,7 +25,7 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
-from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, requested
+from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, refuse_attachment, requested
 from app.export.request import ExportRequest
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
 from app.export.run import export as write
@@ -291,4 +291,5 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("unreal.keys")
     if arguments.keys == "reduced" and not any(kind.reduces_keys for kind in requested(formats)):
         raise UsageError("keys.formats", possible=names_where(lambda kind: kind.reduces_keys))
+    refuse_attachment(formats, arguments.instrument)
     return formats

@@ -37,6 +37,8 @@ from app.rig.motion_file import SUFFIXES, read_motion_file
 from app.rig.skeleton import forward
 
 HIPS: Final = "hips"
+_EYES: Final = ("leftEye", "rightEye")
+"""Not all formats have bones for them."""
 _OTHER_BODY_CM: Final = 1.0
 """Bones whose lengths differ by more are those of another body."""
 _HELD_M: Final = 0.03
@@ -65,6 +67,7 @@ class PlayerKeyframes:
     start_s, fps : float
         Performance time of its first frame, and frames per second.
     rotations : (F, J, 4) float64
+        NaN of eyes that the file has no bones for: these are the performance's.
     hips_m : (F, 3) float64
         As of `app.motion.model.Motion`.
     performer : Performer
@@ -95,6 +98,7 @@ class PlayerKeyframes:
         before = int(at)
         after, share = min(before + 1, len(self.hips_m) - 1), at - before
         turned = quaternion.slerp(self.rotations[before], self.rotations[after], share)
+        turned = np.where(np.isnan(turned), pose.rotations, turned)
         hips_m = (1.0 - share) * self.hips_m[before] + share * self.hips_m[after]
         seen = replace(pose, rotations=turned.astype(np.float32), hips_m=hips_m.astype(np.float32))
         return self._held(seen, pose)
@@ -242,6 +246,8 @@ def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[Float
     skeleton = performer.character.skeleton
     place = {name: joint for joint, name in enumerate(clip.names)}
     below = [joint for joint in range(len(skeleton.names)) if _hangs_on_hips(skeleton, joint)]
+    eyes = [skeleton.index(eye) for eye in _EYES if eye not in place]
+    below = [joint for joint in below if joint not in eyes]
     missing = [skeleton.names[joint] for joint in below if skeleton.names[joint] not in place]
     if HIPS not in place or 2 * len(missing) > len(below):
         raise FileError("evaluate.keyframes_skeleton", file=str(path))
@@ -266,6 +272,7 @@ def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[Float
     rotations[:, skeleton.index(HIPS)] = quaternion.multiply(turn, rest[skeleton.index(HIPS)])
     turned = quaternion.multiply(clip.rotations_xyzw[:, places], rest[jointed])
     rotations[:, jointed] = quaternion.multiply(quaternion.conjugate(rest[parents]), turned)
+    rotations[:, eyes] = np.nan
     return quaternion.normalize(rotations), hips_m
 
 

@@ -57,21 +57,23 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
 
 def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, reported: Progress) -> DancerReport:
     """Write and measure the files of a dancer; parameters as of `app.export.player.export_player`."""
-    dancer, dancing, target, span = cast.dancer, cast.dancing, cast.target, request.span
+    dancer, dancing, span = cast.dancer, cast.dancing, request.span
     files, rows = file_names(request.performance, request.formats)[dancer.id], requested(request.formats)
     reported(0.0)
     motion = dancing.motion(span.fps, span.first, span.count)
     reported(0.3)
-    scene = dancer_scene(request, cast, motion)
-    options = write_options(request, dancing.character, target)
+    scenes: dict[bool, Scene] = {}
+    options = write_options(request, dancing.character, cast.target)
     for row in rows:
-        row.write(folder / files[row.key("character")], (scene,), options)
+        if row.humanoid not in scenes:
+            scenes[row.humanoid] = dancer_scene(request, cast, motion, row)
+        row.write(folder / files[row.key("character")], (scenes[row.humanoid],), options)
     reported(0.8)
     measures = None
     for row in rows:
         if row.read is not None and measures is None:
-            read = row.read(folder / files[row.key("character")], scene.meshes)
-            standing = dancing.standing(span.fps, span.first, span.count)
+            read = row.read(folder / files[row.key("character")], scenes[row.humanoid].meshes)
+            standing, target = dancing.standing(span.fps, span.first, span.count), cast.target_in(row)
             measures = measure_dancer(without_place(read, target.place), dancing.character, target, standing)
     reported(1.0)
     return DancerReport(
@@ -83,5 +85,5 @@ def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, repor
         steps=sum(span.first_frame_s <= start_s < span.end_s for start_s in dancing.starts_s(span.fps)),
         skeleton=skeleton_report(request, cast.checked),
         measures=measures,
-        keys=key_count(scene),
+        keys=key_count(scenes[rows[0].humanoid]),
     )

@@ -5,25 +5,34 @@ from __future__ import annotations
 from app.export.attachment import own_path
 from app.export.character import character_scene
 from app.export.file_names import figure_stems
+from app.export.formats import FileFormat
+from app.export.humanoid import humanoid_scene
 from app.export.instrument import instrument_scene
 from app.export.keyed import keyed_character, keyed_instrument
 from app.export.request import CastDancing, CastMusician, ExportRequest
-from app.export.target import instrument_path
+from app.export.target import TargetSkeleton, instrument_path
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
 from app.performance.motion import player_motion
+from app.rig.model import Character
 
 
-def musician_scene(request: ExportRequest, musician: CastMusician, motion: Motion) -> Scene:
+def musician_scene(
+    request: ExportRequest, musician: CastMusician, motion: Motion, kind: FileFormat | None = None
+) -> Scene:
     """The scene of a musician's character, with the sockets where the instruments are.
 
     Parameters
     ----------
     motion : Motion
         Of the first instrument's player.
+    kind : FileFormat, optional
+        The kind of file, which may have a skeleton of its own.
     """
     name, target = figure_stems(request.performance)[musician.player.id]["character"], musician.target
+    if kind is not None and kind.humanoid:
+        return _animation_scene(request, musician.character, motion, name, musician.target_in(kind))
     motions = [motion] if target.sockets else []
     if target.sockets:
         motions += [player_motion(request.performance, double, request.span) for double in musician.performers[1:]]
@@ -41,8 +50,17 @@ def held_scene(request: ExportRequest, musician: CastMusician, performer: Perfor
     return keyed_instrument(scene, request.keys, request.formats)
 
 
-def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion) -> Scene:
-    """The scene of a dancer's character."""
+def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind: FileFormat | None = None) -> Scene:
+    """The scene of a dancer's character; `kind` as of a musician."""
     name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.dancing.character
+    if kind is not None and kind.humanoid:
+        return _animation_scene(request, character, motion, name, cast.target_in(kind))
     scene = character_scene(character, motion, name, request.creator, cast.target)
     return keyed_character(scene, request.keys, request.formats, character, cast.target)
+
+
+def _animation_scene(
+    request: ExportRequest, character: Character, motion: Motion, name: str, target: TargetSkeleton
+) -> Scene:
+    scene = humanoid_scene(character, motion, name, request.creator, target)
+    return keyed_character(scene, request.keys, request.formats, character, target)

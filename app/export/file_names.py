@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from app.export.formats import FileContent, Format, requested
+from app.export.formats import FileContent, Format, files_of, requested
 from app.performance.ensemble import Performance
 from app.project.names import file_stems
 from app.project.performers import Dancer, Player
@@ -41,12 +41,7 @@ def figure_stems(performance: Performance) -> Stems:
 def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
     """Names of the files of every player and dancer: by id, then by what they hold."""
     return {
-        id: {
-            kind.key(held): f"{stems[held]}{kind.suffix}"
-            for kind in requested(formats)
-            for held in kind.holds
-            if held in stems
-        }
+        id: {kind.key(held): f"{stems[held]}{kind.suffix}" for kind, held in files_of(formats) if held in stems}
         for id, stems in figure_stems(performance).items()
     }
 

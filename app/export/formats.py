@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
+from app.errors import UsageError
+from app.export.rig_options import Attachment
 from app.formats.scene import Scene, SkinnedMesh
 from app.formats.usd import UsdSound
 from app.formats.usd_package import refuse_without_usd
@@ -26,10 +28,13 @@ class WriteOptions:
         Name of a sound file in the same folder that starts with frame 0.
     bone_names : mapping of int to str
         Other names than the scene's, by bone, for files that are chosen by the names of their bones.
+    expressions : mapping of str to mapping of str to float
+        Further expressions of a face, by weights of the scene's morphs.
     """
 
     sound: str | None = None
     bone_names: Mapping[int, str] = field(default_factory=dict)
+    expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,10 @@ class FileFormat:
         With its dot.
     holds : tuple of str
         Whose scenes it can hold, each in a file of its own.
+    held_in : Format
+        The format of the instruments' files beside it, where it cannot hold them; empty: they have none.
+    humanoid : bool
+        Whether characters are written on the humanoid of VRM, whatever skeleton was chosen.
     work : float
         How long a player's files take to write, beside those of the other formats.
     write : callable
@@ -73,6 +82,8 @@ class FileFormat:
     holds: tuple[FileContent, ...]
     work: float
     write: Callable[[Path, Iterable[Scene], WriteOptions], None]
+    held_in: Format = ""
+    humanoid: bool = False
     stage: bool = True
     read: Callable[[Path, Sequence[SkinnedMesh]], Scene] | None = None
     usual: bool = False
@@ -134,6 +145,19 @@ def _read_usd(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
     return read_scene(path)
 
 
+def _write_vrma(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
+    from app.formats.gltf.vrma import write_vrma
+
+    (scene,) = scenes
+    write_vrma(path, scene, beside.expressions)
+
+
+def _read_vrma(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
+    from app.formats.gltf.vrma import read_vrma
+
+    return read_vrma(path, written)
+
+
 _BOTH: Final[tuple[FileContent, ...]] = ("character", "instrument")
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
@@ -165,6 +189,18 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             package="usd-core",
             refuse=refuse_without_usd,
         ),
+        FileFormat(
+            "vrma",
+            "VRM Animation",
+            ".vrma",
+            ("character",),
+            1.0,
+            _write_vrma,
+            held_in="glb",
+            humanoid=True,
+            stage=False,
+            read=_read_vrma,
+        ),
     )
 }
 """In the order in which they are written and listed."""
@@ -173,9 +209,35 @@ USUAL_FORMATS: Final = tuple(row.id for row in FILE_FORMATS.values() if row.usua
 """Formats by default."""
 
 
+def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[FileFormat, FileContent], ...]:
+    """The files that are written of each character and instrument, in their order: their formats and contents.
+
+    Parameters
+    ----------
+    formats : collection of str
+    reads : bool
+        Only those that are read again, to be measured.
+    """
+    rows = requested(formats)
+    if reads:
+        rows = tuple(row for row in rows if row.read is not None)[:1]
+    found: list[tuple[FileFormat, FileContent]] = []
+    for row in rows:
+        found += [(row, held) for held in row.holds]
+        found += [(FILE_FORMATS[row.held_in], "instrument")] if row.held_in else []
+    return tuple(dict.fromkeys(found))
+
+
 def requested(formats: Collection[Format]) -> tuple[FileFormat, ...]:
     """The rows of some formats."""
     return tuple(row for id, row in FILE_FORMATS.items() if id in formats)
+
+
+def refuse_attachment(formats: Collection[Format], attachment: Attachment) -> None:
+    """Raise UsageError where instruments are to hang on bones that files of some format do not have."""
+    without = [row.label for row in requested(formats) if row.humanoid]
+    if without and attachment != "free":
+        raise UsageError("attachment.formats", formats=", ".join(without))
 
 
 def names_where(true: Callable[[FileFormat], bool]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -16,7 +17,8 @@ from app.errors import Progress
 from app.export.attachment import in_world, without_place
 from app.export.figures import held_scene, musician_scene
 from app.export.file_names import file_names, sound_name
-from app.export.formats import FileContent, FileFormat, WriteOptions, requested
+from app.export.formats import FileContent, FileFormat, Format, WriteOptions, files_of
+from app.export.humanoid import vrm_expressions
 from app.export.keyed import KeyCount, key_count
 from app.export.measure import PlayerJudge, PlayerMeasurement
 from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, stage_place
@@ -122,35 +124,41 @@ def _write(
 ) -> _Written:
     """Write the instrument of one of a musician's players, and the character with the first; ``meshes`` are those of a
     character that is written already."""
-    performance, rows, first = request.performance, requested(request.formats), performer is musician.performers[0]
+    performance, first = request.performance, performer is musician.performers[0]
+    rows, reads = files_of(request.formats), files_of(request.formats, reads=True)
     files = file_names(performance, request.formats)
-    work = _work(rows)
+    work = _work(request.formats)
     reported(0.0)
     motion = player_motion(
         performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share), cores=cores
     )
-    scenes: dict[FileContent, Scene] = {}
-    if first:
-        scenes["character"] = musician_scene(request, musician, motion)
-    if not first or any("instrument" in row.holds for row in rows):
-        scenes["instrument"] = held_scene(request, musician, performer, motion)
-    keys = key_count(*scenes.values())
+    scenes: dict[tuple[FileContent, bool], Scene] = {}
+    for row, held in rows:
+        kind = held, row.humanoid
+        if kind not in scenes and (first or held == "instrument"):
+            scenes[kind] = (
+                musician_scene(request, musician, motion, row)
+                if held == "character"
+                else held_scene(request, musician, performer, motion)
+            )
+    keys = key_count(*_counted(scenes))
     options = write_options(request, musician.character, musician.target)
     read: dict[FileContent, Scene] = {}
     problems: list[tuple[Problem, ...]] = []
 
     def write(row: FileFormat, held: FileContent) -> None:
-        path = folder / files[performer.player.id if held in scenes else musician.player.id][row.key(held)]
-        if held in scenes:
-            row.write(path, (scenes[held],), options)
-        if row is _read_back(rows) and row.read is not None:
+        scene = scenes.get((held, row.humanoid))
+        path = folder / files[musician.player.id if scene is None else performer.player.id][row.key(held)]
+        if scene is not None:
+            row.write(path, (scene,), options)
+        if (row, held) in reads and row.read is not None:
             # Read back at once, while other files are written.
-            read[held] = row.read(path, scenes[held].meshes if held in scenes else meshes)
+            read[held] = row.read(path, meshes if scene is None else scene.meshes)
 
     def judge() -> None:
         problems.append(judged_problems(performance, performer, motion))
 
-    writing = [(row, held) for row in rows for held in row.holds if held in scenes or row is _read_back(rows)]
+    writing = [(row, held) for row, held in rows if (held, row.humanoid) in scenes or (row, held) in reads]
     shares = [row.work / len(row.holds) for row, _ in writing] + [0.0]
     done = [_MOTION_WORK]
 
@@ -159,18 +167,19 @@ def _write(
         reported(sum(done) / work)
 
     in_threads([*(partial(write, *one) for one in writing), judge], finished)
-    return _Written(keys, scenes["character"].meshes if first else meshes, problems[0], read)
+    judged = next((scenes[held, row.humanoid] for row, held in reads or rows if held == "character" and first), None)
+    return _Written(keys, meshes if judged is None else judged.meshes, problems[0], read)
 
 
-def _work(rows: tuple[FileFormat, ...]) -> float:
+def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:
+    """The scenes whose keys are counted: of those of a character the first."""
+    return {held: scene for (held, _), scene in reversed(scenes.items())}.values()
+
+
+def _work(formats: frozenset[Format]) -> float:
     """Work on a musician as the player of one instrument."""
-    measures = 0.0 if _read_back(rows) is None else _MEASURES_WORK
-    return _MOTION_WORK + sum(row.work for row in rows) + measures
-
-
-def _read_back(rows: tuple[FileFormat, ...]) -> FileFormat | None:
-    """The format whose files are measured."""
-    return next((row for row in rows if row.read is not None), None)
+    measures = _MEASURES_WORK if files_of(formats, reads=True) else 0.0
+    return _MOTION_WORK + sum(row.work / len(row.holds) for row, _ in files_of(formats)) + measures
 
 
 def _measured(
@@ -184,7 +193,8 @@ def _measured(
     none was read. The scenes are taken out of ``read``."""
     if not read:
         return None
-    performance, place = request.performance, musician.target.place
+    ((kind, _), *_) = files_of(request.formats, reads=True)
+    performance, target = request.performance, musician.target_in(kind)
     character, instrument = read.pop("character"), read.pop("instrument")
     if musician.sockets:
         instrument = in_world(instrument, character, musician.sockets[performer.player.id])
@@ -192,15 +202,15 @@ def _measured(
     judge = PlayerJudge(
         performer,
         performance.plan(performer.player),
-        musician.target,
+        target,
         tuple((change.start_s, change.end_s) for change in changes),
         notes_out_of_reach(performance.problems(performer.player.id)),
         danced_feet(performance, performer.player),
     )
-    done = 1.0 - _MEASURES_WORK / _work(requested(request.formats))
+    done = 1.0 - _MEASURES_WORK / _work(request.formats)
     return judge.measure(
-        without_place(character, place),
-        without_place(instrument, place),
+        without_place(character, target.place),
+        without_place(instrument, target.place),
         request.span.first_frame_s,
         lambda share: reported(done + (1.0 - done) * share),
     )
@@ -244,4 +254,5 @@ def write_options(request: ExportRequest, character: Character, target: TargetSk
     return WriteOptions(
         sound=sound_name(request.source) if request.sound else None,
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
+        expressions=vrm_expressions(character),
     )

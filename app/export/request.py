@@ -8,7 +8,8 @@ from pathlib import Path
 
 from app.errors import FileError, Message, StopRequested
 from app.export.equipped_skeleton import socket_names
-from app.export.formats import Format, requested
+from app.export.formats import FileFormat, Format, refuse_attachment, requested
+from app.export.humanoid import humanoid_target
 from app.export.rig import rig_of
 from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.target import SkeletonChoice, TargetSkeleton
@@ -116,6 +117,10 @@ class CastMusician:
         """The skeleton that the character is written on."""
         return self.checked.target
 
+    def target_in(self, kind: FileFormat) -> TargetSkeleton:
+        """The skeleton that the character is written on in files of a kind."""
+        return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
+
     @property
     def sockets(self) -> dict[str, str]:
         """The bone that each instrument hangs on, by the player's id; none where they are free."""
@@ -134,6 +139,10 @@ class CastDancing:
     def target(self) -> TargetSkeleton:
         """The skeleton that the character is written on."""
         return self.checked.target
+
+    def target_in(self, kind: FileFormat) -> TargetSkeleton:
+        """As of a musician."""
+        return humanoid_target(self.dancing.character, self.target.place) if kind.humanoid else self.target
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +169,7 @@ def cast_of(
     FileError
         ``export.no_players``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
     UsageError
-        ``usd.missing``.
+        ``usd.missing``; ``attachment.formats``.
     Cancelled
         ``stop_requested`` said so.
     """
@@ -170,6 +179,7 @@ def cast_of(
         raise FileError("export.no_players", file=request.source)
     for kind in requested(request.formats):
         kind.refuse()
+    refuse_attachment(request.formats, request.rig.instrument)
     asset = None if request.asset is None else read_figure(request.asset)
 
     project = request.performance.project

@@ -129,7 +129,8 @@ class TargetSkeleton:
     @property
     def normalised(self) -> bool:
         """True if every bone is the joint of its number, and does what that does."""
-        return self.choice == "suisou" and not self.added and self.root_bone == "origin"
+        moved = self.added or self.root_bone != "origin"
+        return self.choice == "suisou" and not moved and self.joint_of_bone == tuple(range(len(self.names)))
 
     @property
     def loose(self) -> frozenset[int]:

@@ -41,6 +41,9 @@ class Figure:
         What the file's own expressions (VRM presets, by their VRM 1.0 names) are: weights 0..1 of its morphs.
     notes : tuple of Message
         What the reader had to guess.
+    posed : (B, 4) float64 or None
+        ``parent_from_bone`` as the nodes of a VRM file stand, which is its T-pose: others than `rotations` where the
+        skin was bound in another pose. None of other files.
     """
 
     file: str
@@ -53,6 +56,7 @@ class Figure:
     humanoid: Mapping[str, int] = field(default_factory=dict)
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     notes: tuple[Message, ...] = ()
+    posed: FloatArray | None = None
 
     @property
     def morph_names(self) -> tuple[str, ...]:

@@ -8,10 +8,10 @@ file has it without animation. The longest animation counts.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from app.errors import FileError
 from app.formats.bvh.clip import BvhClip
 from app.formats.fbx.foreign import read_foreign_motion
 from app.formats.gltf.animation import sampled
+from app.formats.gltf.container import field
 from app.formats.gltf.model import GltfAnimation, GltfModel
 from app.formats.motion_limits import require_frames
 from app.formats.rates import exact_rate
@@ -33,6 +34,7 @@ LEAST_BAKED_FPS: Final = 20.0
 """Keys that are farther apart were set by hand: what is between them is sampled at `OTHERWISE_FPS`."""
 OTHERWISE_FPS: Final = Fraction(60)
 ROOT: Final = "file"
+VRM_ANIMATION: Final = "VRMC_vrm_animation"
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,10 +87,15 @@ def read_fbx_motion(path: Path) -> BvhClip:
 
 
 def read_gltf_motion(path: Path) -> BvhClip:
-    """The longest animation of a glTF file (.glb, .gltf). Raises FileError."""
+    """The longest animation of a glTF file (.glb, .gltf, .vrma). Raises FileError."""
     source = read_source(path, animated=True)
     gltf = source.gltf
-    animation = max(gltf.animations, key=_length_s, default=None)
+    bones, no_bones = _vrm_animation(gltf)
+    animations = [
+        replace(one, channels=tuple(channel for channel in one.channels if channel.node not in no_bones))
+        for one in gltf.animations
+    ]
+    animation = max(animations, key=_length_s, default=None)
     if animation is None or _length_s(animation) <= 0.0:
         raise FileError("motion.no_animation", file=str(path))
     first_s = min(channel.times_s[0] for channel in animation.channels)
@@ -98,8 +105,29 @@ def read_gltf_motion(path: Path) -> BvhClip:
     values = _sampled(gltf, animation, first_s + np.arange(count) / float(fps))
     parents = [node.parent for node in gltf.nodes]
     rest = rest_pose(parents, source.world_from_node, bind_pose(source))
-    other = {at for at, node in enumerate(gltf.nodes) if node.mesh is not None}
-    return _clip(_Nodes([node.name for node in gltf.nodes], parents, other, rest, fps, *values))
+    other = {at for at, node in enumerate(gltf.nodes) if node.mesh is not None} | no_bones
+    names = [bones.get(at, node.name) for at, node in enumerate(gltf.nodes)]
+    return _clip(_Nodes(names, parents, other, rest, fps, *values))
+
+
+def _vrm_animation(gltf: GltfModel) -> tuple[dict[int, str], set[int]]:
+    """Of a VRM animation the humanoid bones of its nodes, and the nodes that stand for expressions and the gaze."""
+    extension = field(gltf.extensions, VRM_ANIMATION)
+    kinds = field(extension, "expressions")
+    faces = [one for kind in ("preset", "custom") for one in _members(field(kinds, kind)).values()]
+    bones = _members(field(field(extension, "humanoid"), "humanBones"))
+    named = {node: name for name, bone in bones.items() for node in _node(gltf, bone)}
+    return named, {node for one in (*faces, field(extension, "lookAt")) for node in _node(gltf, one)} - named.keys()
+
+
+def _members(value: object) -> dict[str, Any]:
+    return value if isinstance(value, dict) else {}
+
+
+def _node(gltf: GltfModel, owner: object) -> tuple[int, ...]:
+    """The node that an object of the extension names, if it is there."""
+    node = field(owner, "node")
+    return (node,) if isinstance(node, int) and 0 <= node < len(gltf.nodes) else ()
 
 
 def _length_s(animation: GltfAnimation) -> float:
@@ -125,8 +153,8 @@ def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> 
         "scale": ("scale", 3),
     }
     values = {}
-    for path, (field, width) in kept.items():
-        still = np.array([getattr(node, field) for node in gltf.nodes]).reshape(-1, width)
+    for path, (attribute, width) in kept.items():
+        still = np.array([getattr(node, attribute) for node in gltf.nodes]).reshape(-1, width)
         values[path] = np.tile(still, (len(times_s), 1, 1))
     # A file may name one target many times; the last one holds.
     targets = {(channel.node, channel.path): channel for channel in animation.channels}

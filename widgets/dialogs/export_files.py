@@ -18,7 +18,7 @@ from app.editor.session import Session, Severity
 from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
-from app.export.formats import requested
+from app.export.formats import refuse_attachment, requested
 from app.export.request import ExportRequest
 from app.formats.keys import KEY_CHOICES, KeyChoice
 from app.performance.ensemble import Performance
@@ -165,7 +165,7 @@ class ExportDialog(WorkingDialog):
         self._timer.timeout.connect(self._show_written)
         self._lay_out()
         self._place.changed.connect(lambda: self._skeleton.set_destination(self._place.destination))
-        for chooser in (self._skeleton, self._place, self._range, self._formats):
+        for chooser in (self._skeleton, self._rig, self._place, self._range, self._formats):
             chooser.changed.connect(self._show_outcome)
         self._players.itemChanged.connect(self._show_players)
         self.texted(self, title="export_dialog.export")
@@ -343,6 +343,7 @@ class ExportDialog(WorkingDialog):
         text = problem
         if not problem:
             try:
+                refuse_attachment(self._formats.formats if into_folder else (), self._rig.options.instrument)
                 text = self._foreseen()
             except AppError as error:
                 problem = text = message_text(error.message)

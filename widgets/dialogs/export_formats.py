@@ -41,10 +41,13 @@ class FormatChooser(Retranslated, QWidget):
             box.setEnabled(name not in missing)
             kind = FILE_FORMATS[name]
             text = "characters_and_instruments" if "instrument" in kind.holds else "body_motion"
+            text = "motion_and_instruments" if kind.held_in else text
             if name in missing:
                 text = "requires_package"
                 self.texted(box, tip=partial(message_text, missing[name]))
-            self.texted(box, text=said(f"format_chooser.{text}", format=kind.label, package=kind.package))
+            held = FILE_FORMATS[kind.held_in or name].label
+            words = said(f"format_chooser.{text}", format=kind.label, package=kind.package, instruments=held)
+            self.texted(box, text=words)
         self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
         self._stage = named(Check("format_chooser.whole_stage_in_one_file"), "export_stage")
         self._stage.setChecked(True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.export.rig_options import ATTACHMENTS, REST_POSES, ROOT_BONES, RigOptions
@@ -13,6 +14,8 @@ from widgets.common.plain import ComboBox
 
 class RigChooser(Retranslated, QWidget):
     """A box for each choice; as they are, the files are as they always were."""
+
+    changed = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -24,6 +27,7 @@ class RigChooser(Retranslated, QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         for index, field in enumerate((self._instrument, self._root_bone, self._rest_pose, self._twist_bones)):
             layout.addWidget(field, *divmod(index, 2))
+        self._instrument.currentIndexChanged.connect(self.changed)
         self.texted(
             self._instrument,
             items=(

@@ -118,28 +118,34 @@ def _morph(mesh: GltfMesh, number: int, numbers: Sequence[AnyIntArray]) -> Morph
 
 def _clip(model: GltfModel, animation: GltfAnimation, row_of: Mapping[int, int], bones: tuple[Bone, ...]) -> Clip:
     """The clip of an animation; LookupError or ValueError where it lacks rate and length."""
-    fps, frames = Fraction(str(animation.extras["framesPerSecond"])), int(animation.extras["frames"])
-    last_s = max((channel.times_s[-1] for channel in (*animation.channels, *animation.weights)), default=0.0)
-    if fps <= 0 or not 1 <= frames <= last_s * float(fps) + 1.5:
-        raise ValueError(f"{frames} frames")
-    times_s = np.arange(frames) / float(fps)
+    fps, times_s = clip_frames(animation)
+    frames = len(times_s)
     rotations = np.tile(np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in bones]), (frames, 1, 1))
     translations: dict[int, FloatArray] = {}
     for channel in animation.channels:
         if channel.path == "rotation":
-            rotations[:, row_of[channel.node]] = _values(channel, times_s)
+            rotations[:, row_of[channel.node]] = channel_values(channel, times_s)
         elif channel.path == "translation":
-            translations[row_of[channel.node]] = _values(channel, times_s) / METRES
+            translations[row_of[channel.node]] = channel_values(channel, times_s) / METRES
         else:
             raise ValueError(channel.path)
     weights: dict[str, FloatArray] = {}
     for channel in animation.weights:
         mesh = model.nodes[channel.node].mesh
         assert mesh is not None, "the reader knows how many morphs it has"
-        weights |= zip(model.meshes[mesh].morph_names, _values(channel, times_s).T, strict=True)
+        weights |= zip(model.meshes[mesh].morph_names, channel_values(channel, times_s).T, strict=True)
     return Clip(animation.name, fps, frames, rotations, translations, weights)
 
 
-def _values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
+def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
+    """Rate of a written animation and the times (F,) of its frames; LookupError or ValueError where it says neither."""
+    fps, frames = Fraction(str(animation.extras["framesPerSecond"])), int(animation.extras["frames"])
+    last_s = max((channel.times_s[-1] for channel in (*animation.channels, *animation.weights)), default=0.0)
+    if fps <= 0 or not 1 <= frames <= last_s * float(fps) + 1.5:
+        raise ValueError(f"{frames} frames")
+    return fps, np.arange(frames) / float(fps)
+
+
+def channel_values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
     """Values (F, W) of a channel at all frames: its keys, where it has one on each."""
     return channel.values if len(channel.times_s) == len(times_s) else sampled(channel, times_s)

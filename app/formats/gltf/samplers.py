@@ -54,15 +54,15 @@ class Samplers:
             frames = None if keys is None else keys.bones[bone]
             if bone in clip.translations_cm:
                 places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)
-                self._add(first + bone, "translation", places, frames)
-            self._add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]), frames)
+                self.add(first + bone, "translation", places, frames)
+            self.add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]), frames)
         for node, mesh in zip(mesh_nodes, scene.meshes, strict=True):
             if weights_move(clip, mesh):
                 weights = _weights(clip, (morph.name for morph in mesh.morphs))
                 frames = None if keys is None else keys.face
-                self._add(node, "weights", weights, frames, flat=True)
+                self.add(node, "weights", weights, frames, flat=True)
 
-    def _add(self, node: int, path: str, values: SingleArray, frames: AnyIntArray | None, flat: bool = False) -> None:
+    def add(self, node: int, path: str, values: SingleArray, frames: AnyIntArray | None, flat: bool = False) -> None:
         """Animate one property; `values` has a row per frame, with keys at some frames or at all."""
         if frames is not None:
             frames = frames[:1] if (values[frames] == values[0]).all() else frames

@@ -62,7 +62,12 @@ def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
 
 def write_glbs(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
     """Write scenes into one file as `write_glb`; each is let go when the next is asked for."""
-    pieces = glb_pieces(scenes)
+    write_document(path, _document(scenes))
+
+
+def write_document(path: str | os.PathLike[str], document: Document) -> None:
+    """Write a document as `write_glb` does a scene."""
+    pieces = _pieces(document)
     if sum(_size(piece) for piece in pieces) > _MOST_BYTES:
         raise FileError("file.cannot_write", file=os.fspath(path), reason="GLB > 4 GB")
     with atomic_write(path) as stream:
@@ -71,7 +76,11 @@ def write_glbs(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
 
 def glb_pieces(scenes: Iterable[Scene]) -> Pieces:
     """The file's bytes, one piece after the other."""
-    document = _document(scenes)
+    return _pieces(_document(scenes))
+
+
+def _pieces(document: Document) -> Pieces:
+    document.gltf.bufferViews = document.buffer.views
     binary = document.buffer.pieces()
     binary_size = sum(_size(piece) for piece in binary)
     if binary_size:
@@ -129,7 +138,7 @@ class _Buffer:
 
 
 @dataclass
-class _Document:
+class Document:
     """A document under construction."""
 
     gltf: gltf.GLTF2
@@ -198,8 +207,8 @@ def _listed(values: npt.NDArray[Any]) -> list[float]:
 # ---------------------------------------------------------------------------------------------------------- document
 
 
-def _document(scenes: Iterable[Scene]) -> _Document:
-    document = _Document(gltf.GLTF2(asset=gltf.Asset(version="2.0")))
+def _document(scenes: Iterable[Scene]) -> Document:
+    document = Document(gltf.GLTF2(asset=gltf.Asset(version="2.0")))
     out = document.gltf
     roots: list[int] = []
     materials: dict[Material, int] = {}
@@ -213,23 +222,22 @@ def _document(scenes: Iterable[Scene]) -> _Document:
     out.materials = [_material(material) for material in materials]
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0
-    out.bufferViews = document.buffer.views
     return document
 
 
 def _add_figure(
-    document: _Document, scene: Scene, roots: list[int], materials: dict[Material, int]
+    document: Document, scene: Scene, roots: list[int], materials: dict[Material, int]
 ) -> tuple[int, list[int]]:
     """Add the nodes of a scene: one at its place, bones, meshes, in this order; the numbers of the first bone and of
     the node that each mesh is on."""
     out = document.gltf
     roots.append(len(out.nodes))
     if scene.place is not None:
-        out.nodes.append(_node(scene.name, scene.place))
+        out.nodes.append(node_at(scene.name, scene.place))
         out.nodes[-1].children = [len(out.nodes)]
     first = len(out.nodes)
     for bone in scene.bones:
-        out.nodes.append(_node(bone.name, NodePlace(bone.translation_cm, bone.rotation_xyzw)))
+        out.nodes.append(node_at(bone.name, NodePlace(bone.translation_cm, bone.rotation_xyzw)))
         if bone.parent >= 0:
             parent = out.nodes[first + bone.parent]
             parent.children = [*(parent.children or []), len(out.nodes) - 1]
@@ -249,7 +257,7 @@ def _add_figure(
     return first, mesh_nodes
 
 
-def _node(name: str, place: NodePlace) -> gltf.Node:
+def node_at(name: str, place: NodePlace) -> gltf.Node:
     rotation = np.asarray(place.rotation_xyzw, dtype=np.float64)
     return gltf.Node(
         name=name,
@@ -273,7 +281,7 @@ def _material(material: Material) -> gltf.Material:
     )
 
 
-def _skin(document: _Document, world_from_bone_bind: AnyFloatArray, name: str, first: int) -> gltf.Skin:
+def _skin(document: Document, world_from_bone_bind: AnyFloatArray, name: str, first: int) -> gltf.Skin:
     binds = np.array(world_from_bone_bind, dtype=np.float64)
     binds[:, :3, 3] *= METRES
     # Stored column by column, and the last row of each must be exact.
@@ -286,7 +294,7 @@ def _skin(document: _Document, world_from_bone_bind: AnyFloatArray, name: str, f
     )
 
 
-def _mesh(document: _Document, mesh: SkinnedMesh, bone_count: int, materials: dict[Material, int]) -> gltf.Mesh:
+def _mesh(document: Document, mesh: SkinnedMesh, bone_count: int, materials: dict[Material, int]) -> gltf.Mesh:
     joints, weights = influences(mesh)
     joint_type = np.uint8 if bone_count <= 2**8 else np.uint16
     sets = -(-joints.shape[1] // _PER_SET)
@@ -329,7 +337,7 @@ def _mesh(document: _Document, mesh: SkinnedMesh, bone_count: int, materials: di
 
 
 def _targets(
-    document: _Document, morphs: Sequence[MorphTarget], primitive: Primitive, vertex_count: int
+    document: Document, morphs: Sequence[MorphTarget], primitive: Primitive, vertex_count: int
 ) -> list[dict[str, int]]:
     """Targets of a primitive: the same for all primitives of a mesh, if only with zeros."""
     with_normals = any(morph.normal_deltas is not None for morph in morphs)

@@ -51,6 +51,8 @@ class NodeHierarchy:
         Nodes that are no bones even below one: meshes, cameras, lights.
     skipped : collection of int
         The file's own root, which is not shown.
+    posed : (N, 4, 4) float64 or None
+        As a VRM file has its nodes: in its T-pose.
     """
 
     names: Sequence[str]
@@ -59,6 +61,7 @@ class NodeHierarchy:
     joints: Collection[int]
     other: Collection[int]
     skipped: Collection[int] = ()
+    posed: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +117,10 @@ def build_figure(
     world = nodes.world_from_node[listed]
     rotations, positions = nearest_rotations(world), world[:, :3, 3]
     translations, turns = local_placements(parents, positions, rotations)
+    posed = None
+    if nodes.posed is not None and np.isfinite(nodes.posed).all():
+        standing = nodes.posed[listed]
+        _, posed = local_placements(parents, standing[:, :3, 3], nearest_rotations(standing))
     figure = Figure(
         file=file,
         origin=origin,
@@ -124,6 +131,7 @@ def build_figure(
         meshes=_named_apart([_at_rest(part, above) for part in parts]),
         humanoid={joint: bone_of[node] for joint, node in (humanoid or {}).items() if node in bone_of},
         expressions=expressions or {},
+        posed=posed,
     )
     return _in_metres(figure)
 
@@ -168,7 +176,11 @@ def turned(
 ) -> tuple[NodeHierarchy, tuple[FigurePart, ...]]:
     """The same with the world turned by a (4, 4) matrix."""
     return (
-        replace(nodes, world_from_node=turn @ nodes.world_from_node),
+        replace(
+            nodes,
+            world_from_node=turn @ nodes.world_from_node,
+            posed=None if nodes.posed is None else turn @ nodes.posed,
+        ),
         tuple(replace(part, world_from_mesh=turn @ part.world_from_mesh) for part in parts),
     )
 

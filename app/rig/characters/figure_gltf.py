@@ -63,6 +63,8 @@ def gltf_figure(path: Path) -> Figure:
     origin: Origin = "gltf"
     humanoid: Mapping[str, int] = {}
     expressions: Mapping[str, Mapping[str, float]] = {}
+    if isinstance(extensions.get("VRMC_vrm"), dict) or isinstance(extensions.get("VRM"), dict):
+        nodes = replace(nodes, posed=posed)
     if isinstance(extensions.get("VRMC_vrm"), dict):
         origin, humanoid, expressions = "vrm1", *_vrm1(extensions["VRMC_vrm"], source)
     elif isinstance(extensions.get("VRM"), dict):

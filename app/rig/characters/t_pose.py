@@ -133,6 +133,9 @@ def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
     translations, rotations = figure.translations_m.copy(), figure.rotations.copy()
     translations[roots] = translations[roots] @ turn.T
     rotations[roots] = quaternion.multiply(quaternion.from_matrix(turn), rotations[roots])
+    posed = None if figure.posed is None else figure.posed.copy()
+    if posed is not None:
+        posed[roots] = quaternion.multiply(quaternion.from_matrix(turn), posed[roots])
 
     def moved(vectors: SingleArray) -> SingleArray:
         return (vectors @ turn.T).astype(np.float32)
@@ -153,7 +156,7 @@ def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
         )
         for mesh in figure.meshes
     )
-    return replace(figure, translations_m=translations, rotations=rotations, meshes=meshes)
+    return replace(figure, translations_m=translations, rotations=rotations, meshes=meshes, posed=posed)
 
 
 def turns_to_t_pose(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> dict[str, FloatArray]:

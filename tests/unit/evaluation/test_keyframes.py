@@ -14,10 +14,12 @@ from app.errors import FileError
 from app.evaluation.excerpts import Excerpt
 from app.evaluation.keyframes import holds_motion, read_keyframes
 from app.export.character import character_scene
+from app.export.humanoid import humanoid_scene, humanoid_target
 from app.export.skeleton import scene_bvh
 from app.export.target import normalised_target
 from app.formats.bvh.read import read_bvh
 from app.formats.bvh.write import write_bvh
+from app.formats.gltf.vrma import write_vrma
 from app.motion.model import Motion
 from app.performance.cast import performer_of
 from app.performance.chunks import Pose
@@ -92,6 +94,22 @@ def test_an_exported_file_is_seen_as_it_was_and_goes_where_it_is_moved(
     assert between.hips_m == pytest.approx((motion.hips_m[2] + motion.hips_m[3]) / 2, abs=1e-5)
     other = Pose.of(motion_of(performance, "Trumpet 2"), 0)
     assert seen.posed(player_id(performance, "Trumpet 2"), FROM_S, other) is other
+
+
+def test_a_vrm_animation_is_seen_as_it_was_with_the_eyes_of_the_performance(
+    performance: Performance, tmp_path: Path
+) -> None:
+    player = next(player for player in performance.project.players if player.name == "Trumpet 1")
+    character, motion = performer_of(performance, player).character, motion_of(performance, "Trumpet 1")
+    scene = humanoid_scene(character, motion, "Trumpet 1", "test", humanoid_target(character))
+    write_vrma(tmp_path / "Trumpet 1.vrma", scene)
+    seen = read_keyframes(performance, tmp_path / "Trumpet 1.vrma", [player.id], offset_s=motion.first_frame_s)
+    for frame in (0, 7, 12):
+        time_s, pose = motion.first_frame_s + frame / float(FPS), Pose.of(motion, frame)
+        same = seen.posed(player.id, time_s, pose)
+        assert apart_rad(same.rotations, pose.rotations) < 1e-3
+        assert same.hips_m == pytest.approx(pose.hips_m, abs=1e-5)
+        assert same.instrument_position_m == pytest.approx(pose.instrument_position_m, abs=1e-4)
 
 
 def test_bones_that_another_program_turned_upright_are_turned_back(

@@ -22,7 +22,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from tests.gui.conftest import quartet_project
 
-FORMATS = ("glb", *(("usd",) if usd_installed() else ()))
+FORMATS = ("glb", "vrma", *(("usd",) if usd_installed() else ()))
 Measured = Callable[[str, KeyChoice], PlayerReport]
 
 

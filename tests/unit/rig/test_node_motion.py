@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -15,13 +16,19 @@ from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.read_motion import read_motion
 from app.errors import FileError
+from app.export.humanoid import humanoid_scene, humanoid_target
 from app.formats import motion_limits
 from app.formats.fbx.foreign import read_foreign_motion
+from app.formats.gltf.vrma import write_vrma
 from app.formats.scene import Bone, Clip, Scene
 from app.rig import quaternion
+from app.rig.characters.character_library import character_named
+from app.rig.node_motion import read_gltf_motion
 from tests.fuzz.harness.costly_motion import fbx_take
 from tests.support.encoded import encode_glb, encode_scene
+from tests.support.vrm_figures import document_of, write_document
 from tests.unit.choreography.test_features import random_clip
+from tests.unit.export.test_foreign_skeletons import random_motion
 
 CLIP = random_clip(5, 91)
 IDENTITY = np.array((0.0, 0.0, 0.0, 1.0))
@@ -165,3 +172,25 @@ def test_an_animation_that_is_too_long_is_not_sampled(tmp_path: Path, seconds: f
     motion = read_foreign_motion(path)
     assert len(motion.transforms) == frames
     assert motion.length_s == pytest.approx(seconds)
+
+
+def test_bones_of_a_vrm_animation_are_those_that_it_says_and_its_face_is_no_bone(tmp_path: Path) -> None:
+    """Names of nodes say nothing; values of expressions and the gaze move no body."""
+    character = character_named("woman_adult")
+    motion = random_motion(character)
+    motion = replace(motion, morphs={"jawOpen": np.linspace(0.0, 1.0, motion.frames, dtype=np.float32)})
+    scene = humanoid_scene(character, motion, "test", "test", humanoid_target(character))
+    path = tmp_path / "a.vrma"
+    write_vrma(path, scene)
+    document, binary = document_of(path)
+    for number, node in enumerate(document["nodes"]):
+        node["name"] = f"n{number}"
+    read = read_gltf_motion(write_document(tmp_path / "b.vrma", document, binary))
+    assert scene.clip is not None
+    assert {"jawOpen", "lookAt"}.isdisjoint(read.names)
+    assert len(read.names) == len(scene.bones) + 1
+    for at, bone in enumerate(scene.bones):
+        if bone.name != "lookAt":
+            turns = read.rotations_xyzw[:, read.names.index(bone.name)]
+            alike = np.abs(np.sum(turns * scene.clip.rotations_xyzw[:, at], axis=-1))
+            assert alike.min() > 1.0 - 1e-6, bone.name

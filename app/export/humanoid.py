@@ -1,0 +1,134 @@
+"""The humanoid of a VRM animation: VRM's bones, unturned at rest where the character's own file rests.
+
+A viewer turns a VRM's bones away from its rest pose as the animation's bones turn from theirs. So the rest pose is that
+of the VRM file a character came from, which need not be our T-pose to the degree; any other character has our T-pose.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.export.character import character_scene
+from app.export.target import HIPS, TargetSkeleton
+from app.formats.gltf.vrma import GAZE_EXPRESSIONS, LOOK_AT
+from app.formats.scene import NodePlace, Scene
+from app.motion.model import Motion
+from app.rig import quaternion
+from app.rig.characters.bone_placements import world_placements
+from app.rig.characters.t_pose import AHEAD
+from app.rig.model import Character
+from metadata.load import load_face_names, load_skeleton
+from metadata.model import ARKIT_MORPHS
+
+EYES = ("leftEye", "rightEye")
+_TRUNK = ("spine", "chest", "upperChest")
+_OF_VRM = ("vrm0", "vrm1")
+_VRM = "vrm"
+
+
+def humanoid_target(character: Character, place: NodePlace | None = None) -> TargetSkeleton:
+    """The bones of a character's VRM animation, and last the gaze, in the middle between the eyes.
+
+    A joint that the character's own file lacks has no bone: what it turns by goes to the bones below.
+
+    Parameters
+    ----------
+    character : Character
+    place : NodePlace or None
+        Where the hips' path stands on the stage; None: at the origin.
+    """
+    skeleton, own = character.skeleton, character.own
+    known = {joint.name for joint in load_skeleton("vrm1").joints} - {"root", *EYES}
+    joints = [
+        joint
+        for joint, name in enumerate(skeleton.names)
+        if name in known and (own is None or own.bone_of_joint[joint] >= 0)
+    ]
+    unturned = np.tile(quaternion.IDENTITY, (len(skeleton.names), 1))
+    positions_m, turns = world_placements(skeleton.parents, np.asarray(skeleton.offsets_m, np.float64), unturned)
+    if own is not None and own.figure.posed is not None:
+        figure = own.figure
+        rest_m, resting = world_placements(figure.parents, figure.translations_m, own.figure.posed)
+        for joint in joints:
+            bone = own.bone_of_joint[joint]
+            positions_m[joint] = rest_m[bone]
+            turns[joint] = quaternion.multiply(resting[bone], quaternion.conjugate(own.joint_from_bone[joint]))
+    bone_of_joint = {joint: bone for bone, joint in enumerate(joints)}
+    parents: list[int] = []
+    for joint in joints:
+        above = skeleton.parents[joint]
+        while above >= 0 and above not in bone_of_joint:
+            above = skeleton.parents[above]
+        parents.append(bone_of_joint.get(above, -1))
+    offsets_m = [
+        positions_m[joint] - (positions_m[joints[parent]] if parent >= 0 else 0.0)
+        for joint, parent in zip(joints, parents, strict=True)
+    ]
+    head = bone_of_joint[skeleton.index("head")]
+    eyes_m = np.mean([skeleton.offsets_m[skeleton.index(eye)] for eye in EYES], axis=0)
+    offsets_m.append(quaternion.rotate(turns[joints[head]], np.asarray(eyes_m, np.float64)))
+    still = np.tile(quaternion.IDENTITY, (len(joints) + 1, 1))
+    away = np.concatenate([quaternion.conjugate(turns[joints]), still[:1]])
+    # Of a trunk with fewer bones our uppermost joint has the last of them; VRM knows no upper chest without a chest.
+    trunk = iter(_TRUNK)
+    names = [next(trunk) if skeleton.names[joint] in _TRUNK else skeleton.names[joint] for joint in joints]
+    return TargetSkeleton(
+        "suisou",
+        (*names, LOOK_AT),
+        (*parents, head),
+        np.array(offsets_m),
+        still,
+        still,
+        (*joints, -1),
+        away,
+        hips=bone_of_joint[skeleton.index(HIPS)],
+        place=place,
+    )
+
+
+def humanoid_scene(character: Character, motion: Motion, name: str, creator: str, target: TargetSkeleton) -> Scene:
+    """The scene of a VRM animation on a `humanoid_target`, with the mesh that shows what a viewer would."""
+    scene = character_scene(character, motion, name, creator, target)
+    clip = scene.clip
+    assert clip is not None
+    rotations = np.array(clip.rotations_xyzw)
+    rotations[:, -1] = gaze(character, motion)
+    translations_cm = {target.hips: clip.translations_cm[target.hips]}
+    return replace(scene, clip=replace(clip, rotations_xyzw=rotations, translations_cm=translations_cm))
+
+
+def gaze(character: Character, motion: Motion) -> FloatArray:
+    """Rotations (F, 4) on the head that turn +Z to where both eyes look: about the vertical, then about the level."""
+    skeleton = character.skeleton
+    ways = sum(quaternion.rotate(quaternion.normalize(motion.rotations[:, skeleton.index(eye)]), AHEAD) for eye in EYES)
+    x, y, z = np.asarray(ways, np.float64).T
+    yaw, pitch = np.arctan2(x, z) / 2.0, np.arctan2(-y, np.hypot(x, z)) / 2.0
+    nought = np.zeros_like(yaw)
+    level = np.stack([nought, np.sin(yaw), nought, np.cos(yaw)], axis=1)
+    return quaternion.multiply(level, np.stack([np.sin(pitch), nought, nought, np.cos(pitch)], axis=1))
+
+
+def vrm_expressions(character: Character) -> Mapping[str, Mapping[str, float]]:
+    """Expressions beside ARKit's own names, as weights of ARKit's shapes.
+
+    VRM's presets; but a shape for which the character's VRM file has an expression of ARKit's name, however it is
+    spelled, goes to that one alone, so that nothing moves the face twice.
+    """
+    own, shapes = character.own, {name.casefold(): name for name in ARKIT_MORPHS}
+    spelled = {
+        shapes[name.casefold()]: name
+        for name in (() if own is None or own.figure.origin not in _OF_VRM else own.figure.expressions)
+        if name.casefold() in shapes
+    }
+    made: dict[str, dict[str, float]] = defaultdict(dict)
+    for shape, ways in load_face_names()[_VRM].morphs.items():
+        best = ways[0]
+        for preset, share in ({best: 1.0} if isinstance(best, str) else best).items():
+            if shape not in spelled and preset not in GAZE_EXPRESSIONS:
+                made[preset][shape] = share
+    return made | {name: {shape: 1.0} for shape, name in spelled.items() if name != shape}
