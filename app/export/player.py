@@ -173,7 +173,7 @@ def _write(
 
 def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:
     """The scenes whose keys are counted: of those of a character the first."""
-    return {held: scene for (held, _), scene in reversed(scenes.items())}.values()
+    return {held: scene for (held, _), scene in reversed([*scenes.items()])}.values()
 
 
 def _work(formats: frozenset[Format]) -> float:

@@ -141,7 +141,7 @@ class CastDancing:
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
-        """As of a musician."""
+        """The skeleton that the character is written on in files of a kind."""
         return humanoid_target(self.dancing.character, self.target.place) if kind.humanoid else self.target
 
 

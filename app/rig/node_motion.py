@@ -111,7 +111,7 @@ def read_gltf_motion(path: Path) -> BvhClip:
 
 
 def _vrm_animation(gltf: GltfModel) -> tuple[dict[int, str], set[int]]:
-    """Of a VRM animation the humanoid bones of its nodes, and the nodes that stand for expressions and the gaze."""
+    """Humanoid bones by node, and the nodes that stand for expressions and the gaze, of a VRM animation."""
     extension = field(gltf.extensions, VRM_ANIMATION)
     kinds = field(extension, "expressions")
     faces = [one for kind in ("preset", "custom") for one in _members(field(kinds, kind)).values()]

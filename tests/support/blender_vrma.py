@@ -6,7 +6,7 @@ Run by Blender's Python: ``blender_vrma.py FIGURE.vrm ANIMATION.vrma FPS FRAME..
 import json
 import sys
 
-import bpy
+import bpy  # type: ignore[import-not-found]
 
 figure, motion, fps, *frames = sys.argv[1:]
 bpy.ops.preferences.addon_enable(module="io_scene_vrm")

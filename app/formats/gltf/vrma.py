@@ -18,13 +18,13 @@ from typing import Any, Final
 import numpy as np
 import pygltflib as gltf
 
-from app.arrays import AnyFloatArray, FloatArray
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.errors import FileError
 from app.formats.gltf.model import GltfAnimation
 from app.formats.gltf.read import read_glb
 from app.formats.gltf.read_scene import channel_values, clip_frames
 from app.formats.gltf.samplers import METRES, Samplers
-from app.formats.gltf.write import Document, node_at, write_document
+from app.formats.gltf.write import GlbDocument, node_at, write_document
 from app.formats.scene import Bone, Clip, NodePlace, Scene, SkinnedMesh, check_scene
 
 EXTENSION: Final = "VRMC_vrm_animation"
@@ -64,7 +64,7 @@ def write_vrma(
         The scene is none of a VRM animation.
     """
     clip = _checked(scene)
-    document = Document(gltf.GLTF2(asset=gltf.Asset(version="2.0", generator=scene.creator)))
+    document = GlbDocument(gltf.GLTF2(asset=gltf.Asset(version="2.0", generator=scene.creator)))
     out = document.gltf
     # Viewers scale and place what is above the hips.
     out.nodes.append(gltf.Node(name="root", children=[_FIRST]))
@@ -120,7 +120,7 @@ def _bones(scene: Scene) -> dict[str, Any]:
 
 def _expressions(
     clip: Clip, sums: Mapping[str, Mapping[str, float]]
-) -> dict[str, tuple[AnyFloatArray, AnyFloatArray | None]]:
+) -> dict[str, tuple[AnyFloatArray, AnyIntArray | None]]:
     """Weights (F,) of all expressions from 0 to 1, and the frames of their keys, None for all."""
     keys = clip.keys
     found = {

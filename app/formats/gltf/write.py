@@ -65,7 +65,7 @@ def write_glbs(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
     write_document(path, _document(scenes))
 
 
-def write_document(path: str | os.PathLike[str], document: Document) -> None:
+def write_document(path: str | os.PathLike[str], document: GlbDocument) -> None:
     """Write a document as `write_glb` does a scene."""
     pieces = _pieces(document)
     if sum(_size(piece) for piece in pieces) > _MOST_BYTES:
@@ -79,7 +79,7 @@ def glb_pieces(scenes: Iterable[Scene]) -> Pieces:
     return _pieces(_document(scenes))
 
 
-def _pieces(document: Document) -> Pieces:
+def _pieces(document: GlbDocument) -> Pieces:
     document.gltf.bufferViews = document.buffer.views
     binary = document.buffer.pieces()
     binary_size = sum(_size(piece) for piece in binary)
@@ -138,7 +138,7 @@ class _Buffer:
 
 
 @dataclass
-class Document:
+class GlbDocument:
     """A document under construction."""
 
     gltf: gltf.GLTF2
@@ -207,8 +207,8 @@ def _listed(values: npt.NDArray[Any]) -> list[float]:
 # ---------------------------------------------------------------------------------------------------------- document
 
 
-def _document(scenes: Iterable[Scene]) -> Document:
-    document = Document(gltf.GLTF2(asset=gltf.Asset(version="2.0")))
+def _document(scenes: Iterable[Scene]) -> GlbDocument:
+    document = GlbDocument(gltf.GLTF2(asset=gltf.Asset(version="2.0")))
     out = document.gltf
     roots: list[int] = []
     materials: dict[Material, int] = {}
@@ -226,7 +226,7 @@ def _document(scenes: Iterable[Scene]) -> Document:
 
 
 def _add_figure(
-    document: Document, scene: Scene, roots: list[int], materials: dict[Material, int]
+    document: GlbDocument, scene: Scene, roots: list[int], materials: dict[Material, int]
 ) -> tuple[int, list[int]]:
     """Add the nodes of a scene: one at its place, bones, meshes, in this order; the numbers of the first bone and of
     the node that each mesh is on."""
@@ -281,7 +281,7 @@ def _material(material: Material) -> gltf.Material:
     )
 
 
-def _skin(document: Document, world_from_bone_bind: AnyFloatArray, name: str, first: int) -> gltf.Skin:
+def _skin(document: GlbDocument, world_from_bone_bind: AnyFloatArray, name: str, first: int) -> gltf.Skin:
     binds = np.array(world_from_bone_bind, dtype=np.float64)
     binds[:, :3, 3] *= METRES
     # Stored column by column, and the last row of each must be exact.
@@ -294,7 +294,7 @@ def _skin(document: Document, world_from_bone_bind: AnyFloatArray, name: str, fi
     )
 
 
-def _mesh(document: Document, mesh: SkinnedMesh, bone_count: int, materials: dict[Material, int]) -> gltf.Mesh:
+def _mesh(document: GlbDocument, mesh: SkinnedMesh, bone_count: int, materials: dict[Material, int]) -> gltf.Mesh:
     joints, weights = influences(mesh)
     joint_type = np.uint8 if bone_count <= 2**8 else np.uint16
     sets = -(-joints.shape[1] // _PER_SET)
@@ -337,7 +337,7 @@ def _mesh(document: Document, mesh: SkinnedMesh, bone_count: int, materials: dic
 
 
 def _targets(
-    document: Document, morphs: Sequence[MorphTarget], primitive: Primitive, vertex_count: int
+    document: GlbDocument, morphs: Sequence[MorphTarget], primitive: Primitive, vertex_count: int
 ) -> list[dict[str, int]]:
     """Targets of a primitive: the same for all primitives of a mesh, if only with zeros."""
     with_normals = any(morph.normal_deltas is not None for morph in morphs)

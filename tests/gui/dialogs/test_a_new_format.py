@@ -50,7 +50,7 @@ def test_the_dialog_offers_it_with_its_options(session: Session, qtbot: QtBot, t
 
 def test_the_command_line_takes_and_names_it() -> None:
     assert file_formats("NAM,fbx") == ["fbx", "nam"]
-    with pytest.raises(argparse.ArgumentTypeError, match="usd, nam"):
+    with pytest.raises(argparse.ArgumentTypeError, match="vrma, nam"):
         file_formats("x")
     typed = parser().parse_args(["export", "x", "--to", "y", "--format", "nam"]).formats
     assert typed == ["nam"]

@@ -18,6 +18,7 @@ from app.export.playback import ScenePlayback
 from app.export.targets import target_skeleton
 from app.formats.bvh.read import read_bvh
 from app.formats.fbx.read import read_scene
+from app.formats.gltf.vrma import read_vrma
 from app.formats.usd_package import usd_installed
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
@@ -32,7 +33,7 @@ FPS = Fraction(30)
 BARS = (9, 9)
 HALF_A_FRAME_S = 0.5 / 30 + 1e-4
 BAR_S = 3 * 60.0 / 78.0
-FORMATS = ("fbx", "bvh", "glb", *(("usd",) if usd_installed() else ()))
+FORMATS = ("fbx", "bvh", "glb", "vrma", *(("usd",) if usd_installed() else ()))
 WITHIN_CM = 0.01
 
 
@@ -92,6 +93,18 @@ def test_the_report_names_the_bars_and_no_more(folder: Path) -> None:
 def test_the_first_pose_is_that_of_the_bar(folder: Path, joints_cm: FloatArray, kind: str) -> None:
     (path,) = (path for path in folder.iterdir() if path.stem == PLAYER and path.suffix.startswith(f".{kind}"))
     np.testing.assert_allclose(READ[kind](path), joints_cm, atol=WITHIN_CM)
+
+
+def test_a_vrm_animation_has_these_frames_and_begins_with_the_bar(folder: Path, joints_cm: FloatArray) -> None:
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    scene = read_vrma(folder / f"{PLAYER}.vrma", ())
+    assert scene.clip is not None
+    assert scene.clip.frames == report["frames"]
+    names = character_of(quartet().players[0]).skeleton.names
+    world = 100.0 * ScenePlayback(scene, scene.clip).world(0, 1)[0, :, :3, 3]
+    for bone, place_cm in zip(scene.bones, world, strict=True):
+        if bone.name in names:
+            np.testing.assert_allclose(place_cm, joints_cm[names.index(bone.name)], atol=WITHIN_CM, err_msg=bone.name)
 
 
 def test_a_bvh_has_as_many_frames(folder: Path) -> None:
