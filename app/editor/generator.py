@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Mapping
+from threading import Event
+from time import monotonic, sleep
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -15,8 +17,9 @@ from app.editor.calls import Reporter
 from app.editor.plan_worker import PlanWorker, Reports
 from app.editor.session import Session, Severity
 from app.editor.tasks import Tasks
-from app.errors import AppError, Message, Progress, StopRequested
+from app.errors import AppError, Message, Progress, StopRequested, raise_if_stopped
 from app.performance.ensemble import Performance
+from app.performance.excerpt import PerformanceExcerpt, is_worth_it
 from app.performance.live import LiveMotion
 from app.plan.model import Problem
 from app.project.document import Change
@@ -31,6 +34,9 @@ AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
 REPORTED_NOTES = 6000
 """Number of notes from which planning shows its progress and can be stopped."""
+MOST_WAIT_S = 10.0
+"""Longest wait until everyone moves around the playhead, before the rest of a piece is planned."""
+LOOK_S = 0.01
 
 
 def _goes_on() -> bool:
@@ -73,6 +79,8 @@ class Generator(QObject):
         """True until all plans of an opened piece are made ..."""
         self._coming: Performance | None = None
         """... and what is being planned meanwhile, once players in front have plans."""
+        self._around: Performance | None = None
+        """The performance that an excerpt was planned of."""
         self._holding: frozenset[tuple[str, str]] = frozenset()
         """Characters and instruments whose holds are being found ..."""
         self._hold_stopped: StopRequested = _goes_on
@@ -204,15 +212,19 @@ class Generator(QObject):
         number, session = self._asked, self._session
         self._long = True
 
-        def planned(player_ids: tuple[str, ...]) -> None:
-            if not set(player_ids).isdisjoint(session.players):
-                self._report(lambda generator: generator._first_planned(performance, number))
-
         def work(progress: Progress, stop_requested: StopRequested) -> Performance:
+            def stopped() -> bool:
+                return stop_requested() or self._shown >= number
+
+            def planned(player_ids: tuple[str, ...]) -> None:
+                if not set(player_ids).isdisjoint(session.players):
+                    self._report(lambda generator: generator._first_planned(performance, number))
+                if self._opened and self._around is not performance and is_worth_it(performance):
+                    self._around = performance
+                    self._move_everyone(performance, number, stopped)
+
             try:
-                performance.prepare(
-                    lambda: stop_requested() or self._shown >= number, progress, lambda: session.players, planned
-                )
+                performance.prepare(stopped, progress, lambda: session.players, planned)
             finally:
                 # Also where the user stopped it: then no one is reported.
                 if self._shown < number:
@@ -227,6 +239,25 @@ class Generator(QObject):
             lambda error: self._planned(performance, number, error),
             key="plan",
         )
+
+    def _move_everyone(self, performance: Performance, number: int, stopped: StopRequested) -> None:
+        """Plan an excerpt around the playhead, and wait until everyone moves as it has them: in the thread that plans,
+        which would hold up the one that makes motion."""
+        excerpt = PerformanceExcerpt(performance, self._session.playhead_s)
+        excerpt.prepare(stopped)
+        shown = Event()
+
+        def show(generator: Generator) -> None:
+            if number > generator._shown and generator._opened:
+                generator.live.show_excerpt(performance, excerpt)
+                generator._request_poses()
+            shown.set()
+
+        self._report(show)
+        end_s = monotonic() + MOST_WAIT_S
+        while not (shown.is_set() and self.live.is_moving) and monotonic() < end_s:
+            raise_if_stopped(stopped)
+            sleep(LOOK_S)
 
     def _first_planned(self, performance: Performance, number: int) -> None:
         if number > self._shown and self._opened:
@@ -254,7 +285,7 @@ class Generator(QObject):
             self._plan(self._session.project)
 
     def _show(self) -> None:
-        self._opened, self._coming = False, None
+        self._opened, self._coming, self._around = False, None, None
         self.live.show(self._session.performance)
         self.live.request(self._session.playhead_s, player_ids=self._session.players)
         # Once the panels have shown the plans: two threads of Python hold each other up.

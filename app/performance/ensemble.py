@@ -92,6 +92,8 @@ class Performance:
         self._plans = dict[str, PlayerPlan]()
         """By player id, as far as they are made."""
         self._problems = dict[str, tuple[Problem, ...]]()
+        self.begun: EnsemblePlanning | None = None
+        """Planning that is under way."""
         self._finished: EnsemblePlan | None = None
         """The plan of all, once it is made."""
         known = dict[str, StepResults]() if self._before is None else self._before._players
@@ -241,7 +243,7 @@ class Performance:
             if self.planned:
                 return
             with self._lock:
-                planning = self._begin_planning(stop_requested)
+                self.begun = planning = self._begin_planning(stop_requested)
             left = {musician.id: self.project.played_by(musician) for musician in self.project.bodies}
             musicians = {player.id: musician for musician, played in left.items() for player in played}
             count = len(left)
@@ -287,7 +289,7 @@ class Performance:
         made = planning.finished()
         self._plans = {player.id: self._plans[player.id] for player in self.project.players}
         _CHECKED.update(player.parameters.choreography for player in self.project.players)
-        self._finished = made
+        self._finished, self.begun = made, None
         for results in (self._whole, *self._players.values(), *self._lines.values(), *self._held.values()):
             results.close()
         self._before = None

@@ -7,7 +7,7 @@ whose curves changed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from threading import Lock
 
@@ -17,6 +17,7 @@ from app.motion.perform import PerformanceCurves
 from app.performance.chunks import Chunk, FrameGrid, Pose, poses_of
 from app.performance.dances import Dancing
 from app.performance.ensemble import Performance
+from app.performance.excerpt import PerformanceExcerpt
 from app.performance.live_tracks import LiveTrack, ShownTracks, looks_same, motion_changed_s, played_before, soon_made
 from app.plan.model import Problem, no_events
 from app.project.performers import Dancer, Player
@@ -55,8 +56,8 @@ class LiveMotion:
         self._todo: Iterator[tuple[str, int]] | None = None
         self._unjudged: Iterator[tuple[LiveTrack, int]] | None = None
         self._broken: dict[str, tuple[Problem, ...]] = {}
-        self._made: list[tuple[LiveTrack, int, Motion]] = []
-        """Last results, until their contacts are judged."""
+        self._made: list[tuple[str, int, Chunk, Motion]] = []
+        """Last results by player and place, until their contacts are judged."""
         self._chunk_bytes = 0
         self._made_chunks = 0
         self._seen = 0
@@ -71,15 +72,37 @@ class LiveMotion:
     def show_first(self, performance: Performance, player_ids: Sequence[str]) -> None:
         """Show players of a performance whose other players are being planned yet: beside those that were shown in this
         way, and in place of another performance."""
+
+        def begun(player: Player, old: LiveTrack | None, grid: FrameGrid) -> LiveTrack:
+            plan, known = performance.plan(player), performance.problems(player.id)
+            return LiveTrack(player, plan, known) if old is None else old.after(player, plan, known, grid.chunks)
+
+        self._show_more(performance, map(performance.project.player, player_ids), begun)
+
+    def show_excerpt(self, performance: Performance, excerpt: PerformanceExcerpt) -> None:
+        """Show a performance that is being planned as an excerpt has it, besides who is shown as planned already."""
+
+        def begun(player: Player, old: LiveTrack | None, grid: FrameGrid) -> LiveTrack:
+            return old or LiveTrack(player, excerpt.plan(player), excerpt=excerpt)
+
+        self._show_more(performance, excerpt.shown_players, begun)
+
+    def _show_more(
+        self,
+        performance: Performance,
+        players: Iterable[Player],
+        begun: Callable[[Player, LiveTrack | None, FrameGrid], LiveTrack],
+    ) -> None:
+        grid = FrameGrid.of(performance.time_frame, performance.project.fps)
         with self._lock:
-            before, project = self._shown, performance.project
+            before = self._shown
             tracks = before.tracks if before.performance is performance else {}
-            begun = {
-                player.id: LiveTrack(player, performance.plan(player), performance.problems(player.id))
-                for player in map(project.player, player_ids)
-                if player.id not in tracks
+            more = {
+                player.id: begun(player, old, grid)
+                for player in players
+                if (old := tracks.get(player.id)) is None or old.excerpt is not None
             }
-            self._shown = ShownTracks(performance, FrameGrid.of(performance.time_frame, project.fps), tracks | begun)
+            self._shown = ShownTracks(performance, grid, tracks | more)
             self._todo = self._unjudged = None
             self._report(self._shown)
 
@@ -190,7 +213,7 @@ class LiveMotion:
         chunk = track.chunks.get(index)
         if chunk is not None and inner < chunk.frames:
             return poses_of([chunk], inner, share)[0]
-        if not soon_made(shown, track):
+        if not soon_made(shown, track) or not track.reaches(shown.grid, index):
             return self.pose(player_id, time_s)
         with self._own_fault(track):
             curves = self._playing(shown, track)
@@ -207,7 +230,7 @@ class LiveMotion:
     def work(self, stop_requested: StopRequested = lambda: False) -> bool:
         """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
         player."""
-        if self._has_pictures() or len(self._made) >= MOST_UNJUDGED:
+        if self.is_seen or len(self._made) >= MOST_UNJUDGED:
             self._judge_made()
         more = self._make_missing(stop_requested)
         if not more:
@@ -253,6 +276,8 @@ class LiveMotion:
 
     def _make(self, shown: ShownTracks, track: LiveTrack, index: int, *, prove: bool = True) -> bool | None:
         """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
+        if not track.reaches(shown.grid, index):
+            return None
         with self._own_fault(track):
             if prove and (track.playing is None or track.basis is not None):
                 self._prove(shown, track)
@@ -274,21 +299,24 @@ class LiveMotion:
             self._seen += prove and index == self._in_sight(shown.grid)[0]
             # What was judged may have changed as long as that is not compared.
             if isinstance(track.player, Player) and (index not in track.judged or not prove):
-                self._made.append((track, index, motion))
+                self._made.append((track.player.id, index, chunk, motion))
         return True
 
     def _judge_made(self) -> None:
         """Judge what was made last: not with the frames, for which a picture waits, and while others are made."""
         with self._lock:
-            shown, unjudged = self._shown, self._made
-            self._made = []
-        for track, index, motion in unjudged:
-            if shown.tracks.get(track.player.id) is not track:
+            shown, made = self._shown, self._made
+            # What is made from an excerpt is judged once it proves to be that of the whole.
+            waiting = {player_id for player_id, track in shown.tracks.items() if track.excerpt is not None}
+            self._made = [row for row in made if row[0] in waiting]
+        for player_id, index, chunk, motion in made:
+            track = shown.tracks.get(player_id)
+            if track is None or player_id in waiting:
                 continue
             with track.making, self._own_fault(track):
                 if track.playing is None or track.basis is not None:
                     self._prove(shown, track)
-                if index in track.chunks and index not in track.judged and track.error is None:
+                if track.chunks.get(index) is chunk and index not in track.judged and track.error is None:
                     self._judge(track, index, motion)
 
     def judge(self, stop_requested: StopRequested = lambda: False) -> bool:
@@ -338,12 +366,13 @@ class LiveMotion:
             for track in shown.tracks.values()
         )
 
-    def _has_pictures(self) -> bool:
-        """Return whether everything that is looked at has a motion to show, if only that of before an edit."""
+    @property
+    def is_moving(self) -> bool:
+        """True if everyone who is shown has a motion at the playhead, or cannot have one."""
         shown = self._shown
-        places = self._in_sight(shown.grid)
-        return shown.is_whole and all(
-            track.error is not None or all(track.has_picture(index) for index in places)
+        here = self._in_sight(shown.grid)[0]
+        return all(
+            track.error is not None or track.has_picture(here) or not track.reaches(shown.grid, here)
             for track in shown.tracks.values()
         )
 

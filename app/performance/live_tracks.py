@@ -15,6 +15,7 @@ from app.performance.cast import Performer, performers_of
 from app.performance.chunks import Chunk, FrameGrid
 from app.performance.dances import Dancing, dancing_of, layer_is_made
 from app.performance.ensemble import Performance
+from app.performance.excerpt import PerformanceExcerpt
 from app.performance.motion import playing_of
 from app.plan.model import PlayerPlan, Problem
 from app.project.performers import Dancer, Player
@@ -54,6 +55,8 @@ class LiveTrack:
         The same, reported.
     making : Lock
         Held while something of this track is made that stays.
+    excerpt : PerformanceExcerpt or None
+        What it is made from while the performance is being planned.
     """
 
     player: Player | Dancer
@@ -72,6 +75,7 @@ class LiveTrack:
     breaks: dict[int, tuple[Break, ...]] = field(default_factory=dict)
     problems: tuple[Problem, ...] = ()
     making: Lock = field(default_factory=Lock)
+    excerpt: PerformanceExcerpt | None = None
 
     @property
     def bytes(self) -> int:
@@ -100,6 +104,7 @@ class LiveTrack:
         if any(one.id in performance.waiting for one in performance.project.played_by(self.player)):
             self.error = Message("character.hold_waiting", {})
             return None
+        performance = self.excerpt or performance
         found = performers_of(performance, (self.player,))
         if found.left_out:
             self.error = found.left_out[0].reason
@@ -125,6 +130,14 @@ class LiveTrack:
     def has_picture(self, index: int) -> bool:
         """Return whether there is a motion of a chunk to show."""
         return index in self.chunks or index in self.unproven or index in self.outdated
+
+    def reaches(self, grid: FrameGrid, index: int) -> bool:
+        """Return whether a chunk lies where the motion may be shown: of an excerpt, in the middle of it."""
+        if self.excerpt is None:
+            return True
+        (first, frames), (start_s, end_s) = grid.span(index), self.excerpt.shown_s
+        from_s, to_s = (grid.start_s + float(frame / grid.fps) for frame in (first, first + frames))
+        return start_s <= from_s and to_s <= end_s
 
     def found_problems(self) -> tuple[Problem, ...]:
         """Return the contacts that a player breaks, or corrections that a dance does not hold."""
@@ -161,8 +174,9 @@ class ShownTracks:
 
     @property
     def is_whole(self) -> bool:
-        """True if all performers are shown; False while some are being planned yet."""
-        return len(self.tracks) == len(self.performance.project.performers)
+        """True if all performers are shown as they are planned; False while some are being planned yet."""
+        everyone = len(self.tracks) == len(self.performance.project.performers)
+        return everyone and all(track.excerpt is None for track in self.tracks.values())
 
 
 def motion_changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:

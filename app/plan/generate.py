@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Mapping
+from copy import copy
 from itertools import chain
+from operator import attrgetter
 from typing import Final, NamedTuple
 
 import msgspec
@@ -17,6 +20,7 @@ from app.plan.by_hand.mark_corrections import mark_corrections
 from app.plan.cues.cues import plan_cues
 from app.plan.cues.entries import entries
 from app.plan.faces.glances import StagePlace
+from app.plan.gestures.gestures import mean_pitch
 from app.plan.gestures.sways import pulse
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame
 from app.plan.music.ending import ending_of
@@ -165,8 +169,9 @@ class EnsemblePlanning:
         apart = _shared_lines(playable, everyone, known)
         self._made = EnsemblePlan({}, shared, playable, apart, {}, {})
         self._together = [results.of(shared_line) for results in apart.values()]
+        self._usual_pitches = [results.of(mean_pitch) for results in playable.values()]
         self._numbers = {line.player_id: number for number, line in enumerate(lines)}
-        self._lines, self._stop_requested = lines, stop_requested
+        self._lines, self._stop_requested, self._clock = lines, stop_requested, piece.clock
         self._breathed: list[Breathed] = []
 
     def plan(self, player_id: str) -> PlayerPlan:
@@ -179,6 +184,23 @@ class EnsemblePlanning:
             raise_if_stopped(self._stop_requested)
             self._made.plans[player_id] = self._begun(number).of(PlayerPlan)
         return self._made.plans[player_id]
+
+    def excerpt(self, first_s: float, end_s: float) -> EnsemblePlanning:
+        """Planning of the same players from only those notes that begin in a span, and the cues there. What all share
+        (felt bars, fermatas, how the piece ends) and the players' usual pitches are those of the whole piece."""
+        clock, other = self._clock, copy(self)
+        cues = self._everyone["cue_events"]
+        assert isinstance(cues, tuple)
+        near = tuple(cue for cue in cues if first_s <= cue.start_s and cue.end_s <= end_s)
+        other._everyone = everyone = {**self._everyone, "cue_events": near}
+        span = clock.ticks(first_s), clock.ticks(end_s)
+        other._lines = tuple(_within(line, *span) for line in self._lines)
+        playable = {line.player_id: LINE.begin(None, **everyone, **_fields(line)) for line in other._lines}
+        apart = _shared_lines(playable, everyone, _NO_ENSEMBLE)
+        other._known, other._breathed = _NO_ENSEMBLE, []
+        other._made = EnsemblePlan({}, self._made.shared, playable, apart, {}, {})
+        other._together = [results.of(shared_line) for results in apart.values()]
+        return other
 
     def finished(self) -> EnsemblePlan:
         """Plan the remaining players, and return the plan of all. Raises Cancelled."""
@@ -201,6 +223,7 @@ class EnsemblePlanning:
             known.players.get(player_id),
             **own | _fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
             **{name: among[name] for name in AMONG_OTHERS.functions},
+            usual_pitch=self._usual_pitches[number],
             reported=results["reported"],
             written=results.of(written_marks),
             alone=musicians.count(part.musician or player_id) == 1,
@@ -235,6 +258,14 @@ def _shared_lines(
         player_id: SHARED_LINE.begin(known.shared_lines.get(player_id), **everyone, times=results.of(note_times))
         for player_id, results in playable.items()
     }
+
+
+def _within(part: MonophonicPart, first_tick: float, end_tick: float) -> MonophonicPart:
+    """Return a part with only those notes that begin in a span."""
+    onset = attrgetter("onset_tick")
+    kept = slice(bisect_left(part.notes, first_tick, key=onset), bisect_left(part.notes, end_tick, key=onset))
+    loudness, levels = part.loudness[kept], part.levels[kept]
+    return msgspec.structs.replace(part, notes=part.notes[kept], loudness=loudness, levels=levels)
 
 
 def _fields(part: MonophonicPart) -> dict[str, object]:
@@ -304,6 +335,7 @@ LINE: Final = StepTable(
     times=reading(
         note_times, notes="played_notes", loudness="played_loudness", written="written", levels="played_levels"
     ),
+    usual_pitch=mean_pitch,
     reported=_reported,
     leading=_leading,
 )

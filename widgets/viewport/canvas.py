@@ -64,7 +64,9 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self._broken = False
         self._prepare: Callable[[Renderer], None] | None = None
         self.drawing_s = inf
-        """Time that the last picture took."""
+        """Time that the last picture took ..."""
+        self._drawn_s = -inf
+        """... and when it was drawn."""
         vispy_app.use_app("pyside6")
         super().__init__(
             config={"samples": SAMPLES, "depth_size": 24, "double_buffer": True},
@@ -91,7 +93,13 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         width, height = self.physical_size
         began_s = perf_counter()
         self._draw(int(width), int(height))
-        self.drawing_s = perf_counter() - began_s
+        self._drawn_s = perf_counter()
+        self.drawing_s = self._drawn_s - began_s
+
+    @property
+    def rested_s(self) -> float:
+        """Time since the last picture."""
+        return perf_counter() - self._drawn_s
 
     def draw_now(self) -> None:
         """Draw before anything else is done."""

@@ -50,6 +50,9 @@ QUICK_S = 0.02
 FRAME_MS = 16
 WAIT_MS = 90
 """Between two looks whether a pose that is not there yet has been made."""
+REST = 4.0
+"""While players still appear one by one, nothing is drawn for so many times as long as the last picture took: each one
+delays those who follow."""
 SETTLED_S = 4.0
 """After an edit poses may still change for this long."""
 LEAST_SIZE = QSize(160, 120)
@@ -190,10 +193,12 @@ class ViewportPanel(Retranslated, QWidget):
         """Motion has been made or made anew; what is not at the playhead does not matter here."""
         if self._canvas is None:
             return
-        if self.scene.is_outdated(self._session.playhead_s):
-            self.refresh()
-        else:
+        at_s = self._session.playhead_s
+        resting = self.scene.missing and self._canvas.rested_s < REST * self._canvas.drawing_s
+        if (resting and self.scene.lacks(at_s)) or not self.scene.is_outdated(at_s):
             self._wait()
+        else:
+            self.refresh()
 
     def draw_now(self) -> None:
         """Draw the poses at the playhead before anything else is done, unless a picture takes long: it is drawn again

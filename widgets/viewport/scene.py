@@ -172,6 +172,10 @@ class ViewportScene(QObject):
         # A pose that is not there yet leaves the one before it.
         return any(pose is not None and not same(pose, own) for pose, own in zip(found, shown.values(), strict=True))
 
+    def lacks(self, time_s: float) -> bool:
+        """Return whether any pose is not there yet."""
+        return any(pose is None for pose in self._poses.poses([one.player_id for one in self._members()], time_s))
+
     def _members(self) -> tuple[Member, ...]:
         stage = self.stage
         return stage.members if stage is not None else ()

@@ -111,21 +111,31 @@ def _in_silence(times: NoteTimes, seeds: Seeds, clock: TempoMap) -> IntArray:
     return np.array(found, dtype=np.int64)
 
 
-def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics) -> list[GestureEvent]:
-    """The bell follows the melody: per felt beat the mean pitch (by sounding time) against the line's; beats at about
-    the same height are one gesture, and a silence of a beat ends it. It goes further where the line is loud, rises with
-    accents and to the climax of a phrase, and sinks at its end."""
+def mean_pitch(times: LineTimes) -> float:
+    """The mean pitch of a line by sounding time; 0 of one without notes."""
+    return float(np.average(times.pitch, weights=_weights(times))) if len(times.pitch) else 0.0
+
+
+def _weights(times: LineTimes) -> FloatArray:
+    return np.maximum(times.duration_s, 1e-3)
+
+
+def bell_heights(
+    notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics, usual_pitch: float
+) -> list[GestureEvent]:
+    """The bell follows the melody: per felt beat the mean pitch (by sounding time) against the line's, which is
+    ``usual_pitch``; beats at about the same height are one gesture, and a silence of a beat ends it. It goes further
+    where the line is loud, rises with accents and to the climax of a phrase, and sinks at its end."""
     if not notes:
         return []
-    weight = np.maximum(times.duration_s, 1e-3)
-    mean = float(np.average(times.pitch, weights=weight))
+    weight = _weights(times)
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     bar = np.searchsorted(bars, times.onset_tick, "right") - 1
     beat_ticks = piece.beat_ticks_at(times.onset_tick)
     beat = (times.onset_tick - bars[bar]) // beat_ticks
     starts = np.flatnonzero(np.concatenate(([True], (np.diff(bar) > 0) | (np.diff(beat) > 0))))
     sums = np.add.reduceat(times.pitch * weight, starts) / np.add.reduceat(weight, starts)
-    heights = np.clip((sums - mean) / CONTOUR_SEMITONES, -1.0, 1.0)
+    heights = np.clip((sums - usual_pitch) / CONTOUR_SEMITONES, -1.0, 1.0)
     ends = np.append(starts[1:], len(notes))
     apart = times.silence_tick[starts] >= beat_ticks[starts]
     vigour = dynamics.at(times.onset_s[starts])
@@ -150,7 +160,7 @@ def bell_heights(notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynami
         np.clip(amounts[firsts], -1.0, 1.0).tolist(),
         strict=True,
     )
-    pitches, mean = sums.tolist(), round(mean, 1)
+    pitches, mean = sums.tolist(), round(usual_pitch, 1)
     return [
         GestureEvent(
             f"bell_height:{notes[note].id}",

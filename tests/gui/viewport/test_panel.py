@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 
 import msgspec
@@ -23,6 +24,7 @@ from app.editor.edit_names import edit_of_parameter
 from app.editor.session import Session
 from app.editor.tokens import LIGHT
 from app.errors import AppError, Message
+from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
 from app.project.cameras import VIEWS
@@ -257,6 +259,42 @@ def test_no_one_is_drawn_before_there_is_a_pose(qtbot: QtBot, session: Session, 
     assert panel.message()
     poses.missing = False
     qtbot.waitUntil(lambda: not panel.message())
+
+
+def test_players_who_appear_one_by_one_are_not_each_drawn_at_once_where_a_picture_takes_long(
+    qtbot: QtBot, session: Session, poses: MadeNow
+) -> None:
+    ids = [player.id for player in session.project.players]
+    there = ids[:1]
+
+    class Appearing(MadeNow):
+        def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
+            return [self.pose_now(one, time_s) if one in there else None for one in player_ids]
+
+    session.set_playhead(AT_S)
+    panel = ViewportPanel(session, Appearing(session))
+    qtbot.addWidget(panel)
+    panel.resize(320, 240)
+    panel.show()
+    qtbot.waitUntil(lambda: not panel.message())
+    canvas = panel._canvas
+    assert canvas is not None
+    qtbot.waitUntil(lambda: canvas.drawing_s < inf)
+
+    def shown() -> int:
+        return sum(pose is not None for pose in panel.scene.poses().values())
+
+    canvas.drawing_s = 1000.0
+    there.append(ids[1])
+    panel.poses_changed()
+    assert shown() == 1
+    canvas.drawing_s = 0.0
+    panel.poses_changed()
+    assert shown() == 2
+    canvas.drawing_s = 1000.0
+    there.extend(ids[2:])
+    panel.poses_changed()
+    assert shown() == len(ids), "no one is waited for"
 
 
 # The camera

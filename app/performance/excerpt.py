@@ -1,0 +1,79 @@
+"""A large piece as far as it is seen at first: planned from the notes around the playhead, before all of it is.
+
+Plans depend on notes before and after only as far as a phrase, a breath or a rest reaches. Players who are planned from
+the notes of a minute move as they do once everything is planned, or nearly so, in a fraction of the time; then the
+plans of the whole take the place of these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from threading import RLock
+from typing import Final
+
+from app.errors import StopRequested, raise_if_stopped
+from app.performance.ensemble import Performance
+from app.plan.model import PlayerPlan, Problem, no_events
+from app.project.performers import Player
+
+BEFORE_S: Final = 24.0
+AFTER_S: Final = 36.0
+"""Notes so long before and after a moment are planned."""
+SURE_S: Final = 16.0
+"""Near the first and the last of these notes, nearer than this, nothing is shown: there players begin and end."""
+WORTH: Final = 4
+"""Number of times that the piece has to be as long as an excerpt of it."""
+
+
+class PerformanceExcerpt(Performance):
+    """Plans of players around a moment, to be seen while the whole performance is being planned.
+
+    Dancers, and players who move by a choreography, are not in it.
+
+    Parameters
+    ----------
+    whole : Performance
+        Its planning has begun: what is read of all notes, and what concerns all players, is taken from there.
+    around_s : float
+    """
+
+    def __init__(self, whole: Performance, around_s: float) -> None:
+        # The same project, instruments, characters and metadata, and the same steps as far as they are done.
+        vars(self).update(vars(whole))
+        self._planning, self._before, self._finished, self.begun = RLock(), None, None, None
+        self.unseen, self._plans, self._problems, self._held, self._reach = {}, {}, {}, {}, {}
+        frame = whole.time_frame
+        first_s, end_s = max(around_s - BEFORE_S, frame.first_frame_s), min(around_s + AFTER_S, frame.end_s)
+        assert whole.begun is not None
+        self._around = whole.begun.excerpt(first_s, end_s)
+        begins, ends = first_s > frame.first_frame_s, end_s < frame.end_s
+        self.shown_s: Final = (first_s + SURE_S * begins, end_s - SURE_S * ends)
+        """Span whose motion may be shown, seconds."""
+
+    def prepare(self, stop_requested: StopRequested = lambda: False, *_: Callable[..., object]) -> None:
+        """Plan everyone who can be in it. Raises Cancelled."""
+        for musician in self.project.bodies:
+            raise_if_stopped(stop_requested)
+            with self._lock:
+                self._plan_musician(self._around, self.project.played_by(musician), stop_requested)
+
+    @property
+    def shown_players(self) -> tuple[Player, ...]:
+        """The players to be seen in it: not those who move by a choreography, which takes seconds to generate."""
+        danced = {one.doubles or one.id for one in self.project.players if one.parameters.choreography}
+        return tuple(one for one in self.project.players if (one.doubles or one.id) not in danced)
+
+    def plan(self, player: Player) -> PlayerPlan:
+        """One player's plan; never waits."""
+        known = self._plans.get(player.id)
+        return no_events(player.id, self.time_frame) if known is None else known
+
+    def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
+        # They are reported for the whole.
+        return ()
+
+
+def is_worth_it(whole: Performance) -> bool:
+    """Return whether a performance is so long that an excerpt takes little of the time that all of it does."""
+    span_s = whole.time_frame.end_s - whole.time_frame.first_frame_s
+    return span_s >= WORTH * (BEFORE_S + AFTER_S)
