@@ -26,6 +26,7 @@ from app.editor.tokens import DARK
 from app.editor.video_state import VideoState
 from app.editor.viewport_state import ViewportState
 from app.errors import AppError, Message, UsageError
+from app.messages.pitches import PitchNames
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan, Problem
 from app.project.document import Change, Document
@@ -49,13 +50,13 @@ class Severity(Enum):
 
 
 class PitchDisplay(State):
-    """Display of pitches: concert or written, the octave of middle C, letters or syllables."""
+    """Display of pitches: concert or written, the octave of middle C, what they are called."""
 
     def __init__(self) -> None:
         super().__init__()
         self.written = False
         self.middle_c_octave = 4
-        self.syllables = False
+        self.names: PitchNames = "letters"
 
 
 class Session(QObject):

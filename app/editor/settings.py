@@ -22,6 +22,7 @@ from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.editor.viewport_state import Follows
 from app.formats.keys import KeyChoice
 from app.messages import LANGUAGES
+from app.messages.pitches import PitchNames
 from app.stream.sender import LEAST_PORT, MOST_PORT
 
 MOST_RECENT: Final = 12
@@ -63,12 +64,17 @@ class Settings(StoredSettings):
         label="setting.middle_c_octave",
         options=((4, "setting_choice.c4"), (3, "setting_choice.c3")),
     )
-    syllables = Setting(
-        "pitch/syllables",
-        False,
-        held=within("pitch_display", "syllables"),
-        label="setting.syllables",
-        options=((False, "setting_choice.c_d_e"), (True, "setting_choice.do_re_mi")),
+    pitch_names = Setting[PitchNames](
+        "pitch/names",
+        "letters",
+        PitchNames,
+        held=within("pitch_display", "names"),
+        label="setting.pitch_names",
+        options=(
+            ("letters", "setting_choice.c_d_e"),
+            ("german", "setting_choice.german"),
+            ("syllables", "setting_choice.do_re_mi"),
+        ),
     )
     time_display = Setting(
         "interface/time_display",
@@ -150,6 +156,14 @@ class Settings(StoredSettings):
     """Views of pieces by their files, as text; the one left last stands last."""
     _shortcuts = Setting("shortcuts", dict[str, str](), dict[str, str])
     _midi_devices = Setting("midi_devices", dict[str, dict[str, str]](), dict[str, dict[str, str]])
+
+    def _read(self) -> dict[str, Any]:
+        table = super()._read()
+        pitch = table.get("pitch")
+        # Version 0.1 had letters or syllables.
+        if isinstance(pitch, dict) and pitch.pop("syllables", False) is True:
+            pitch.setdefault("names", "syllables")
+        return table
 
     def hold(self, session: Session) -> None:
         """Restore what a session holds, and remember it there whenever it changes."""

@@ -1,12 +1,15 @@
-"""Names of pitches in scientific pitch notation, in messages, tables and the editor alike."""
+"""Names of pitches, in messages, tables and the editor alike."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Final, Literal
 
-LETTERS: Final = ("C", "D", "E", "F", "G", "A", "B")
-SPELLING: Final = (
+PitchNames = Literal["letters", "german", "syllables"]
+"""By letters (B♭4), by the German letters of school bands (B4), or by syllables (Ti♭4)."""
+
+STEPS: Final = ("C", "D", "E", "F", "G", "A", "B")
+_SPELLING: Final = (
     (0, ""),
     (0, "♯"),
     (1, ""),
@@ -23,16 +26,24 @@ SPELLING: Final = (
 """Step of the scale and accidental of each pitch class: the signs that winds read most often."""
 
 
-def pitch_name(pitch: float, middle_c_octave: int = 4, steps: Sequence[str] = LETTERS) -> str:
+def spelled(steps: Sequence[str]) -> tuple[str, ...]:
+    """Names of the twelve pitch classes from C on, by those of the steps C to B."""
+    return tuple(f"{steps[step]}{accidental}" for step, accidental in _SPELLING)
+
+
+LETTERS: Final = spelled(STEPS)
+GERMAN: Final = ("C", "Cis", "D", "Es", "E", "F", "Fis", "G", "As", "A", "B", "H")
+
+
+def pitch_name(pitch: float, middle_c_octave: int = 4, names: Sequence[str] = LETTERS) -> str:
     """A MIDI pitch by name: 60 is C4, or C3 where middle C is in octave 3.
 
     Parameters
     ----------
     pitch : float
         A mean is named by the nearest semitone.
-    steps : sequence of str
-        What C, D, E, F, G, A and B are called.
+    names : sequence of str
+        What the pitch classes from C to B are called.
     """
     octave, pitch_class = divmod(round(pitch), 12)
-    step, accidental = SPELLING[pitch_class]
-    return f"{steps[step]}{accidental}{octave - 5 + middle_c_octave}"
+    return f"{names[pitch_class]}{octave - 5 + middle_c_octave}"

@@ -210,7 +210,7 @@ def quieten(desk: Desk, looks: bool = True) -> None:
     if looks:
         program.editor.speak("en")
         session.set_tokens(DARK)
-    session.pitch_display.set(written=False, middle_c_octave=4, syllables=False)
+    session.pitch_display.set(written=False, middle_c_octave=4, names="letters")
     session.set_time_display("bars")
     session.listening.set(source="recording", speed=1.0, percussion=True)
     session.viewport.set_posing(False)

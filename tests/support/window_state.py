@@ -120,7 +120,7 @@ class Watcher:
             "pitch": (
                 session.pitch_display.written,
                 session.pitch_display.middle_c_octave,
-                session.pitch_display.syllables,
+                session.pitch_display.names,
             ),
             "follow": session.follow,
             "preview": session.preview_morphs,

@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
 
 from app.editor.session import Session, Severity
 from app.errors import AppError
-from app.messages.pitches import LETTERS, pitch_name
+from app.messages.pitches import pitch_name
 from instrument_maps import fingering_table as edit
 from instrument_maps.fingering_words import fingering_words
 from instrument_maps.library import library
@@ -42,7 +42,7 @@ from widgets.common.icons import icon
 from widgets.common.instrument_name import instrument_name, language
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.paths import show_folder
-from widgets.common.pitch import syllables
+from widgets.common.pitch import pitch_names
 from widgets.common.plain import Label, Role, ask
 from widgets.common.text import message_text
 from widgets.dialogs.fingering_draft import FingeringDraft, base_of
@@ -260,7 +260,7 @@ class InstrumentsDialog(Retranslated, QDialog):
 
     def _name(self, pitch: int) -> str:
         display = self._session.pitch_display
-        return pitch_name(pitch, display.middle_c_octave, syllables() if display.syllables else LETTERS)
+        return pitch_name(pitch, display.middle_c_octave, pitch_names(display))
 
     def _fill_table(self, draft: FingeringDraft, chosen: tuple[int, int] | None = None) -> None:
         chosen = chosen or self._chosen()

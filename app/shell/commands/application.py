@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import get_args
 
 from app.editor.session import PitchDisplay
 from app.editor.tokens import THEMES
+from app.messages.pitches import PitchNames
 from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction, is_open
 from app.shell.workspaces import WORKSPACES
@@ -63,6 +65,12 @@ def _pitch(id: str, choose: Callable[[PitchDisplay], None], chosen: Callable[[Pi
     )
 
 
+def _pitch_names(names: PitchNames) -> Action:
+    return _pitch(
+        f"pitch_names.{names}", lambda display: display.set(names=names), lambda display: display.names == names
+    )
+
+
 def _theme(name: str) -> Action:
     return Action(
         f"theme.{name}",
@@ -111,8 +119,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     _pitch("pitch.written", lambda named: named.set(written=True), lambda named: named.written),
     _pitch("pitch_octave.c4", lambda named: named.set(middle_c_octave=4), lambda named: named.middle_c_octave == 4),
     _pitch("pitch_octave.c3", lambda named: named.set(middle_c_octave=3), lambda named: named.middle_c_octave == 3),
-    _pitch("pitch_names.letters", lambda named: named.set(syllables=False), lambda named: not named.syllables),
-    _pitch("pitch_names.syllables", lambda named: named.set(syllables=True), lambda named: named.syllables),
+    *(_pitch_names(names) for names in get_args(PitchNames)),
     _theme("dark"),
     _theme("light"),
     _language("en"),

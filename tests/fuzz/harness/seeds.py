@@ -154,7 +154,7 @@ def settings() -> list[bytes]:
         b'[window]\ngeometry = "AdnQywADAAA="\nlayout = "AAAA/wAA"\ntimeline = "{\\"order\\": [\\"roll\\"]}"\n\n'
         b'[files]\nfolder = "/tmp"\nrecent = ["/tmp/a.suisou", "file:///tmp/%FF.mid"]\n\n'
         b'[shortcuts]\n"edit.undo" = "Ctrl+Z"\n\n[midi_devices."EWI USB"]\nlatency_s = "0.01"\n\n'
-        b"[pitch]\nwritten = true\nmiddle_c_octave = 3\nsyllables = false\n",
+        b"[pitch]\nwritten = true\nmiddle_c_octave = 3\nnames = 'german'\n",
     ]
 
 

@@ -174,7 +174,7 @@ def test_written_pitch_and_other_octaves_are_read_as_shown(panel: InspectorPanel
     select(planned, note)
     type_into(number(panel, "note_pitch"), "D4")
     assert note_now(planned, note.id).pitch == 72
-    planned.pitch_display.set(syllables=True)
+    planned.pitch_display.set(names="syllables")
     assert number(panel, "note_pitch").value_text() == "Re4"
     type_into(number(panel, "note_pitch"), "mi♭4")
     assert note_now(planned, note.id).pitch == 73

@@ -844,10 +844,9 @@ CASES: dict[str, Case] = {
     "pitch.written": becomes(lambda d: d.session.pitch_display.written, True),
     "pitch_octave.c4": becomes(lambda d: d.session.pitch_display.middle_c_octave, 4, command("pitch_octave.c3")),
     "pitch_octave.c3": becomes(lambda d: d.session.pitch_display.middle_c_octave, 3),
-    "pitch_names.letters": becomes(
-        lambda d: d.session.pitch_display.syllables, False, command("pitch_names.syllables")
-    ),
-    "pitch_names.syllables": becomes(lambda d: d.session.pitch_display.syllables, True),
+    "pitch_names.letters": becomes(lambda d: d.session.pitch_display.names, "letters", command("pitch_names.german")),
+    "pitch_names.german": becomes(lambda d: d.session.pitch_display.names, "german"),
+    "pitch_names.syllables": becomes(lambda d: d.session.pitch_display.names, "syllables"),
     "theme.dark": becomes(lambda d: d.session.tokens.name, "dark", command("theme.light")),
     "theme.light": becomes(lambda d: d.session.tokens.name, "light"),
     "language.en": becomes(lambda d: actions(d.session)["file.save"].text(), "Save", set_language("ja")),

@@ -21,7 +21,7 @@ from app.messages import text
         ("theme", "light"),
         ("written_pitch", True),
         ("middle_c_octave", 3),
-        ("syllables", True),
+        ("pitch_names", "german"),
         ("time_display", "frames"),
         ("volume", 0.35),
         ("click", True),
@@ -46,6 +46,16 @@ def test_values_come_back(tmp_path: Path, name: str, value: object) -> None:
     again = getattr(Settings(path), name)
     assert again == value
     assert type(again) is type(default)
+
+
+def test_syllables_of_an_earlier_version_are_kept(tmp_path: Path) -> None:
+    path = tmp_path / "editor.toml"
+    path.write_text("[pitch]\nsyllables = true\nwritten = true\n")
+    settings = Settings(path)
+    assert (settings.pitch_names, settings.written_pitch, settings.problems) == ("syllables", True, ())
+    settings.middle_c_octave = 3
+    settings.sync()
+    assert Settings(path).pitch_names == "syllables"
 
 
 def test_values_that_are_not_possible_are_named_and_the_others_hold(tmp_path: Path) -> None:
