@@ -26,47 +26,14 @@ _seconds = bounded_number(0.0, LONGEST_S, "a number of seconds", float)
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Finds when every beat sounds in a recording of the piece and rewrites the tempo so that the notes "
-        "lie there. The tempo moves from beat to beat, and with --notes single notes too. Bars that are doubtful, and "
-        "what only the recording has, are listed; where the recording leaves bars out, or is of another piece, nothing "
-        "is written."
-    )
     add_file_options(command)
-    command.add_argument(
-        "recording", type=Path, metavar="RECORDING", help="a recording of the piece: WAV, FLAC, OGG or MP3"
-    )
-    command.add_argument(
-        "--from", dest="from_s", type=_seconds, metavar="S", help="only what is recorded from this second on"
-    )
-    command.add_argument(
-        "--until", dest="until_s", type=_seconds, metavar="S", help="only what is recorded before this second"
-    )
-    command.add_argument(
-        "--notes",
-        action="store_true",
-        help="let single notes move too, where their beginnings are clear; else beats alone",
-    )
-    command.add_argument(
-        "--dynamics",
-        action="store_true",
-        help="let the players' dynamics follow the loudness of the recording",
-    )
-    command.add_argument(
-        "--stems",
-        action="append",
-        default=[],
-        metavar="PLAYER=FILE",
-        help="a recording of one player alone, which begins with RECORDING: their dynamics follow it (implies "
-        "--dynamics); may be given several times",
-    )
-    command.add_argument(
-        "--to",
-        type=Path,
-        required=True,
-        metavar="OUT",
-        help="a project with the recording (OUT.suisou), or a MIDI file (OUT.mid); one there is replaced",
-    )
+    command.add_argument("recording", type=Path, metavar="RECORDING")
+    command.add_argument("--from", dest="from_s", type=_seconds, metavar="S")
+    command.add_argument("--until", dest="until_s", type=_seconds, metavar="S")
+    command.add_argument("--notes", action="store_true")
+    command.add_argument("--dynamics", action="store_true")
+    command.add_argument("--stems", action="append", default=[], metavar="PLAYER=FILE")
+    command.add_argument("--to", type=Path, required=True, metavar="OUT")
     command.set_defaults(run=align, settings=[])
 
 

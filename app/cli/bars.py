@@ -16,26 +16,13 @@ if TYPE_CHECKING:
 
 def add_bar_options(command: argparse.ArgumentParser) -> None:
     """Declare first and last bar."""
-    command.add_argument(
-        "--from-bar",
-        type=whole_number,
-        metavar="N",
-        help="first bar, as printed (a pickup is bar 0): frame 0 is where it begins (default: the pre-roll before the "
-        "first note)",
-    )
-    command.add_argument(
-        "--to-bar", type=whole_number, metavar="N", help="last bar, inclusive (default: the end of the performance)"
-    )
+    command.add_argument("--from-bar", type=whole_number, metavar="N")
+    command.add_argument("--to-bar", type=whole_number, metavar="N")
 
 
 def add_lead_in_option(command: argparse.ArgumentParser) -> None:
     """Declare the beats before the first bar."""
-    command.add_argument(
-        "--lead-in",
-        type=beats,
-        metavar="BEATS",
-        help="felt beats to show before --from-bar, as far as the performance has them (default: 0)",
-    )
+    command.add_argument("--lead-in", type=beats, metavar="BEATS")
 
 
 def requested_bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int, int] | None:

@@ -24,56 +24,26 @@ class CannotPlayError(AppError):
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Lists the characters the program knows, bundled and your own. 'characters check FILE' says which "
-        "of its bones are which joints, which morphs make its face and what it will not play, 'characters add FILE' "
-        "copies a VRM, glTF (.glb) or FBX file into your own folder."
-    )
-    command.add_argument("--json", action="store_true", help="print as JSON")
+    command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_characters)
     actions = command.add_subparsers(title="actions", metavar="ACTION")
     check = actions.add_parser(
-        "check",
-        help="say what of a figure is what, what is missing and what will not be played",
-        description="Reads a figure and says what maps to what. Exit status 0: it can play, 1: it cannot.",
+        "check", help="say what of a figure is what, what is missing and what will not be played"
     )
     _add_file(check)
-    check.add_argument("--json", action="store_true", help="print as JSON")
+    check.add_argument("--json", action="store_true")
     check.set_defaults(run=check_character)
-    add = actions.add_parser(
-        "add",
-        help="copy a character's file into your own folder",
-        description="Copies a file whose figure can play into your own folder, with the corrections given, and prints "
-        "the id it is cast by.",
-    )
+    add = actions.add_parser("add", help="copy a character's file into your own folder")
     _add_file(add)
-    add.add_argument("--name", default="", metavar="NAME", help="what the character is called; else by its file")
+    add.add_argument("--name", default="", metavar="NAME")
     add.set_defaults(run=add_character)
 
 
 def _add_file(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", type=Path, metavar="FILE", help="a .vrm, .glb, .gltf or .fbx file")
-    command.add_argument(
-        "--joint",
-        action="append",
-        default=[],
-        metavar="JOINT=BONE",
-        help="the bone that is a VRM 1.0 joint, against what is found; none after '=': there is no such joint",
-    )
-    command.add_argument(
-        "--morph",
-        action="append",
-        default=[],
-        metavar="SHAPE=MORPH[:WEIGHT][+...]",
-        help="what makes an ARKit shape of the face, e.g. jawOpen=Mouth_A:0.8+Teeth_A:0.8",
-    )
-    command.add_argument(
-        "--height",
-        type=_height,
-        default=0.0,
-        metavar="METRES",
-        help="how tall the character is, for a file in a unit of its own; else as in the file",
-    )
+    command.add_argument("file", type=Path, metavar="FILE")
+    command.add_argument("--joint", action="append", default=[], metavar="JOINT=BONE")
+    command.add_argument("--morph", action="append", default=[], metavar="SHAPE=MORPH[:WEIGHT][+...]")
+    command.add_argument("--height", type=_height, default=0.0, metavar="METRES")
 
 
 def list_characters(arguments: argparse.Namespace) -> None:

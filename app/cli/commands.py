@@ -1,12 +1,17 @@
-"""The sub-commands: what each is called and does. Its module is loaded when its arguments are read."""
+"""The sub-commands: what each is called and does. Its module is loaded when its arguments are read.
+
+Descriptions of sub-commands and the help of their options stand in tables beside the modules (``help.toml``).
+"""
 
 from __future__ import annotations
 
 import argparse
 import gc
+import tomllib
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
+from pathlib import Path
 from typing import Any, Final, NoReturn
 
 from app.encoding import shown
@@ -43,6 +48,9 @@ _COMMANDS: Final = _all_commands()
 TWO_WORDS: Final = frozenset(name for name in _COMMANDS if " " in name)
 """A piece with such a name is written "./results"."""
 
+SHARED: Final = "shared"
+DESCRIPTION: Final = "description"
+
 Declare = Callable[[argparse.ArgumentParser], None]
 
 
@@ -66,6 +74,7 @@ class CommandParser(argparse.ArgumentParser):
         if self._declare is not None:
             declare, self._declare = self._declare, None
             declare(self)
+            _explain(self)
 
     def error(self, message: str) -> NoReturn:
         super().error(shown(message))
@@ -75,6 +84,26 @@ class CommandParser(argparse.ArgumentParser):
     ) -> tuple[Any, list[str]]:
         self.complete()
         return super().parse_known_args(args, namespace)
+
+
+@cache
+def help_texts() -> dict[str, dict[str, str]]:
+    """Read the tables: descriptions and texts of options by sub-command; those of several under `SHARED`."""
+    folder = Path(__file__).parent
+    paths = (folder / "help.toml", *sorted(folder.glob("*/help.toml")))
+    return {name: texts for path in paths for name, texts in tomllib.loads(path.read_text("utf-8")).items()}
+
+
+def _explain(command: argparse.ArgumentParser) -> None:
+    """Give a sub-command, its options and its own sub-commands the texts that their declarations leave out."""
+    texts = help_texts()[SHARED] | help_texts().get(command.prog.partition(" ")[2], {})
+    command.description = command.description or texts.get(DESCRIPTION)
+    for action in command._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for part in action.choices.values():
+                _explain(part)
+        elif action.help is None:
+            action.help = texts.get(action.option_strings[-1] if action.option_strings else action.dest)
 
 
 def add_commands(top: argparse.ArgumentParser) -> None:

@@ -45,28 +45,11 @@ SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Writes per player a character that plays its part and its instrument, and a report.json that says "
-        "what the files hold. Either all files appear or none. Players who cannot be exported are excluded and named; "
-        "the exit status is 4 then."
-    )
     add_source_options(command)
     add_title_option(command)
     place = command.add_mutually_exclusive_group(required=True)
-    place.add_argument(
-        "--to",
-        type=Path,
-        metavar="DIR",
-        help="folder for the files; made if needed. FILE may be a folder: each piece in it gets a folder of its own "
-        "there, one that fails stops no other, and what was exported before and has not changed is passed over",
-    )
-    place.add_argument(
-        "--unreal",
-        type=Path,
-        metavar="PROJECT",
-        help="an Unreal project (its .uproject file or folder): sources go beside its content, with the sound and a "
-        "plug-in whose menu imports them",
-    )
+    place.add_argument("--to", type=Path, metavar="DIR")
+    place.add_argument("--unreal", type=Path, metavar="PROJECT")
     command.add_argument(
         "--format",
         dest="formats",
@@ -80,18 +63,8 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     _add_skeleton_options(command)
     _add_content_options(command)
     add_ignored_option(command)
-    command.add_argument(
-        "--jobs",
-        type=jobs,
-        metavar="N",
-        help="processes that share the work (default: one per core, where it is worth it)",
-    )
-    command.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="export the pieces of a folder on the machines of a Dask scheduler, such as tcp://10.0.0.1:8786; all of "
-        "them must see the folders under the same paths",
-    )
+    command.add_argument("--jobs", type=jobs, metavar="N")
+    command.add_argument("--scheduler", metavar="ADDRESS")
     command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
     add_bar_options(command)
     add_lead_in_option(command)
@@ -100,21 +73,9 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
     """Add the options for the skeletons."""
-    command.add_argument(
-        "--skeleton",
-        choices=SKELETONS,
-        help="what the characters are written on: the skeleton of the character's own file, untouched, so that the "
-        "animation drops on the asset made from it; Unreal's mannequin with the character's proportions; or ours "
-        "(default: own; with --unreal ue5)",
-    )
+    command.add_argument("--skeleton", choices=SKELETONS)
     add_rig_options(command)
-    command.add_argument(
-        "--check-skeleton",
-        type=Path,
-        metavar="ASSET",
-        help="an FBX, VRM or glTF file of the asset: every bone is compared with its, and nothing is written that the "
-        "asset would lose; the mannequin's rest rotations are taken from it",
-    )
+    command.add_argument("--check-skeleton", type=Path, metavar="ASSET")
     command.add_argument(
         "--bvh-names",
         choices=names("bone_names"),
@@ -127,11 +88,7 @@ def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
 
 def _add_content_options(command: argparse.ArgumentParser) -> None:
     """Add the options for further files, and for reducing keys."""
-    command.add_argument(
-        "--sound",
-        action="store_true",
-        help="also the sound as WAV, from the first frame on; USD files refer to it (a project always gets it)",
-    )
+    command.add_argument("--sound", action="store_true")
     command.add_argument(
         "--stage",
         action="store_true",
@@ -150,33 +107,10 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
 
 def add_rig_options(command: argparse.ArgumentParser) -> None:
     """Add the options for attaching instruments, and for additions to the skeletons."""
-    command.add_argument(
-        "--instrument",
-        choices=ATTACHMENTS,
-        default=DEFAULT_RIG.instrument,
-        help="free: the instrument's file has its motion in the world; socket: its root hangs on a socket bone of the "
-        "hand that bears it; ik: on a socket bone of that hand's IK target, with IK targets of hands and feet as bones "
-        "(default: %(default)s)",
-    )
-    command.add_argument(
-        "--root-bone",
-        choices=ROOT_BONES,
-        default=DEFAULT_RIG.root_bone,
-        help="where the root bone is: at the origin, at the player's place on the stage, or in motion over the floor "
-        "below the hips (default: %(default)s)",
-    )
-    command.add_argument(
-        "--rest-pose",
-        choices=REST_POSES,
-        default=DEFAULT_RIG.rest_pose,
-        help="the arms in the pose that meshes are bound in: as modelled, level, or 45 degrees down; the motion is the "
-        "same (default: %(default)s)",
-    )
-    command.add_argument(
-        "--twist-bones",
-        action="store_true",
-        help="twist bones along upper and lower arms carry skin; our own skeleton gets one for each",
-    )
+    command.add_argument("--instrument", choices=ATTACHMENTS, default=DEFAULT_RIG.instrument)
+    command.add_argument("--root-bone", choices=ROOT_BONES, default=DEFAULT_RIG.root_bone)
+    command.add_argument("--rest-pose", choices=REST_POSES, default=DEFAULT_RIG.rest_pose)
+    command.add_argument("--twist-bones", action="store_true")
 
 
 jobs = bounded_number(1, 256, "a number of processes", int)

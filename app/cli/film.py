@@ -51,20 +51,13 @@ _columns = bounded_number(1, MOST_COLUMNS, "a number of columns", int)
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Draws what the editor's viewport shows, without opening a window. Either everything is written or "
-        "nothing. Players who cannot be drawn are excluded and named; the exit status is 4 then. It needs OpenGL 2, "
-        "and on Linux a display: without one, 'xvfb-run -a suisou film ...'."
-    )
     add_source_options(command)
     place = command.add_mutually_exclusive_group(required=True)
-    place.add_argument(
-        "--to", type=Path, metavar="OUT", help="a film (OUT.mp4), or else a folder for a PNG file of every frame"
-    )
-    place.add_argument("--sheet", type=Path, metavar="OUT.png", help="a contact sheet: the frames side by side")
+    place.add_argument("--to", type=Path, metavar="OUT")
+    place.add_argument("--sheet", type=Path, metavar="OUT.png")
     seen = command.add_mutually_exclusive_group()
-    seen.add_argument("--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)")
-    seen.add_argument("--camera", metavar="NAME", help="a camera that was saved with the project in the editor")
+    seen.add_argument("--view", choices=VIEWS)
+    seen.add_argument("--camera", metavar="NAME")
     add_players_option(
         command,
         "the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
@@ -85,22 +78,13 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="RATE",
         help=f"frames per second of a film or folder (default: the project's, at most {USUAL_FILM_RATE})",
     )
-    command.add_argument(
-        "--marks", action="store_true", help="draw players' names, and rings around those that the view is about"
-    )
-    command.add_argument("--no-sound", action="store_true", help="a film without sound")
+    command.add_argument("--marks", action="store_true")
+    command.add_argument("--no-sound", action="store_true")
     command.add_argument(
         "--every", type=_every, metavar="S", help=f"seconds between frames of a sheet (default {float(USUAL_EVERY_S)})"
     )
-    command.add_argument(
-        "--columns",
-        type=_columns,
-        metavar="N",
-        help="frames side by side on a sheet (default: a row for each second where that is 4 to 12 frames)",
-    )
-    command.add_argument(
-        "--language", choices=tuple(LANGUAGES), help="of what stands under the frames of a sheet (default: en)"
-    )
+    command.add_argument("--columns", type=_columns, metavar="N")
+    command.add_argument("--language", choices=tuple(LANGUAGES))
     command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
     command.set_defaults(run=film)
 

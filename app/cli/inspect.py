@@ -54,25 +54,14 @@ through it again and again takes a twelfth of the time."""
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Reads a MIDI file or score and prints its players with fingerings, breaths, cues and gestures."
-    )
     add_source_options(command)
     add_title_option(command)
     add_rate_option(command)
     add_ignored_option(command)
-    command.add_argument("--json", action="store_true", help="print one JSON object instead of tables")
+    command.add_argument("--json", action="store_true")
     contacts = command.add_mutually_exclusive_group()
-    contacts.add_argument(
-        "--no-contacts",
-        action="store_true",
-        help="do not check what fingers, hands and lips reach, which takes longest",
-    )
-    contacts.add_argument(
-        "--all-contacts",
-        action="store_true",
-        help="check them for every player at the full rate, however large the piece is and however long that takes",
-    )
+    contacts.add_argument("--no-contacts", action="store_true")
+    contacts.add_argument("--all-contacts", action="store_true")
     command.set_defaults(run=inspect)
 
 

@@ -19,26 +19,16 @@ class InvalidMapError(AppError):
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Lists the instrument maps the program knows, bundled and your own. 'instruments scale ID' prints "
-        "all fingerings of an instrument, 'instruments check FILE' validates a map."
-    )
     command.set_defaults(run=list_maps)
     actions = command.add_subparsers(title="actions", metavar="ACTION")
-    scale = actions.add_parser(
-        "scale",
-        help="print the fingerings of an instrument in a chromatic scale of its range",
-        description="Prints every note of an instrument's range with its fingerings, first choice first.",
-    )
-    scale.add_argument("id", metavar="ID", help="an instrument, as 'suisou instruments' lists it")
-    scale.add_argument("--first", action="store_true", help="print first choices only")
+    scale = actions.add_parser("scale", help="print the fingerings of an instrument in a chromatic scale of its range")
+    scale.add_argument("id", metavar="ID")
+    scale.add_argument("--first", action="store_true")
     scale.set_defaults(run=print_scale)
     check = actions.add_parser(
-        "check",
-        help="validate a map: says the line of a syntax error, else the key path that is wrong",
-        description="Validates an instrument map, its model included. Exit status 0: valid, 1: not.",
+        "check", help="validate a map: says the line of a syntax error, else the key path that is wrong"
     )
-    check.add_argument("file", type=Path, metavar="FILE", help="a .toml file")
+    check.add_argument("file", type=Path, metavar="FILE")
     check.set_defaults(run=check_map)
 
 

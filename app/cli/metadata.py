@@ -23,17 +23,12 @@ class InvalidMetadataError(AppError):
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Without a piece: lists the styles, habits, expressions, gestures and rules the program knows, "
-        "ours and your own, with your own folders and what is wrong in them. With a piece: saves what was said of its "
-        "acting to a file, loads that into it, or compares both."
-    )
-    command.add_argument("piece", type=Path, nargs="?", metavar="PIECE", help="a project (.suisou)")
+    command.add_argument("piece", type=Path, nargs="?", metavar="PIECE")
     what = command.add_mutually_exclusive_group()
-    what.add_argument("--check", type=Path, metavar="FILE", help="validate a table in a folder of the kind's name")
-    what.add_argument("--save", type=Path, metavar="FILE", help="write the piece's; a file there is replaced")
-    what.add_argument("--load", type=Path, metavar="FILE", help="take a file's into the piece, and save the piece")
-    what.add_argument("--diff", type=Path, metavar="FILE", help="print where they differ; status 1 if they do")
+    what.add_argument("--check", type=Path, metavar="FILE")
+    what.add_argument("--save", type=Path, metavar="FILE")
+    what.add_argument("--load", type=Path, metavar="FILE")
+    what.add_argument("--diff", type=Path, metavar="FILE")
     command.set_defaults(run=run)
 
 

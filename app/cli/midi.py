@@ -13,13 +13,9 @@ from app.messages import filled, text
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Writes the piece as a MIDI file of format 1, a track for every player, with everything that was "
-        "drawn and recorded: notes, breath, bite and other controllers, tempo, metres and pickup."
-    )
     add_file_options(command)
     add_title_option(command)
-    command.add_argument("--to", type=Path, required=True, metavar="FILE", help="the MIDI file; one there is replaced")
+    command.add_argument("--to", type=Path, required=True, metavar="FILE")
     command.set_defaults(run=write, settings=[])
 
 

@@ -144,54 +144,14 @@ def add_players_option(command: argparse.ArgumentParser, help: str) -> None:
 
 def add_file_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and how it is read."""
-    command.add_argument("file", type=Path, metavar="FILE", help="a MIDI file, a score (MusicXML) or a project")
-    command.add_argument(
-        "--encoding",
-        type=text_encoding,
-        metavar="NAME",
-        help="of a MIDI file's texts (default: Unicode where it can be, else guessed from all of them)",
-    )
-    command.add_argument(
-        "--assign",
-        action="append",
-        default=[],
-        metavar='"PART=INSTRUMENT"',
-        help="the instrument of a part of a MIDI file or score, also where the file says none or another; PART may be "
-        "a pattern such as '*'; repeatable; `suisou instruments` lists the instruments; percussion: no one plays it, "
-        "and dancers hear its notes as a drum kit's",
-    )
-    command.add_argument(
-        "--written",
-        action="append",
-        default=[],
-        metavar="PLAYER",
-        help="the file has this player's pitches as they are written for a transposing instrument, not as they "
-        "sound (default: where a tenth of them and more are outside the instrument's range and all fit as written); "
-        "PLAYER may be a pattern such as '*sax*'; repeatable",
-    )
-    command.add_argument(
-        "--sounding",
-        action="append",
-        default=[],
-        metavar="PLAYER",
-        help="the file has this player's pitches as they sound, whatever their range; repeatable",
-    )
+    command.add_argument("file", type=Path, metavar="FILE")
+    command.add_argument("--encoding", type=text_encoding, metavar="NAME")
+    command.add_argument("--assign", action="append", default=[], metavar='"PART=INSTRUMENT"')
+    command.add_argument("--written", action="append", default=[], metavar="PLAYER")
+    command.add_argument("--sounding", action="append", default=[], metavar="PLAYER")
     takes = command.add_mutually_exclusive_group()
-    takes.add_argument(
-        "--clean-takes",
-        dest="clean_takes",
-        action="store_const",
-        const=True,
-        help="take every track of a MIDI file for a take of a wind controller: leave out slips, notes struck twice in "
-        "one breath and notes without breath (default: of tracks that look like takes)",
-    )
-    takes.add_argument(
-        "--keep-takes",
-        dest="clean_takes",
-        action="store_const",
-        const=False,
-        help="keep every note of a MIDI file, also of tracks that look like takes",
-    )
+    takes.add_argument("--clean-takes", dest="clean_takes", action="store_const", const=True)
+    takes.add_argument("--keep-takes", dest="clean_takes", action="store_const", const=False)
 
 
 def add_source_options(command: argparse.ArgumentParser) -> None:
@@ -206,9 +166,7 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         help=f"set a player's parameter; PLAYER may be a pattern such as '*'; repeatable. "
         f"Parameters: {', '.join(parameter_names())}",
     )
-    command.add_argument(
-        "--seed", type=whole_number, metavar="N", help="another performance (default: the project's, 0)"
-    )
+    command.add_argument("--seed", type=whole_number, metavar="N")
     command.add_argument(
         "--preroll",
         type=beats,
@@ -216,34 +174,14 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's; of a MIDI file or "
         f"score {PREROLL_BEATS:g}, or as many as take {COME_UP_S:g} s)",
     )
-    command.add_argument(
-        "--felt-beat",
-        type=felt_beat,
-        metavar="QUARTERS",
-        help="length of the beat that the players feel: 1.5 for a fast 6/8, 2 for alla breve, auto for what metre and "
-        "tempo say (default: the project's, auto); breaths, cues, sway and the pre-roll count in it",
-    )
-    command.add_argument(
-        "--section-intensity",
-        type=section_intensity,
-        metavar="TIMES",
-        help="multiplies what all players show of their acting, 0 to 2 (default: the project's, 1)",
-    )
-    command.add_argument(
-        "--conductor",
-        type=conductor,
-        metavar="PLACE",
-        help="where a conductor stands, who gives the entries: X,Z in metres (--conductor=-0.5,2 where X is negative), "
-        "usual for before the players, or none: the players give them (default: the project's; of a MIDI file or "
-        "score none)",
-    )
+    command.add_argument("--felt-beat", type=felt_beat, metavar="QUARTERS")
+    command.add_argument("--section-intensity", type=section_intensity, metavar="TIMES")
+    command.add_argument("--conductor", type=conductor, metavar="PLACE")
 
 
 def add_ignored_option(command: argparse.ArgumentParser) -> None:
     """Add the option that lists ignored problems."""
-    command.add_argument(
-        "--ignored", action="store_true", help="also list the problems that the project ignores, not only their number"
-    )
+    command.add_argument("--ignored", action="store_true")
 
 
 def add_title_option(command: argparse.ArgumentParser) -> None:
@@ -255,12 +193,7 @@ def add_title_option(command: argparse.ArgumentParser) -> None:
 
 def add_rate_option(command: argparse.ArgumentParser) -> None:
     """Declare the frame rate of the picture."""
-    command.add_argument(
-        "--fps",
-        type=frame_rate,
-        metavar="RATE",
-        help="frames per second: 24, 25, 29.97, 30, 60 or a fraction such as 30000/1001 (default: the project's, 60)",
-    )
+    command.add_argument("--fps", type=frame_rate, metavar="RATE")
 
 
 def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:

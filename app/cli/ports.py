@@ -68,10 +68,7 @@ class PortMonitor:
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Lists the MIDI devices that can be recorded from, what each is taken for, and those that can be sent to."
-    )
-    command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_ports)
 
 

@@ -55,17 +55,10 @@ class RecordError(AppError):
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Records what is played on a MIDI device, with breath, bite and bending, until the time is over or "
-        "Ctrl+C is pressed, and writes it as a MIDI file. Until that is written everything is in a journal beside it "
-        "(TAKE.mid.take-journal), at most a second behind; what a crash left of it is written with --rescue."
-    )
-    command.add_argument("--port", metavar="NAME", help="a device as 'suisou ports' lists it, or a part of its name")
-    command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid", help="the MIDI file to write")
-    command.add_argument("--seconds", type=_seconds, metavar="S", help="stop after so many (default: at Ctrl+C)")
-    command.add_argument(
-        "--count-in", type=_bars, default=0, metavar="BARS", help="count so many bars of 4/4 before (default: none)"
-    )
+    command.add_argument("--port", metavar="NAME")
+    command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid")
+    command.add_argument("--seconds", type=_seconds, metavar="S")
+    command.add_argument("--count-in", type=_bars, default=0, metavar="BARS")
     command.add_argument(
         "--tempo",
         type=_tempo,
@@ -73,9 +66,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
         metavar="BPM",
         help=f"of the count-in and of the file, quarters in a minute (default: {_USUAL_TEMPO:g})",
     )
-    command.add_argument(
-        "--rescue", action="store_true", help="record nothing: write TAKE.mid from the journal that a crash left"
-    )
+    command.add_argument("--rescue", action="store_true")
     command.set_defaults(run=record)
 
 

@@ -54,35 +54,23 @@ _REPORT_S: Final = 1.0
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Sends the poses of players and dancers in time by the VMC protocol (OSC over UDP), for Unreal, "
-        "VSeeFace, Warudo or Blender to follow: one character for each port. Ends with the piece, or at Ctrl+C."
-    )
     add_source_options(command)
     add_players_option(command, "only this player or dancer; repeatable (default: all, each on a port of their own)")
     command.add_argument(
         "--host", type=_host, default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})"
     )
-    command.add_argument(
-        "--broadcast",
-        action="store_true",
-        help="allow a multicast or broadcast address, which every computer on the network can receive from",
-    )
+    command.add_argument("--broadcast", action="store_true")
     command.add_argument(
         "--port",
         type=bounded_number(LEAST_PORT, MOST_PORT, "a port", int),
         default=PORT,
         help=f"of the first performer (default: {PORT})",
     )
-    command.add_argument(
-        "--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
-    )
-    command.add_argument("--faces", choices=FACE_NAMES, default="arkit", help="blendshape naming (default: arkit)")
-    command.add_argument(
-        "--from", dest="from_s", type=seconds, metavar="S", help="begin here, in seconds (default: the beginning)"
-    )
+    command.add_argument("--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE")
+    command.add_argument("--faces", choices=FACE_NAMES, default="arkit")
+    command.add_argument("--from", dest="from_s", type=seconds, metavar="S")
     add_ignored_option(command)
-    command.add_argument("--loop", action="store_true", help="begin again at the end")
+    command.add_argument("--loop", action="store_true")
     command.set_defaults(run=stream)
 
 

@@ -31,10 +31,6 @@ MOST_DANCERS: Final = 32
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Learns choreographies: basic motions of dancers, which of them follow each other and to what "
-        "percussion; and generates dances to other pieces from them."
-    )
     actions = command.add_subparsers(title="actions", metavar="ACTION", required=True)
     _add_learn(actions)
     _add_generate(actions)
@@ -97,13 +93,7 @@ class _CorrectBone(argparse.Action):
 
 
 def _add_learn(actions: Actions) -> None:
-    command = actions.add_parser(
-        "learn",
-        help="learn a choreography from motion capture and its music",
-        description="Learns basic motions and their grammar from pairs of a motion (a BVH, FBX or GLB file of a human "
-        "body) and the MIDI file or score that it was danced to, and writes them, with the motion and its "
-        "credits, into one file. Options of a pair are written behind it.",
-    )
+    command = actions.add_parser("learn", help="learn a choreography from motion capture and its music")
     command.add_argument(
         "--pair",
         dest="pairs",
@@ -113,7 +103,6 @@ def _add_learn(actions: Actions) -> None:
         default=(),
         required=True,
         metavar=("MOTION", "PIECE"),
-        help="a .bvh, .fbx or .glb file and a MIDI file or score; repeatable",
     )
     of_pair = command.add_argument_group("options of the pair before them")
 
@@ -143,24 +132,10 @@ def _add_learn(actions: Actions) -> None:
         type=Path,
         metavar="FILE",
     )
-    of_pair.add_argument(
-        "--bone",
-        action=_CorrectBone,
-        default=argparse.SUPPRESS,
-        metavar="JOINT=NAME",
-        help="the motion's bone that is a VRM 1.0 joint, against what is found, e.g. leftHand=Wrist_L; repeatable; "
-        "none after '=': there is no such joint",
-    )
-    command.add_argument(
-        "--states",
-        type=bounded_number(1, MOST_STATES, "a number of basic motions", int),
-        metavar="K",
-        help="number of basic motions (default: as many as are needed for those of one kind to look alike)",
-    )
-    command.add_argument("--seed", type=whole_number, default=0, metavar="N", help="of the classification (default: 0)")
-    command.add_argument(
-        "--to", type=Path, required=True, metavar="NAME.choreography", help="the file; one there is replaced"
-    )
+    of_pair.add_argument("--bone", action=_CorrectBone, default=argparse.SUPPRESS, metavar="JOINT=NAME")
+    command.add_argument("--states", type=bounded_number(1, MOST_STATES, "a number of basic motions", int), metavar="K")
+    command.add_argument("--seed", type=whole_number, default=0, metavar="N")
+    command.add_argument("--to", type=Path, required=True, metavar="NAME.choreography")
     command.set_defaults(run=learn)
 
 
@@ -245,64 +220,20 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
 
 
 def _add_generate(actions: Actions) -> None:
-    command = actions.add_parser(
-        "generate",
-        help="let dancers of a choreography dance to a piece",
-        description="Generates dances to a MIDI file from a choreography, and writes each dancer's motion as a BVH "
-        "file of the body that was captured. Of a piece without percussion, melody, bass and accents are taken for it.",
-    )
-    command.add_argument("choreography", metavar="NAME.choreography", help="a file that was learned, or a bundled one")
-    command.add_argument("piece", type=Path, metavar="PIECE", help="a MIDI file or a score")
+    command = actions.add_parser("generate", help="let dancers of a choreography dance to a piece")
+    command.add_argument("choreography", metavar="NAME.choreography")
+    command.add_argument("piece", type=Path, metavar="PIECE")
+    command.add_argument("--to", type=Path, required=True, metavar="OUT.bvh")
     command.add_argument(
-        "--to",
-        type=Path,
-        required=True,
-        metavar="OUT.bvh",
-        help="the file; those of several dancers have their number behind the name: OUT_1.bvh, OUT_2.bvh",
+        "--dancers", type=bounded_number(1, MOST_DANCERS, "a number of dancers", int), default=1, metavar="N"
     )
-    command.add_argument(
-        "--dancers",
-        type=bounded_number(1, MOST_DANCERS, "a number of dancers", int),
-        default=1,
-        metavar="N",
-        help="in a row, from the audience's left (default: 1)",
-    )
-    command.add_argument(
-        "--formation",
-        type=_formation,
-        default="unison",
-        metavar="NAME",
-        help="unison: all dance the same; canon: the same, one after the other; mirror: the same, every other one "
-        "mirrored; individual: each its own (default: %(default)s)",
-    )
-    command.add_argument("--seed", type=whole_number, default=0, metavar="N", help="of the dance (default: 0)")
-    command.add_argument(
-        "--prefer", metavar="MOTION", help="the source whose motion is preferred, by the name of its file"
-    )
-    command.add_argument(
-        "--size",
-        type=bounded_number(0.0, 1.5, "a size", float),
-        default=1.0,
-        metavar="FACTOR",
-        help="of the motion of trunk and arms (default: 1, as captured)",
-    )
-    command.add_argument(
-        "--weight",
-        type=bounded_number(-1.0, 1.0, "a weight", float),
-        default=0.0,
-        metavar="WEIGHT",
-        help="from -1, light, to 1, heavy: how deep knees bend (default: 0, as captured)",
-    )
-    command.add_argument(
-        "--melody",
-        type=bounded_number(0.0, 1.0, "an amount", float),
-        default=0.5,
-        metavar="AMOUNT",
-        help="how much melody, bass and accents count beside percussion, from 0 to 1 (default: 0.5)",
-    )
-    command.add_argument(
-        "--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE", help="frames per second (default: 60)"
-    )
+    command.add_argument("--formation", type=_formation, default="unison", metavar="NAME")
+    command.add_argument("--seed", type=whole_number, default=0, metavar="N")
+    command.add_argument("--prefer", metavar="MOTION")
+    command.add_argument("--size", type=bounded_number(0.0, 1.5, "a size", float), default=1.0, metavar="FACTOR")
+    command.add_argument("--weight", type=bounded_number(-1.0, 1.0, "a weight", float), default=0.0, metavar="WEIGHT")
+    command.add_argument("--melody", type=bounded_number(0.0, 1.0, "an amount", float), default=0.5, metavar="AMOUNT")
+    command.add_argument("--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE")
     command.set_defaults(run=generate)
 
 

@@ -67,60 +67,24 @@ def variants(said: str) -> tuple[Variant, ...]:
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Writes a folder with clips, a page that asks viewers about them, and a key that says which "
-        "variant each clip shows. Viewers get the page (evaluation.html) alone; it works without a network and saves a "
-        "CSV file for each viewer. 'suisou evaluate results' evaluates these files. Either everything is written or "
-        "nothing. It needs OpenGL 2, and on Linux a display: without one, 'xvfb-run -a suisou evaluate ...'."
-    )
     add_source_options(command)
-    command.add_argument(
-        "--to", type=Path, required=True, metavar="DIR", help="the folder; it must not have a key.json"
-    )
+    command.add_argument("--to", type=Path, required=True, metavar="DIR")
     _add_variants_options(command)
     add_bar_options(command)
     _add_clip_options(command)
-    command.add_argument(
-        "--draw", type=whole_number, metavar="N", help="seed that codes are drawn with (default: at random)"
-    )
+    command.add_argument("--draw", type=whole_number, metavar="N")
     command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
     command.set_defaults(run=evaluate)
 
 
 def _add_variants_options(command: argparse.ArgumentParser) -> None:
     """Add the options for the variants to compare."""
-    command.add_argument("--film", type=Path, metavar="VIDEO", help="real players who play the piece")
-    command.add_argument(
-        "--film-offset",
-        type=seconds,
-        metavar="S",
-        help="second of the performance at which the film begins (default: found by its sound)",
-    )
-    command.add_argument(
-        "--follow-film", action="store_true", help="perform the piece at the tempo of the film, beat by beat"
-    )
-    command.add_argument(
-        "--keyframes",
-        type=Path,
-        metavar="PATH",
-        help="animation of the piece made in another way: a video, or motion that the players are posed by (a BVH, FBX "
-        "or GLB file of one player, or a folder of them, called as 'suisou export' calls them)",
-    )
-    command.add_argument(
-        "--keyframes-offset",
-        type=seconds,
-        metavar="S",
-        help="second of the performance at which it begins (default: found by a video's sound; motion begins where the "
-        "report beside it says, or with the performance)",
-    )
-    command.add_argument(
-        "--variants",
-        type=variants,
-        default=(),
-        metavar="NAMES",
-        help="what is compared, with commas between: film (real players), generated (the performance), still (with "
-        "amplitude 0), shifted (fingers, slides and keys 200 ms late, a control), keyframes (default: all there are)",
-    )
+    command.add_argument("--film", type=Path, metavar="VIDEO")
+    command.add_argument("--film-offset", type=seconds, metavar="S")
+    command.add_argument("--follow-film", action="store_true")
+    command.add_argument("--keyframes", type=Path, metavar="PATH")
+    command.add_argument("--keyframes-offset", type=seconds, metavar="S")
+    command.add_argument("--variants", type=variants, default=(), metavar="NAMES")
 
 
 def _add_clip_options(command: argparse.ArgumentParser) -> None:
@@ -129,13 +93,9 @@ def _add_clip_options(command: argparse.ArgumentParser) -> None:
         "--excerpts", type=_excerpts, metavar="N", help=f"how many excerpts are chosen (default: {EXCERPTS})"
     )
     command.add_argument("--seconds", type=_length, metavar="S", help=f"of a chosen excerpt (default: {SECONDS:g})")
-    command.add_argument(
-        "--view", choices=VIEWS, help="how the players are seen (default: ensemble; with --player front)"
-    )
+    command.add_argument("--view", choices=VIEWS)
     add_players_option(command, "the player that the view is about; repeatable; a close-up shows the first")
-    command.add_argument(
-        "--presentation", choices=PRESENTATIONS, default="both", help="clips one at a time, in pairs, or both (default)"
-    )
+    command.add_argument("--presentation", choices=PRESENTATIONS, default="both")
     command.add_argument(
         "--size",
         type=picture_size(LEAST_PX, MOST_PX),

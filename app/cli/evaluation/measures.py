@@ -11,10 +11,6 @@ from app.cli.terminal import say
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Measures every player: lag of what is seen behind what is heard, motion of the head, breaths that "
-        "show, and contact."
-    )
     add_file_options(command)
     command.set_defaults(run=measures, settings=[])
 

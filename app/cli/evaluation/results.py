@@ -18,21 +18,9 @@ if TYPE_CHECKING:
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    command.description = (
-        "Reads the files that the page wrote, one for each viewer, and says how every variant was judged, "
-        "which differences are shown, how far viewers agree, and what may and may not be concluded."
-    )
-    command.add_argument("files", type=Path, nargs="+", metavar="FILE.csv", help="the answers of a viewer")
-    command.add_argument(
-        "--key", type=Path, metavar="KEY.json", help="the key (by default the one beside the answers or a folder above)"
-    )
-    command.add_argument(
-        "--to",
-        type=Path,
-        metavar="DIR",
-        help="write text, picture and tables into this folder: results.md, .svg, .csv and .json, in Japanese "
-        "results_ja.md and .svg",
-    )
+    command.add_argument("files", type=Path, nargs="+", metavar="FILE.csv")
+    command.add_argument("--key", type=Path, metavar="KEY.json")
+    command.add_argument("--to", type=Path, metavar="DIR")
     command.set_defaults(run=results)
 
 

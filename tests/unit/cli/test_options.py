@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.cli import parser
-from app.cli.commands import CommandParser
+from app.cli.commands import DESCRIPTION, SHARED, CommandParser, help_texts
 from app.cli.options import AUTOMATIC, beats, felt_beat, frame_rate, whole_number
 from app.errors import UsageError
 from app.project.parameters import parameter_names, parse_settings
@@ -88,3 +88,23 @@ def test_the_error_names_the_option_and_what_is_possible(capsys: pytest.CaptureF
     with pytest.raises(SystemExit):
         parser().parse_args(["stream", "x.mid", "--from", "nan"])
     assert "argument --from: 'nan' is not a number of seconds from -86400 to 86400" in capsys.readouterr().err
+
+
+def test_everything_is_explained_and_every_explanation_read() -> None:
+    unread = {(name, option) for name, texts in help_texts().items() for option in texts}
+    pending: list[argparse.ArgumentParser] = [parser()]
+    while pending:
+        command = pending.pop()
+        if isinstance(command, CommandParser):
+            command.complete()
+        name = command.prog.partition(" ")[2]
+        assert command.description, command.prog
+        for action in command._actions:
+            if isinstance(action, argparse._SubParsersAction):
+                pending += action.choices.values()
+                continue
+            assert action.help, (command.prog, action.dest)
+            option = action.option_strings[-1] if action.option_strings else action.dest
+            unread -= {(name, option), (SHARED, option)}
+        unread.discard((name, DESCRIPTION))
+    assert unread == set()

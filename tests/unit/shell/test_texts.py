@@ -21,8 +21,8 @@ from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]
 FILES = [path for room in ("app", "widgets") for path in sorted((ROOT / room).rglob("*.toml"))]
-"""Tables of texts; Japanese details have another form, and the guides' places no texts."""
-OTHERS = ("japanese.toml", "places.toml")
+"""Tables of texts; Japanese details have another form, and the guides' places are none; the command line is English."""
+OTHERS = ("japanese.toml", "places.toml", "help.toml")
 TABLES = {path: tomllib.loads(path.read_text("utf-8")) for path in FILES if path.name not in OTHERS}
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
