@@ -35,6 +35,7 @@ from app.choreography.heard import Hearing, hearing
 from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
 from app.choreography.model import ChoreographyModel
+from app.choreography.pairing import trust_in
 from app.choreography.phrases import returning_places
 from app.choreography.rhythm import Rhythm, felt_at
 from app.choreography.sequence import (
@@ -181,7 +182,7 @@ class Choreographer:
     @cached_property
     def hearing(self) -> Hearing:
         """Sounds of its segments."""
-        return hearing(self.model)
+        return hearing(self.model, trust_in(self.model))
 
     def dance(
         self,
@@ -240,13 +241,11 @@ class Choreographer:
         """Return which segments are danced when, and how time goes meanwhile."""
         candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
-        preferred = np.zeros(len(segments))
-        if manner.source is not None:
-            preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
+        preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
         chosen = choose(
             grid,
             candidates,
-            self.hearing.hits(rhythm, manner.melody),
+            self.hearing.hits(rhythm, manner.melody, any_dancer=manner.source is None),
             seed=manner.seed,
             weights=weights,
             constraints=constraints,

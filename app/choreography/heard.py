@@ -45,40 +45,70 @@ class HeardHits:
 
 
 @dataclass(frozen=True, eq=False)
+class SoundOdds:
+    """Log odds of a sound during each segment of a model, in two parts that add up.
+
+    Attributes
+    ----------
+    of_dancers : (S, 47) float64
+        The mean of the segments of each clip: what its dancer was heard to dance to.
+    of_motions : (S, 47) float64
+        What each motion sounded to beyond that.
+    """
+
+    of_dancers: FloatArray
+    of_motions: FloatArray
+
+    def both(self, *, any_dancer: bool) -> FloatArray:
+        """(S, 47) log odds where a dancer is to be found by the sounds, or is found already."""
+        return self.of_dancers + self.of_motions if any_dancer else self.of_motions
+
+
+@dataclass(frozen=True, eq=False)
 class Hearing:
     """Log odds of a sound during each segment of a model, against how often it sounds at all.
 
     Attributes
     ----------
-    percussion, melody : (S, 47) float64
+    percussion, melody : SoundOdds
         Melody, bass and accents stand for drums (`app.choreography.derived_rhythm`): those of a piece without
         percussion count as percussion, those beside percussion as ``melody``.
     """
 
-    percussion: FloatArray
-    melody: FloatArray
+    percussion: SoundOdds
+    melody: SoundOdds
 
-    def hits(self, rhythm: Rhythm, melody: float) -> HeardHits:
+    def hits(self, rhythm: Rhythm, melody: float, *, any_dancer: bool = True) -> HeardHits:
         """The hits of a piece, each counted by its strength wherever in a segment it is, as when they are learned.
 
         Parameters
         ----------
         melody : float
             How much melody, bass and accents count beside percussion.
+        any_dancer : bool
+            The sounds say whose motions are danced, not only which of one dancer's.
         """
-        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * self.percussion[:, rhythm.symbols].T
+        struck = self.percussion.both(any_dancer=any_dancer)
+        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * struck[:, rhythm.symbols].T
         tune = rhythm.melody
         if tune is not None and melody:
-            beside = melody * tune.strengths[:, None] * self.melody[:, tune.symbols].T
+            struck = self.melody.both(any_dancer=any_dancer)
+            beside = melody * tune.strengths[:, None] * struck[:, tune.symbols].T
             order = np.argsort(np.concatenate([times_s, tune.hits_s]), kind="stable")
             times_s = np.concatenate([times_s, tune.hits_s])[order]
             scores = np.concatenate([scores, beside])[order]
         return HeardHits(times_s, np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)]))
 
 
-def hearing(model: ChoreographyModel) -> Hearing:
-    """Learn how segments sound; a model without melodies hears them as the percussion that they stand for."""
-    percussion = _log_odds(model, [one.sounds for one in model.segments], model.emission, learned_symbols(model))
+def hearing(model: ChoreographyModel, trust: float = 1.0) -> Hearing:
+    """Learn how segments sound; a model without melodies hears them as the percussion that they stand for.
+
+    Parameters
+    ----------
+    trust : float
+        Weight of what a motion sounded to beyond what its dancer did (`app.choreography.pairing.trust_in`).
+    """
+    percussion = _odds(model, [one.sounds for one in model.segments], model.emission, learned_symbols(model), trust)
     melodies = [one.melody for one in model.segments]
     known = tuple(set().union(*melodies))
     if not known:
@@ -86,13 +116,17 @@ def hearing(model: ChoreographyModel) -> Hearing:
     states = np.array([one.state for one in model.segments], np.int64)
     symbols = [np.array(own, np.int64) for own in melodies]
     _, emission, _ = count([states], [symbols], model.states, smoothing=1.0)
-    return Hearing(percussion, _log_odds(model, melodies, emission, known))
+    return Hearing(percussion, _odds(model, melodies, emission, known, trust))
 
 
-def _log_odds(
-    model: ChoreographyModel, symbols: Sequence[Sequence[int]], emission: FloatArray, known: Sequence[int]
-) -> FloatArray:
-    """(S, 47) log odds of each symbol during each segment.
+def _odds(
+    model: ChoreographyModel,
+    symbols: Sequence[Sequence[int]],
+    emission: FloatArray,
+    known: Sequence[int],
+    trust: float,
+) -> SoundOdds:
+    """Log odds of each symbol during each segment.
 
     A basic motion of several dancers sounded to the drums of each: those of its own dancer count most. A symbol that
     was never heard tells nothing; smoothing alone would have it of the motions that heard least.
@@ -106,7 +140,10 @@ def _log_odds(
     shares = (own / own.sum(axis=-1, keepdims=True))[states, clips]
     log_odds = np.zeros(shares.shape)
     log_odds[:, list(known)] = np.log(shares / shares.mean(axis=0))[:, list(known)]
-    return log_odds
+    of_dancers = np.zeros(log_odds.shape)
+    for clip in np.unique(clips):
+        of_dancers[clips == clip] = log_odds[clips == clip].mean(axis=0)
+    return SoundOdds(of_dancers, trust * (log_odds - of_dancers))
 
 
 def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:

@@ -29,6 +29,8 @@ STRETCH: Final = (3, 7)
 """Fewest and most motions whose music stays together."""
 LEAST: Final = 20
 """Fewest motions of which anything can be said."""
+TRUSTED_BITS: Final = 0.5
+"""Bits a motion from which on sounds are trusted wholly."""
 TRUSTS: Final = (0.0, 0.06, 0.12, 0.25, 0.5, 1.0)
 """Weights of the sounds that are tried on a part of what is learned from: hits are not independent of one another."""
 
@@ -67,6 +69,15 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
     others = [test.bits(sounds[test.other_order(random)]) for _ in range(ORDERS)]
     as_much = sum(other >= bits - 1e-9 for other in others)
     return Pairing(bits, (1 + as_much) / (1 + ORDERS))
+
+
+def trust_in(model: ChoreographyModel) -> float:
+    """Return how far a dance follows what is struck during single motions, 0 to 1: not where that tells nothing about
+    motions, wholly where it informs by `TRUSTED_BITS`, or where nothing can be said."""
+    found = pairing_of(model)
+    if found is None:
+        return 1.0
+    return min(1.0, found.bits / TRUSTED_BITS) if found.tells else 0.0
 
 
 def report(model: ChoreographyModel) -> Message:

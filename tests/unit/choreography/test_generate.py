@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -17,6 +18,7 @@ from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
 from app.choreography.generate import Choreographer, mirrored
 from app.choreography.joins import fading_difference
+from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints
 from app.choreography.stitch import STAGE_M
 from tests.support.dance_measures import alignments, kinematic_beats_s
@@ -141,6 +143,25 @@ def test_a_source_can_be_preferred() -> None:
         for source in (0, 1)
     ]
     assert shares[0] + 0.3 < shares[1]
+
+
+def test_a_preferred_source_dances_to_the_drums_of_another() -> None:
+    """Two dancers, each learned with drums of their own: whoever is preferred dances to the drums of either."""
+    plain = model()
+    segments = tuple(replace(one, sounds=(1 + 20 * one.clip,) * 4) for one in plain.segments)
+    emission = np.full((plain.states, len(SYMBOLS)), 1e-3)
+    emission[:, [1, 21]] = 0.5
+    told = Choreographer(replace(plain, segments=segments, emission=emission))
+    of = np.array([one.clip for one in segments])
+    for symbol, own in ((1, 0), (21, 1)):
+        struck = beaten(64)
+        struck = replace(struck, symbols=np.full(len(struck.symbols), symbol))
+
+        def share(source: int | None, clip: int, struck: Rhythm = struck) -> float:
+            return float(np.mean(of[[step.segment for step in told.steps(struck, Manner(source=source))]] == clip))
+
+        assert share(None, own) > 0.8
+        assert [share(source, source) for source in (0, 1)] == pytest.approx([1.0, 1.0], abs=0.1)
 
 
 def test_pins_hold() -> None:

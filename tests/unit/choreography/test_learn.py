@@ -15,7 +15,7 @@ from app.choreography.hidden_markov import count
 from app.choreography.learn import FPS, SMOOTHING, Pair, learn
 from app.choreography.model_file import encode_model
 from app.choreography.resample import resampled
-from app.choreography.rhythm import Rhythm
+from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.errors import UsageError
 from app.rig import quaternion
 from tests.unit.choreography.test_cuts import arm_swings
@@ -80,13 +80,23 @@ def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
     other = replace(SWINGS.rhythm, symbols=SWINGS.rhythm.symbols + 10)
     model = learn([SWINGS, replace(SWINGS, rhythm=other)], states=4, seed=0, name="")
     clips = np.array([one.clip for one in model.segments])
-    log_odds = hearing(model).percussion
+    log_odds = hearing(model).percussion.both(any_dancer=True)
     assert {one.state for one in model.segments if one.clip == 0} == {one.state for one in model.segments if one.clip}
     for symbol, own in ((1, 0), (2, 0), (11, 1), (12, 1)):
         best = np.sort(log_odds[clips == own, symbol])[-5:]
         assert best.min() > 0.5 + log_odds[clips != own, symbol].max()
     # Sounds that no one heard tell nothing between two motions.
     assert np.ptp(log_odds[:, 30]) < 1e-6
+    # Where the dancer is chosen, sounds tell motions only: no dancer's are likelier in the mean, and setting off is
+    # told from arriving as before.
+    chosen = hearing(model).percussion.both(any_dancer=False)
+    for clip in (0, 1):
+        assert chosen[clips == clip].mean(axis=0) == pytest.approx(np.zeros(len(SYMBOLS)), abs=1e-12)
+        between = log_odds - chosen
+        assert np.ptp(between[clips == clip], axis=0) == pytest.approx(np.zeros(len(SYMBOLS)), abs=1e-12)
+    untrusted = hearing(model, 0.0)
+    assert untrusted.percussion.both(any_dancer=False).tolist() == np.zeros(log_odds.shape).tolist()
+    assert np.ptp(untrusted.percussion.both(any_dancer=True)[:, 1]) > 0.5
 
 
 def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:
@@ -104,7 +114,8 @@ def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:
     own, other = (np.array([one[clips == clip].mean() for one in summed]) for clip in (0, 1))
     assert (np.diff(own - other) > 1.0).all()
     # Without melodies of its own a model hears them as the drums that they stand for.
-    assert hearing(alone).melody.tolist() == hearing(alone).percussion.tolist()
+    without = hearing(alone)
+    assert without.melody is without.percussion
 
 
 def test_offsets_are_found_where_none_is_given() -> None:

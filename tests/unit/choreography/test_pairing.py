@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.choreography.model import ChoreographyModel
-from app.choreography.pairing import Pairing, pairing_of, report
+from app.choreography.pairing import Pairing, pairing_of, report, trust_in
 from tests.support.dances import model
 
 
@@ -60,6 +60,16 @@ def test_what_cannot_be_judged_is_said() -> None:
     short = replace(few, segments=few.segments[:12])
     assert pairing_of(short) is None
     assert report(short).id == "learn.pairing_unknown"
+
+
+def test_a_dance_follows_sounds_as_far_as_they_tell() -> None:
+    assert trust_in(sounding(1, 1.0)) == 1.0
+    assert [trust_in(sounding(seed, 0.0)) for seed in range(100, 108)].count(0.0) >= 7
+    barely = sounding(1, 0.5)
+    assert 0.0 < judged(barely).bits < 0.5
+    assert 0.0 < trust_in(barely) < 1.0
+    # Of a few motions nothing can be said against what sounded.
+    assert trust_in(replace(barely, segments=barely.segments[:12])) == 1.0
 
 
 def test_the_same_model_is_judged_the_same() -> None:
