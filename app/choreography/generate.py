@@ -34,6 +34,7 @@ from app.choreography.hands import out_of_body
 from app.choreography.heard import Hearing, hearing
 from app.choreography.joins import distances_m
 from app.choreography.judge import usual_change_rad_s
+from app.choreography.limbs import unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.pairing import trust_in
 from app.choreography.phrases import returning_places
@@ -360,7 +361,7 @@ class Choreographer:
         source_s = self._hits_s[segments[which]] + along - plan.hits_s[which]
         frames = Frames(segments, which, source_s, speeds)
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
-        return _Motion(replace(clip, hips_m=on_stage(clip.hips_m, float(fps))), contacts, seams, speeds)
+        return _Motion(unbroken(replace(clip, hips_m=on_stage(clip.hips_m, float(fps)))), contacts, seams, speeds)
 
 
 def mirrored(clip: MotionClip) -> MotionClip:

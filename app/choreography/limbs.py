@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -12,11 +13,27 @@ from app.choreography.clip import MotionClip
 from app.rig import quaternion
 from app.rig.ik import SOFT_SHARE
 from app.rig.skeleton import JointTransforms
+from app.rig.sole import SIDES
 
 STRAIGHT: Final = 0.03
 BENT: Final = 0.09
 """Bend of a knee that is off its straight leg by less than the one part of the leg's length, and more than the other.
 """
+STRETCHED_RAD: Final = 0.15
+"""A knee that would bend backwards, as where two motions fade into one another, stays within this of straight."""
+_ACROSS: Final = (1.0, 0.0, 0.0)
+
+
+def unbroken(clip: MotionClip) -> MotionClip:
+    """The motion without knees that bend backwards."""
+    rotations = clip.rotations.copy()
+    for side in SIDES:
+        shank = rotations[:, SEGMENTS.index(f"{side}LowerLeg")]
+        bent_rad = quaternion.twist_angle(shank, _ACROSS)
+        behind_rad = np.minimum(bent_rad, 0.0)
+        back_rad = STRETCHED_RAD * np.expm1(behind_rad / STRETCHED_RAD) - behind_rad
+        shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back_rad[:, None] * np.array(_ACROSS)))
+    return replace(clip, rotations=quaternion.continuous(rotations))
 
 
 def bend(

@@ -12,6 +12,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.feet import DEEPER, HIGHER, STEP_S, FootPlant, planted, stands
+from app.choreography.limbs import STRETCHED_RAD, unbroken
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
 from tests.support.dances import SHANK_M, THIGH_M, stepping, still
@@ -96,3 +97,21 @@ def test_the_heavy_bend_their_knees_and_step_where_they_stepped(weight: float) -
         assert np.abs(tips_m(weighed)[here, stand.foot] - stand.place_m).max() < 1e-3
     assert np.allclose(weighed.hips_m[:, [0, 2]], plain.hips_m[:, [0, 2]])
     assert angular_jumps(weighed).max() < 2.0 * angular_jumps(plain).max() + 1.0
+
+
+def test_knees_do_not_bend_backwards() -> None:
+    """A knee that goes through straight to behind comes to rest a little behind it; one that bends ahead is kept."""
+    clip = still(60)
+    bends_rad = np.linspace(1.0, -1.0, 60)
+    turns = quaternion.from_rotation_vector(bends_rad[:, None] * np.array((1.0, 0.0, 0.0)))
+    clip.rotations[:, SEGMENTS.index("leftLowerLeg")] = turns
+    found = quaternion.twist_angle(unbroken(clip).rotations[:, SEGMENTS.index("leftLowerLeg")], (1.0, 0.0, 0.0))
+    ahead = bends_rad >= 0.0
+    assert found[ahead] == pytest.approx(bends_rad[ahead], abs=1e-12)
+    assert found.min() >= -STRETCHED_RAD
+    # It neither stops at once nor turns back.
+    assert (np.diff(found) < 0.0).all()
+    assert np.abs(np.diff(found, 2)).max() < 0.3 * np.abs(np.diff(bends_rad)).max()
+    # The foot goes along, and nothing else turns.
+    others = [at for at, name in enumerate(SEGMENTS) if name != "leftLowerLeg"]
+    assert unbroken(clip).rotations[:, others] == pytest.approx(clip.rotations[:, others])
