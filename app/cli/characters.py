@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +44,7 @@ def _add_file(command: argparse.ArgumentParser) -> None:
     command.add_argument("--joint", action="append", default=[], metavar="JOINT=BONE")
     command.add_argument("--morph", action="append", default=[], metavar="SHAPE=MORPH[:WEIGHT][+...]")
     command.add_argument("--height", type=_height, default=0.0, metavar="METRES")
+    command.add_argument("--hide", action="append", default=[], metavar="MESH")
 
 
 def list_characters(arguments: argparse.Namespace) -> None:
@@ -81,7 +82,8 @@ def check_character(arguments: argparse.Namespace) -> None:
     CannotPlayError
         It cannot play.
     """
-    found = checked(arguments.file, joints_of(arguments.joint), morphs_of(arguments.morph), arguments.height)
+    joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
+    found = checked(arguments.file, joints, morphs, arguments.height, arguments.hide)
     if arguments.json:
         say_json(found)
     else:
@@ -95,7 +97,7 @@ def add_character(arguments: argparse.Namespace) -> None:
     from app.rig.characters.character_library import add_character as add
 
     joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
-    say(add(arguments.file, arguments.name, joints, morphs, arguments.height))
+    say(add(arguments.file, arguments.name, joints, morphs, arguments.height, arguments.hide))
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:
@@ -127,7 +129,11 @@ def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
 
 
 def checked(
-    path: Path, joints: Mapping[str, str], morphs: Mapping[str, Mapping[str, float]], height_m: float = 0.0
+    path: Path,
+    joints: Mapping[str, str],
+    morphs: Mapping[str, Mapping[str, float]],
+    height_m: float = 0.0,
+    hidden: Collection[str] = (),
 ) -> dict[str, Any]:
     """Mapping of a file's figure, as JSON. Raises FileError where there is no figure in it."""
     from app.rig.characters.figure_build import at_height, figure_height
@@ -137,7 +143,7 @@ def checked(
 
     reading = read_character(path, joints, morphs)
     names = reading.figure.bone_names
-    figure = at_height(reading.figure, height_m)
+    figure = at_height(reading.figure.without(hidden), height_m)
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
     reported = list(figure.notes)
     if not lacking:
@@ -150,6 +156,7 @@ def checked(
         "bones": len(names),
         "height_m": round(figure_height(figure) or 0.0, 4),
         "meshes": [mesh.name for mesh in reading.figure.meshes],
+        "hidden_meshes": list(hidden),
         "names": reading.joints.profile,
         "joints": {joint: names[bone] for joint, bone in reading.joints.bones.items()},
         "missing_joints": list(reading.joints.missing),
@@ -187,6 +194,9 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
         f"joints, {by_what.get(found['names'], found['names'])} (?: in doubt):",
         *(f"  {joint.ljust(26)}{'?' if joint in doubtful else ' '} {bone}" for joint, bone in found["joints"].items()),
     ]
+    hidden = set(found["hidden_meshes"])
+    listed = [f"{name} (hidden)" if name in hidden else name for name in found["meshes"]]
+    lines += ["", f"meshes: {', '.join(listed)}"]
     if found["missing_joints"]:
         lines += ["", f"joints without a bone: {', '.join(found['missing_joints'])}"]
     lines += ["", f"face, {found['face'] or 'no known names'}:"]

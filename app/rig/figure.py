@@ -6,16 +6,18 @@ remembers by `OwnSkeleton` where its joints came from, so that a motion can be g
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Final, Literal, TypeAlias
 
 from app.arrays import FloatArray
-from app.errors import Message
+from app.errors import FileError, Message
 from app.rig.mesh import Mesh
 
 Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx", "bvh"]
 """Kind of file that a figure came from."""
+MOST_LISTED: Final = 100
+"""Bones or meshes that the error of an unknown one lists."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +59,25 @@ class Figure:
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     notes: tuple[Message, ...] = ()
     posed: FloatArray | None = None
+
+    def without(self, hidden: Collection[str]) -> Figure:
+        """The figure without some of its meshes, by name.
+
+        Raises
+        ------
+        FileError
+            ``figure.no_mesh`` where it has none of a name; ``figure.all_hidden`` where none is left.
+        """
+        if not hidden:
+            return self
+        names = list(dict.fromkeys(mesh.name for mesh in self.meshes))
+        for name in hidden:
+            if name not in names:
+                raise FileError("figure.no_mesh", file=self.file, mesh=name, meshes=", ".join(names[:MOST_LISTED]))
+        shown = tuple(mesh for mesh in self.meshes if mesh.name not in hidden)
+        if not shown:
+            raise FileError("figure.all_hidden", file=self.file)
+        return replace(self, meshes=shown)
 
     @property
     def morph_names(self) -> tuple[str, ...]:

@@ -80,7 +80,7 @@ def edit_character(editor: Editor, id: str) -> None:
     entry, path = source.entry, source.path
 
     def done(figure: Figure) -> None:
-        draft = CharacterDraft(entry.title or id, entry.joints, entry.morphs, entry.height_m)
+        draft = CharacterDraft(entry.title or id, entry.joints, entry.morphs, entry.height_m, tuple(entry.hidden))
         dialog = _dialog(editor, path, figure, draft, give=False)
         dialog.agreed.connect(lambda draft, give: _change(editor, id, entry, draft))
 
@@ -128,7 +128,7 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
     chosen = session.players
 
     def work(progress: Progress, stop_requested: StopRequested) -> str:
-        return add_character(path, draft.title, draft.joints, draft.morphs, draft.height_m)
+        return add_character(path, draft.title, draft.joints, draft.morphs, draft.height_m, draft.hidden)
 
     def done(id: str) -> None:
         session.characters_saved.emit()
@@ -152,7 +152,9 @@ def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraf
     """Describe a character again."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
     title = shortened(" ".join(draft.title.split()), MOST_TITLE)
-    now = msgspec.structs.replace(entry, title=title, joints=dict(draft.joints), morphs=morphs, height_m=draft.height_m)
+    now = msgspec.structs.replace(
+        entry, title=title, joints=dict(draft.joints), morphs=morphs, height_m=draft.height_m, hidden=list(draft.hidden)
+    )
     if now == entry:
         return
     try:

@@ -30,8 +30,17 @@ from widgets.common.text import message_text
 from widgets.dialogs.automatic_number import AutomaticNumber
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
-from widgets.dialogs.character_draft import CharacterDraft, DraftHistory, character_of, joint_name, mapped, not_played
+from widgets.dialogs.character_draft import (
+    CharacterDraft,
+    DraftHistory,
+    character_of,
+    joint_name,
+    mapped,
+    not_played,
+    nothing_shown,
+)
 from widgets.dialogs.face_map_page import FaceMapPage
+from widgets.dialogs.mesh_list import MeshList
 
 PICTURE_PX: Final = QSize(250, 340)
 _LEAST_WORDS_PX: Final = 72
@@ -94,6 +103,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._items = {joint: QTreeWidgetItem() for joint in joints()}
         self.bones = BoneTree(session, figure)
         self.faces = FaceMapPage(session, figure.morph_names)
+        self.meshes = MeshList(figure)
         self.tabs = named(QTabWidget(), "character_tabs")
         self._none = Button("character_dialog.no_bone", lambda: self._give_bone(""), "joint_none")
         self._automatic = Button("character_dialog.automatic", lambda: self._give_bone(None), "joint_automatic")
@@ -136,7 +146,8 @@ class CharacterDialog(Retranslated, QDialog):
         body_page = panel(in_row((drawn, 5), (self.rows, 4), (choice, 5), margins=(0, 8, 0, 0)))
         self.tabs.addTab(body_page, "")
         self.tabs.addTab(self.faces, "")
-        self.texted(self.tabs, tabs=("character_dialog.body", "character_dialog.face"))
+        self.tabs.addTab(self.meshes, "")
+        self.texted(self.tabs, tabs=("character_dialog.body", "character_dialog.face", "character_dialog.meshes"))
         words = QScrollArea()
         words.setWidget(self._reported)
         words.setWidgetResizable(True)
@@ -158,6 +169,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.bones.chosen.connect(lambda bone: self._give_bone(bone))
         self.faces.chosen.connect(self._ask_picture)
         self.faces.changed.connect(lambda face, parts, gesture: self.change(self.draft.with_face(face, parts), gesture))
+        self.meshes.changed.connect(lambda hidden: self.change(replace(self.draft, hidden=hidden)))
         self.tabs.currentChanged.connect(self._ask_picture)
         self.title.textEdited.connect(self._rename)
         self.body_height.changed.connect(self._resize_figure)
@@ -260,6 +272,7 @@ class CharacterDialog(Retranslated, QDialog):
             item.setToolTip(0, self._joint_text(joint))
         self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
+        self.meshes.show_hidden(self.draft.hidden)
         reported = not_played(self._figure, made)
         self._reported.setText(
             "\n".join(f"• {text}" for text in reported) if reported else self.tr("character_dialog.all_supported")
@@ -279,8 +292,9 @@ class CharacterDialog(Retranslated, QDialog):
             text.setText(word)
         self._undo.setEnabled(self._steps.can_undo)
         self._redo.setEnabled(self._steps.can_redo)
-        self._reset.setEnabled(bool(self.draft.joints or self.draft.morphs or self.draft.height_m))
-        self._buttons.ok.setEnabled(not made.lacking and bool(self.draft.title.strip()))
+        self._reset.setEnabled(self.draft != CharacterDraft(self.draft.title))
+        shown = not nothing_shown(self._figure, self.draft)
+        self._buttons.ok.setEnabled(not made.lacking and shown and bool(self.draft.title.strip()))
         self._show_choice()
         self._ask_picture()
 
@@ -313,7 +327,7 @@ class CharacterDialog(Retranslated, QDialog):
             self._picture.setText(self.tr("character_dialog.no_preview"))
             return
         figure, made, known = self._figure, self._made, self._seen
-        key = (made.joints.bones, made.faces.morphs, made.draft.height_m)
+        key = (made.joints.bones, made.faces.morphs, made.draft.height_m, made.draft.hidden)
         crop: Crop = "head" if self.tabs.currentIndex() == 1 else "body"
         face, ratio = self.faces.face if crop == "head" else "", self.devicePixelRatioF()
         width, height = round(PICTURE_PX.width() * ratio), round(PICTURE_PX.height() * ratio)

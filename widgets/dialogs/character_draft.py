@@ -36,12 +36,15 @@ class CharacterDraft:
         Faces by ARKit name that are not found by themselves.
     height_m : float
         0: as tall as in the file.
+    hidden : tuple of str
+        Meshes of the file that are not shown.
     """
 
     title: str
     joints: Mapping[str, str] = field(default_factory=dict)
     morphs: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     height_m: float = 0.0
+    hidden: tuple[str, ...] = ()
 
     def with_joint(self, joint: str, bone: str | None) -> CharacterDraft:
         """Another bone for a joint; empty: none; None: as it is found by itself."""
@@ -90,7 +93,13 @@ def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) 
 
 def character_of(figure: Figure, made: Mapped) -> Character:
     """The character that a draft makes. Raises FileError where it cannot play."""
+    figure = figure.without(made.draft.hidden)
     return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs, made.draft.height_m)
+
+
+def nothing_shown(figure: Figure, draft: CharacterDraft) -> bool:
+    """Return whether every mesh of a figure is off."""
+    return all(mesh.name in draft.hidden for mesh in figure.meshes)
 
 
 class DraftHistory:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
@@ -54,6 +54,8 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
         By ARKit name: weights of the file's own morphs that make it.
     height_m : float
         Of the character; 0: as tall as in the file.
+    hidden : list of str
+        Meshes of the file that are not shown.
     """
 
     file: str
@@ -61,6 +63,7 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
     joints: dict[str, str] = {}
     morphs: dict[str, dict[str, float]] = {}
     height_m: float = 0.0
+    hidden: list[str] = []
 
 
 @dataclass(frozen=True)
@@ -197,7 +200,9 @@ def _opened(id: str, source: CharacterSource) -> Character:
 def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
     """A character by the stamps of its files and what is said about it."""
     said = msgspec.json.decode(entry, type=CharacterEntry | None)
-    return load_character(path) if said is None else load_character(path, id, said.joints, said.morphs, said.height_m)
+    if said is None:
+        return load_character(path)
+    return load_character(path, id, said.joints, said.morphs, said.height_m, said.hidden)
 
 
 def character_problems() -> Mapping[str, Message]:
@@ -218,6 +223,7 @@ def add_character(
     joints: Mapping[str, str] | None = None,
     morphs: Mapping[str, Mapping[str, float]] | None = None,
     height_m: float = 0.0,
+    hidden: Collection[str] = (),
 ) -> str:
     """Copy a character's file into the user's folder, with what it needs of others, and describe it there.
 
@@ -225,7 +231,7 @@ def add_character(
     ----------
     title : str
         What it is called; by its file's name where empty.
-    joints, morphs, height_m
+    joints, morphs, height_m, hidden
         Corrections, as in `CharacterEntry`.
 
     Returns
@@ -239,7 +245,7 @@ def add_character(
         It cannot play, or cannot be copied.
     """
     title = shortened(" ".join(title.split()), MOST_TITLE) or shown(path.stem)
-    load_character(path, shown(path.stem), joints or {}, morphs or {}, height_m)
+    load_character(path, shown(path.stem), joints or {}, morphs or {}, height_m, hidden)
     folder = own_folder()
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -253,7 +259,7 @@ def add_character(
             stream.write(content)
         # A file without a description is no one: what fails between the two leaves no half of a character.
         faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
-        write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces, height_m))
+        write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces, height_m, list(hidden)))
         return id
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from app.errors import FileError
 from app.rig.characters.bone_placements import world_placements
 from app.rig.characters.joints_by_shape import Tree, joints_by_shape, spread_spine, tree_of, trunk_by_limbs
-from app.rig.figure import Figure
+from app.rig.figure import MOST_LISTED, Figure
 from metadata.known_names import bone_key
 from metadata.load import load_bone_names, load_skeleton
 from metadata.model import REQUIRED_JOINTS
@@ -48,8 +48,6 @@ ENOUGH: Final = 8
 """A table that knows fewer of the required joints than this is not the figure's."""
 THUMB_BASE: Final = 0.5
 """A thumb's bone that begins nearer to the wrist than this, of the way to the index finger, is the metacarpal."""
-MOST_LISTED: Final = 100
-"""Bones that the error of an unknown one lists."""
 SHORTEST_AFFIXED: Final = 3
 """Names shorter than this count only as they are: too many others end in them."""
 

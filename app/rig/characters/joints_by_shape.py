@@ -373,7 +373,7 @@ def _pairs(upper: list[int]) -> list[tuple[int, int]]:
 
 
 def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
-    """How much the best limb of some bones differs from a usual one, whose halves are alike: in ratios, since a child
+    """Difference between the best limb of some bones and a usual one, whose halves are alike: in ratios, since a child
     of a toy has arms half as long."""
     ratios = []
     for start, middle in _pairs(upper):

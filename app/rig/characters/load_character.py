@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
@@ -46,6 +46,7 @@ def load_character(
     joints: Mapping[str, str] | None = None,
     morphs: Mapping[str, Mapping[str, float]] | None = None,
     height_m: float = 0.0,
+    hidden: Collection[str] = (),
 ) -> Character:
     """Load a character from a file: VRM, glTF or FBX.
 
@@ -59,6 +60,8 @@ def load_character(
         By ARKit name: weights of the file's own morphs that make it.
     height_m : float
         Of the character; 0: as tall as in the file.
+    hidden : collection of str
+        Meshes of the file that are left out.
 
     Raises
     ------
@@ -68,11 +71,11 @@ def load_character(
     try:
         if path.suffix.lower() == ".glb":
             source = read_source(path)
-            if source.gltf.generator == OURS and not height_m:
+            if source.gltf.generator == OURS and not height_m and not hidden:
                 return _ours(source, id or shown(path.stem))
         reading = read_character(path, joints, morphs)
         known, faces = reading.joints.bones, reading.face.morphs
-        return figure_character(reading.figure, id or shown(path.stem), known, faces, height_m)
+        return figure_character(reading.figure.without(hidden), id or shown(path.stem), known, faces, height_m)
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise invalid(path, f"damaged: {error!r}") from error
 

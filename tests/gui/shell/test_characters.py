@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
@@ -158,12 +159,33 @@ def test_without_what_playing_needs_it_cannot_be_kept(program: Program) -> None:
 
 def of_size(path: Path, source: Path, factor: float) -> Path:
     """A copy of a character's GLB whose scene is scaled."""
+
+    def change(document: dict[str, Any]) -> None:
+        (scene,) = document["scenes"]
+        document["nodes"].append({"name": "size", "scale": [factor] * 3, "children": scene["nodes"]})
+        scene["nodes"] = [len(document["nodes"]) - 1]
+
+    return changed(path, source, change)
+
+
+def with_a_shield(path: Path, source: Path) -> Path:
+    """A copy of a character's GLB with its mesh once more, called Shield."""
+
+    def change(document: dict[str, Any]) -> None:
+        node = next(node for node in document["nodes"] if "mesh" in node)
+        document["meshes"].append({**document["meshes"][node["mesh"]], "name": "Shield"})
+        document["nodes"].append({**node, "name": "Shield", "mesh": len(document["meshes"]) - 1})
+        document["scenes"][0]["nodes"].append(len(document["nodes"]) - 1)
+
+    return changed(path, source, change)
+
+
+def changed(path: Path, source: Path, change: Callable[[dict[str, Any]], None]) -> Path:
+    """A copy of a GLB with another document."""
     data = source.read_bytes()
     length = int.from_bytes(data[12:16], "little")
     document, rest = json.loads(data[20 : 20 + length]), data[20 + length :]
-    (scene,) = document["scenes"]
-    document["nodes"].append({"name": "size", "scale": [factor] * 3, "children": scene["nodes"]})
-    scene["nodes"] = [len(document["nodes"]) - 1]
+    change(document)
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     chunk = len(text).to_bytes(4, "little") + b"JSON" + text
@@ -194,6 +216,31 @@ def test_a_giant_is_offered_at_the_height_of_a_person(program: Program, tmp_path
     assert character_library().own[id].height_m == pytest.approx(1.55)
     tops = [skin.positions_m[:, 1].max() for skin in character_named(id).meshes]
     assert max(tops) == pytest.approx(1.55, abs=0.02)
+
+
+def test_a_mesh_is_switched_off_and_stays_so(program: Program, tmp_path: Path, qtbot: QtBot) -> None:
+    """What is off is in no picture, no player and no export; at least one stays on."""
+    dialog = opened(program, with_a_shield(tmp_path / "knight.vrm", TODDLER))
+    dialog.tabs.setCurrentIndex(2)
+    names = ["Toddler", "Shield"]
+    rows = dialog.meshes.list
+    assert [rows.topLevelItem(row).text(0) for row in range(rows.topLevelItemCount())] == names
+    body, shield = (rows.topLevelItem(row) for row in range(2))
+    shield.setCheckState(0, Qt.CheckState.Unchecked)
+    assert dialog.draft.hidden == ("Shield",)
+    dialog.undo()
+    assert shield.checkState(0) is Qt.CheckState.Checked
+    for row in (body, shield):
+        row.setCheckState(0, Qt.CheckState.Unchecked)
+    assert not ok(dialog).isEnabled()
+    body.setCheckState(0, Qt.CheckState.Checked)
+    QTest.mouseClick(ok(dialog), Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(character_library().own), timeout=20_000)
+    (id,) = character_library().own
+    assert character_library().own[id].hidden == ["Shield"]
+    character = character_named(id)
+    assert character.own is not None
+    assert [mesh.name for mesh in character.meshes] == [mesh.name for mesh in character.own.figure.meshes] == names[:1]
 
 
 def test_a_character_of_usual_size_keeps_the_height_of_its_file(program: Program) -> None:
