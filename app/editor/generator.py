@@ -34,7 +34,7 @@ AT_ONCE_S = 0.1
 """... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
 REPORTED_NOTES = 6000
 """Number of notes from which planning shows its progress and can be stopped."""
-MOST_WAIT_S = 10.0
+MOST_WAIT_S = 30.0
 """Longest wait until everyone moves around the playhead, before the rest of a piece is planned."""
 LOOK_S = 0.01
 

@@ -17,6 +17,7 @@ from app.audio.offset import Estimate, estimate_offset
 from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.track import RATE_HZ, Mix, MixTrack
+from app.editor.generator import REPORTED_NOTES
 from app.editor.listening import RecordedTake
 from app.editor.recording_alignment import follow_in_background, take_estimate
 from app.editor.session import Session, Severity
@@ -76,6 +77,8 @@ class EditorSound(QObject):
         self._audition: tuple[Project, RecordedTake, Project] | None = None
         """The project with a take in the place of a part, and what it was made from."""
         self._take_waits_ms = 0
+        self._held_back = False
+        """A large piece was opened, and is being planned: synthesising it would hold that up, and no one listens."""
         self._own_move = False
         self._reported_silent = False
         self._frame_timer = QTimer(self, interval=_FRAME_MS, timerType=Qt.TimerType.PreciseTimer)
@@ -84,6 +87,7 @@ class EditorSound(QObject):
         self._take_timer.timeout.connect(self._play_take)
         self._stems.changed.connect(self._stems_changed)
         session.changed.connect(self._changed)
+        session.performance_changed.connect(self._go_on)
         session.media_agreed.connect(self._read_agreed)
         session.playhead_changed.connect(self._playhead_moved)
         session.loop_changed.connect(lambda: self.playback.set_loop(session.loop_s))
@@ -113,7 +117,7 @@ class EditorSound(QObject):
 
     def _playhead_moved(self, playhead_s: float) -> None:
         project = self._sounding_project()
-        if self._synthesiser_audible(project) and not self._stems.covers(playhead_s):
+        if self._synthesiser_audible(project) and not self._held_back and not self._stems.covers(playhead_s):
             self._stems.follow(project, playhead_s)
         if self._own_move or not self._audible:
             return
@@ -124,6 +128,7 @@ class EditorSound(QObject):
 
     def _playing_changed(self, playing: bool) -> None:
         if playing:
+            self._go_on()
             self._frame_timer.start()
         else:
             self._frame_timer.stop()
@@ -189,6 +194,10 @@ class EditorSound(QObject):
             self.stop_listening()
             self._estimated.clear()
             self._unplaced = ""
+            self._held_back = self._session.performance.project is not change.after and _is_large(change.after)
+            if self._held_back:
+                self._stems.clear()
+                self._session.listening.set(ready=self._stems.ready)
         elif change.before.audio is None and change.after.audio is not None:
             audio = change.after.audio
             # An offset that is there already, or was there before an undo, is the user's.
@@ -213,9 +222,15 @@ class EditorSound(QObject):
         path = project.audio.path if project.audio is not None else ""
         if path != self._path:
             self._read(path)
-        if self._synthesiser_audible(project):
+        if self._synthesiser_audible(project) and not self._held_back:
             self._stems.follow(project, self._session.playhead_s)
         self._set_mix()
+
+    def _go_on(self) -> None:
+        """Synthesise what was held back: the piece is planned, or to be heard."""
+        if self._held_back:
+            self._held_back = False
+            self._take()
 
     def set_recording(self, counted_s: tuple[float, float] | None) -> None:
         """A take is recorded: it is counted in from a moment to another, and the performance goes on without an end.
@@ -344,6 +359,10 @@ class EditorSound(QObject):
         """Put every beat where the recording has it, as an edit; what is doubtful is reported."""
         if self._recording is not None and self._session.project.audio is not None:
             follow_in_background(self._session, self._recording, options or FollowOptions())
+
+
+def _is_large(project: Project) -> bool:
+    return sum(len(project.part(player).notes) for player in project.players) > REPORTED_NOTES
 
 
 def span_of(project: Project) -> TimeFrame:

@@ -123,6 +123,11 @@ class Stems(QObject):
         if self._job is not None:
             self._job.is_stopped = True
 
+    def clear(self) -> None:
+        """Forget the project that was followed, and its tracks."""
+        self.stop()
+        self._job, self._requested, self._made, self._tracks, self.ready = None, None, {}, {}, 0.0
+
     def covers(self, at_s: float) -> bool:
         """Return whether what sounds next at a moment is rendered, or being rendered."""
         if self._job is None:

@@ -247,6 +247,10 @@ class ParameterSections(Retranslated, QWidget):
 
     def _draw_portraits(self) -> None:
         """Beside the window: every body is looked at closely once."""
+        if self._session.performance.project is not self._session.project:
+            # The plans of a piece that was opened come first.
+            QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)
+            return
         size_px = round(PORTRAIT_PX * self.devicePixelRatioF())
 
         def work(progress: Progress, stop_requested: StopRequested) -> dict[str, QImage]:

@@ -150,7 +150,13 @@ def _with_lips(character: Character, mesh: str, contact: tuple[int, ...], carrie
 
 def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
     """A place (3,) in the head's frame at rest, and what every morph at weight 1 adds to it."""
-    positions, deltas = _skin(character, place)
+    return _of_head(character, place.mesh, tuple(place.vertices.tolist()))
+
+
+@lru_cache(maxsize=64)
+def _of_head(character: Character, mesh: str, vertices: tuple[int, ...]) -> tuple[FloatArray, dict[str, FloatArray]]:
+    # Most instruments are at the same places.
+    positions, deltas = _skin(character, Landmark(mesh, np.array(vertices, dtype=np.int32)))
     moved = {name: delta.mean(axis=0) for name, delta in deltas.items()}
     moving = {name: delta for name, delta in moved.items() if np.abs(delta).max() > 1e-6}
     return positions.mean(axis=0), moving

@@ -18,6 +18,7 @@ from app.editor.listening import RecordedTake
 from app.editor.session import Session, Severity
 from app.editor.sound import EditorSound
 from app.errors import Message
+from app.performance.ensemble import Performance
 from app.project.edit.piece import set_audio, set_offset
 from app.project.edit.takes import add_takes, remove_take
 from app.project.edit.tempo import scale_tempo, set_tempo
@@ -336,6 +337,30 @@ def test_opening_stops_the_sound(ready: EditorSound, session: Session, elapse: E
     elapse(0.2)
     session.document.open(piece(melody((0, 480, 60))))
     assert not session.playing
+
+
+@pytest.mark.parametrize("by_playing", [False, True])
+def test_a_large_piece_is_rendered_once_it_is_planned_or_played(
+    ready: EditorSound,
+    session: Session,
+    playback: Playback,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+    by_playing: bool,
+) -> None:
+    monkeypatch.setattr("app.editor.sound.REPORTED_NOTES", 1)
+    session.document.open(piece(melody((0, 480, 60), (960, 480, 62)), melody((480, 480, 65))))
+    assert not ready.is_busy, "planning needs the processor"
+    session.set_playhead(0.2)
+    assert not ready.is_busy
+    assert loudness(ready, 0.0, 0.4) == 0.0
+    if by_playing:
+        playback.play(0.0)
+    else:
+        session.set_performance(Performance(session.project))
+    assert ready.is_busy
+    wait_ready(ready, qtbot)
+    assert loudness(ready, 0.0, 0.4) > 0.0
 
 
 def test_for_a_picture_the_recording_is_only_seen(
