@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, IntArray
-from app.errors import FileError
+from app.errors import FileError, shortened
 from app.formats.gltf.container import field
 
 _COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -47,7 +47,8 @@ class Accessors:
         required = document.get("extensionsRequired")
         for name in required if isinstance(required, list) else []:
             if not str(name).startswith(_HARMLESS):
-                raise FileError("gltf.unsupported", file=file, what=str(name))
+                id = "gltf.compressed" if "compression" in str(name) else "gltf.unsupported"
+                raise FileError(id, file=file, what=shortened(str(name), 60))
         self._buffers = [self._buffer(buffer, index) for index, buffer in enumerate(self.items("buffers"))]
 
     # -------------------------------------------------------------------------------------------- checked fields
