@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.arrays import FloatArray
 from app.editor.live_poses import LivePoses, WornFaces
@@ -32,6 +32,8 @@ from widgets.viewport.shapes import Shapes
 
 FEW = 12
 """Performers whose figures are loaded at once; of more the one in front is first."""
+FRONT_MS = 3000
+"""The others' figures are loaded once the one in front moves, or after this time."""
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
 """Height of the podium's name above the conductor's place."""
@@ -66,6 +68,9 @@ class ViewportScene(QObject):
         """Those of the piece before, which may be worn again."""
         self.missing = False
         """True if a pose was missing when it was last requested."""
+        self._others = QTimer(self, interval=FRONT_MS, singleShot=True)
+        self._others.timeout.connect(self.load)
+        self.shown.connect(lambda: self.load() if self._others.isActive() else None)
 
     @property
     def loaded(self) -> DrawableFigures | None:
@@ -92,6 +97,7 @@ class ViewportScene(QObject):
 
     def load(self) -> None:
         """Bring the stage to the project's players; what is not there yet is loaded beside the window."""
+        self._others.stop()
         project, before = self._session.project, self._loaded
         if before is not None and same_figures(before.key, cast_key(project)):
             if before.key != cast_key(project):
@@ -120,6 +126,10 @@ class ViewportScene(QObject):
             self._set(loaded)
             if same_figures(loaded.key, key):
                 self._report_left_out(loaded.left_out)
+            elif not loaded.stage.shown.any():
+                # Loading them would hold up the motion of the one in front.
+                self._others.start()
+                return
         # Players or places may have changed meanwhile.
         self.load()
 

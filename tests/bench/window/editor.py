@@ -209,8 +209,15 @@ class LargeEditor:
         yield since(
             "the player in front plays in the viewport", lambda: not self.viewport.message() and self.is_right(front)
         )
+        yield since(
+            "everyone moves around the playhead",
+            lambda: all(self._moves(player.id) for player in self.session.project.players),
+        )
         yield since("plans are there", self.is_planned)
         yield since("everyone at the playhead does", lambda: self.program.generator.live.is_seen)
+
+    def _moves(self, player_id: str) -> bool:
+        return self.program.generator.live.pose(player_id, self.session.playhead_s) is not None
 
     def is_planned(self) -> bool:
         """Whether the plans are those of the project."""

@@ -58,3 +58,24 @@ def test_of_many_who_is_in_front_is_on_the_stage_before_the_others_are_loaded(
     assert all(shown)
     assert scene.loaded is not None
     assert scene.loaded.crowd is not None
+
+
+@pytest.mark.parametrize("moves", [True, False])
+def test_the_others_are_loaded_once_it_moves_or_after_some_time(
+    qtbot: QtBot, session: Session, poses: MadeNow, monkeypatch: pytest.MonkeyPatch, moves: bool
+) -> None:
+    monkeypatch.setattr(module, "FEW", 3)
+    monkeypatch.setattr(module, "FRONT_MS", 10**6 if moves else 50)
+    poses.missing = True
+    scene = ViewportScene(session, poses, PoseTool(session))
+    counts = list[int]()
+    scene.staged.connect(lambda: counts.append(0 if scene.stage is None else len(scene.stage.members)))
+    scene.load()
+    scene.pose(AT_S)
+    assert counts == [1]
+    if moves:
+        poses.missing = False
+        scene.pose(AT_S)
+    qtbot.waitUntil(lambda: counts == [1, len(session.project.players)])
+    scene.pose(AT_S)
+    assert len(counts) == 2, "nothing is loaded again"
