@@ -15,7 +15,7 @@ from app.project.edit.events import set_embouchure
 from app.project.model import Project
 from app.score.model import CurveKind, Part
 from widgets.timeline.model.geometry import StepCurve, TimeSpans
-from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, across
+from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveEdit, across
 from widgets.timeline.model.hand import LaneMouse
 
 LIPS = ("tension", "effort", "air")
@@ -77,7 +77,7 @@ def with_values(project: Project, player_id: str, curve: str, values: Mapping[st
     return project
 
 
-class DragController(MouseGesture):
+class DragController(EditGesture):
     """A controller goes up and down in some spans of ticks, and blends back beside them.
 
     Parameters
@@ -100,8 +100,7 @@ class DragController(MouseGesture):
         blend_beats: float,
         height_px: float,
     ) -> None:
-        super().__init__(at, across(DRAG_PX))
-        self._step = step
+        super().__init__(step, at, across(DRAG_PX))
         self._player_id, self._kind, self._spans, self._blend_beats = player_id, kind, spans, blend_beats
         self._height_px = max(height_px, 1.0)
 
@@ -113,15 +112,8 @@ class DragController(MouseGesture):
             lambda project: change_level(project, self._player_id, self._kind, self._spans, by, self._blend_beats),
         )
 
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
 
-    def cancel(self) -> None:
-        if self.began:
-            self._step.take_back()
-
-
-class DragCurve(MouseGesture):
+class DragCurve(EditGesture):
     """A curve of the lips goes up and down at all chosen notes together.
 
     Parameters
@@ -142,8 +134,7 @@ class DragCurve(MouseGesture):
         starts: Mapping[str, float],
         height_px: float,
     ) -> None:
-        super().__init__(at, across(DRAG_PX))
-        self._step = LiveEdit(session, origin)
+        super().__init__(LiveEdit(session, origin), at, across(DRAG_PX))
         self._player_id, self._curve, self._starts = player_id, curve, starts
         self._height_px = max(height_px, 1.0)
 
@@ -156,15 +147,8 @@ class DragCurve(MouseGesture):
             lambda project: with_values(project, self._player_id, self._curve, others),
         )
 
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
 
-    def cancel(self) -> None:
-        if self.began:
-            self._step.take_back()
-
-
-class DrawCurve(MouseGesture):
+class DrawCurve(EditGesture):
     """The pencil: every note that the mouse passes over gets the value at the mouse's height.
 
     Parameters
@@ -185,8 +169,7 @@ class DrawCurve(MouseGesture):
         lips: EmbouchureCurves,
         value_at: Callable[[float], float],
     ) -> None:
-        super().__init__(at)
-        self._step = LiveEdit(session, origin)
+        super().__init__(LiveEdit(session, origin), at)
         self._player_id, self._curve, self._lips, self._value_at = player_id, curve, lips, value_at
         self._last = at
         self._values: dict[str, float] = {}
@@ -207,9 +190,3 @@ class DrawCurve(MouseGesture):
                 Message("edit.set_embouchure", {"count": len(values)}),
                 lambda project: with_values(project, self._player_id, self._curve, values),
             )
-
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
-
-    def cancel(self) -> None:
-        self._step.take_back()

@@ -182,6 +182,28 @@ class MouseGesture:
         """Undo the gesture's edits and end it."""
 
 
+class EditGesture(MouseGesture):
+    """A drag that edits, in one step of undo.
+
+    Parameters
+    ----------
+    step : LiveEdit
+    at, far
+        As of `MouseGesture`.
+    """
+
+    def __init__(self, step: LiveEdit, at: LaneMouse, far: Far | None = None) -> None:
+        super().__init__(at, far)
+        self._step = step
+
+    def finish(self, mouse: LaneMouse) -> None:
+        self._step.end()
+
+    def cancel(self) -> None:
+        if self.began:
+            self._step.take_back()
+
+
 class Band(MouseGesture):
     """A rubber band: the box from the press to the mouse, which stays with the picture when that scrolls.
 

@@ -12,7 +12,7 @@ from app.project.edit.additive import Side
 from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve, by_curve, rounded
-from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, either, snapped
+from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveEdit, either, snapped
 from widgets.timeline.model.hand import LaneMouse
 
 FINE: Final = 0.2
@@ -21,7 +21,7 @@ ALIGNED: Final = 1e-3
 """Handles whose slopes differ by no more than this share turn together."""
 
 
-class DragKeys(MouseGesture):
+class DragKeys(EditGesture):
     """The selected keys go with the mouse: in time to the grid, Alt free of it, Ctrl in one direction only.
 
     Parameters
@@ -44,8 +44,8 @@ class DragKeys(MouseGesture):
         keys: frozenset[KeyRef],
         moved: Callable[[frozenset[KeyRef]], None],
     ) -> None:
-        super().__init__(at, either(DRAG_PX))
-        self._session, self._step = session, LiveEdit(session, None)
+        super().__init__(LiveEdit(session, None), at, either(DRAG_PX))
+        self._session = session
         self._player_id, self._channel, self._grabbed, self._keys = player_id, channel, grabbed, keys
         self._moved = moved
 
@@ -69,16 +69,13 @@ class DragKeys(MouseGesture):
         if done:
             self._moved(frozenset(KeyRef(key.name, key.tick + by) for key in self._keys))
 
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
-
     def cancel(self) -> None:
+        super().cancel()
         if self.began:
-            self._step.take_back()
             self._moved(self._keys)
 
 
-class DragHandle(MouseGesture):
+class DragHandle(EditGesture):
     """A handle goes with the mouse; the other one turns with it while both are in line, unless Ctrl is held.
 
     Parameters
@@ -99,8 +96,7 @@ class DragHandle(MouseGesture):
         at_key: int,
         side: Side,
     ) -> None:
-        super().__init__(at, either(1.0))
-        self._session, self._step = session, LiveEdit(session, origin)
+        super().__init__(LiveEdit(session, origin), at, either(1.0))
         self._player_id, self._name, self._side = player_id, shown.curve.name, side
         self._key = shown.curve.keys[at_key]
         clock = session.project.score.tempo_map
@@ -123,13 +119,6 @@ class DragHandle(MouseGesture):
             ),
         )
 
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
-
-    def cancel(self) -> None:
-        if self.began:
-            self._step.take_back()
-
 
 def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tangent]:
     """The handles that a key has, as they lie, also those that are automatic."""
@@ -148,14 +137,14 @@ def in_line(tangents: dict[Side, Tangent]) -> bool:
     return abs(one + other) <= ALIGNED * max(abs(one), abs(other)) + 1e-9
 
 
-class DragBlend(MouseGesture):
+class DragBlend(EditGesture):
     """A curve comes in earlier or later, or goes so, to the grid; Alt is free of it."""
 
     def __init__(
         self, session: Editing, origin: object, at: LaneMouse, player_id: str, name: str, key_tick: int, at_start: bool
     ) -> None:
-        super().__init__(at, either(DRAG_PX))
-        self._session, self._step = session, LiveEdit(session, origin)
+        super().__init__(LiveEdit(session, origin), at, either(DRAG_PX))
+        self._session = session
         self._player_id, self._name, self._key_tick, self._at_start = player_id, name, key_tick, at_start
 
     def follow(self, mouse: LaneMouse) -> None:
@@ -167,10 +156,3 @@ class DragBlend(MouseGesture):
             return edit.change_curves(project, self._player_id, (self._name,), **{field: ticks})
 
         self._step.edit(Message("edit.set_curve_blend"), changed)
-
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
-
-    def cancel(self) -> None:
-        if self.began:
-            self._step.take_back()

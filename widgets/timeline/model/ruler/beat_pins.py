@@ -12,7 +12,7 @@ from app.errors import Message
 from app.project.edit.pins import pin_beat, recording_second
 from app.project.model import Project
 from app.project.recording import BeatPin, Doubt
-from widgets.timeline.model.gestures import DRAG_PX, Editing, LiveEdit, MouseGesture, along
+from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveEdit, along
 from widgets.timeline.model.hand import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.visible_time import Scale
@@ -83,22 +83,14 @@ def doubt_at(project: Project, tick: float) -> Doubt | None:
     return next((doubt for doubt in doubts if doubt.start_tick <= tick < doubt.end_tick), None)
 
 
-class DragAnchor(MouseGesture):
+class DragAnchor(EditGesture):
     """A bar line or a beat goes to where it sounds, and is pinned there."""
 
     def __init__(self, session: Editing, origin: object, at: LaneMouse, project: Project, tick: int) -> None:
-        super().__init__(at, along(DRAG_PX))
-        self._step = LiveEdit(session, origin)
+        super().__init__(LiveEdit(session, origin), at, along(DRAG_PX))
         self._tick, self._from_s = tick, recording_second(project, tick)
 
     def follow(self, mouse: LaneMouse) -> None:
         by_s = (mouse.time_s - self.at.time_s) * (_FINE if mouse.shift else 1.0)
         to_s = round(self._from_s + by_s, _DECIMALS)
         self._step.edit(Message("edit.pin_beat"), lambda project: pin_beat(project, self._tick, to_s))
-
-    def finish(self, mouse: LaneMouse) -> None:
-        self._step.end()
-
-    def cancel(self) -> None:
-        if self.began:
-            self._step.take_back()
