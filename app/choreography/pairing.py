@@ -86,7 +86,8 @@ def report(model: ChoreographyModel) -> Message:
     if found is None:
         return Message("learn.pairing_unknown", {"least": LEAST})
     id_ = "learn.pairing_tells" if found.tells else "learn.pairing_tells_nothing"
-    return Message(id_, {"bits": found.bits, "chance": found.chance})
+    # Rounded to what is shown, so that a little below nothing is nothing, not "-0.0".
+    return Message(id_, {"bits": round(found.bits, 1) + 0.0, "chance": found.chance})
 
 
 class _Test:
