@@ -14,9 +14,11 @@ from app.editor import generator as module
 from app.editor.generator import Generator
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
-from app.errors import Progress, StopRequested, raise_if_stopped
+from app.errors import Message, Progress, StopRequested, raise_if_stopped
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
+from app.plan.by_hand.corrections import SetEmbouchure
+from app.project.edit.corrections import with_corrections
 
 pytestmark = pytest.mark.drawn
 
@@ -181,3 +183,28 @@ def test_everyone_moves_around_the_playhead_before_all_are_planned(
         assert anew is not None
         # Between two frames; a joint is mixed in a chunk in which it moves at all.
         assert np.allclose(shown.rotations, anew.rotations, rtol=0.0, atol=1e-6)
+
+
+def test_an_edit_made_while_an_excerpt_is_shown_is_in_the_plans(
+    session: Session, planning: SlowPlanning, generator: Generator, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "is_worth_it", lambda performance: True)
+    live, ids = generator.live, [player.id for player in session.project.players]
+    session.set_playhead(6.0)
+    session.document.open(replace(session.project, seed=5))
+    planning.let_through(1)
+    qtbot.waitUntil(lambda: all(live.pose(one, 6.0) is not None for one in ids))
+    note = session.project.part(session.project.players[1]).notes[4]
+    pinned = SetEmbouchure(note.id, tension=0.9)
+    session.apply(Message("edit.test"), with_corrections(session.project, ids[1], [pinned]))
+    planning.let_through(20 * len(ids))
+    qtbot.waitUntil(lambda: generator.up_to_date)
+    assert session.performance.plans == Performance(session.project).plans
+    qtbot.waitUntil(lambda: live.is_seen)
+    at_s = session.performance.plan(session.project.player(ids[1])).embouchures[4].start_s + 0.02
+    session.set_playhead(at_s)
+    qtbot.waitUntil(lambda: live.is_seen)
+    shown, anew = live.pose(ids[1], at_s), LiveMotion(session.performance).pose_now(ids[1], at_s)
+    assert shown is not None
+    assert anew is not None
+    assert shown.morphs.items() >= anew.morphs.items()
