@@ -25,6 +25,9 @@ from app.formats.fbx.read import decode_scene
 STUB = Path(__file__).with_name("unreal_api") / "unreal" / "__init__.pyi"
 
 
+INTERCHANGE = "Interchange.FeatureFlags.Import.FBX"
+
+
 @dataclass(frozen=True)
 class FbxContents:
     """What an import takes from a file; no frames where nothing moves."""
@@ -111,6 +114,8 @@ class Studio:
         Messages shown; ``answers`` are given to questions, in order.
     imports : list of dict
         What was asked of the importers, property by property.
+    variables : dict of str to str
+        Of the console.
     cancel_after : int or None
         Steps of a progress dialog after which Cancel is pressed.
     """
@@ -118,6 +123,7 @@ class Studio:
     project: Path
     language: str
     engine: str = "5.6.0-43139311+++UE5+Release-5.6"
+    variables: dict[str, str] = field(default_factory=lambda: {INTERCHANGE: "1"})
     assets: dict[str, Any] = field(default_factory=dict)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     referencers: dict[str, list[str]] = field(default_factory=dict)
@@ -159,14 +165,21 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         def get_path_name(self) -> str:
             return f"{self._path}.{self.get_name()}"
 
+        def get_editor_property(self, name: str) -> Any:
+            raise AttributeError(f"{type(self).__name__} has no editor property {name!r}")
+
+        def set_editor_property(self, name: str, value: Any) -> None:
+            raise AttributeError(f"{type(self).__name__} has no editor property {name!r}")
+
     class Editable(Object):
         def set_editor_property(self, name: str, value: Any) -> None:
             known = editor_properties(type(self).__name__, "set_editor_property")
             if name not in known:
                 raise AttributeError(f"{type(self).__name__} has no editor property {name!r}")
-            kind = {"bool": bool, "str": str, "int": int, "float": float}.get(known[name]) or getattr(
-                module, known[name]
-            )
+            if value is None and known[name].endswith(" | None"):
+                self._properties[name] = value
+                return
+            kind = self._kind(known[name])
             if type(value) is not kind and not (isinstance(value, kind) and kind not in (bool, int, float)):
                 raise TypeError(f"{type(self).__name__}.{name} is a {known[name]}, not {value!r}")
             self._properties[name] = value
@@ -175,7 +188,14 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
             known = editor_properties(type(self).__name__, "get_editor_property")
             if name not in known:
                 raise AttributeError(f"{type(self).__name__} has no editor property {name!r}")
-            return self._properties.setdefault(name, getattr(module, known[name])())
+            if name not in self._properties and issubclass(self._kind(known[name]), Editable):
+                self._properties[name] = self._kind(known[name])()
+            return self._properties.get(name)
+
+        @staticmethod
+        def _kind(named: str) -> Any:
+            plain = {"bool": bool, "str": str, "int": int, "float": float, "list[str]": list}
+            return plain.get(named) or getattr(module, named.removesuffix(" | None"))
 
     class StructBase:
         pass
@@ -199,6 +219,15 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class Rotator(StructBase):
         def __init__(self, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> None:
             self.roll, self.pitch, self.yaw = roll, pitch, yaw
+
+    class Color(StructBase):
+        pass
+
+    class Int32Interval(StructBase):
+        pass
+
+    class SoftObjectPath(StructBase):
+        pass
 
     class FrameNumber(StructBase):
         def __init__(self, value: int = 0) -> None:
@@ -231,6 +260,17 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         @classmethod
         def get_engine_version(cls) -> str:
             return studio.engine
+
+        @classmethod
+        def get_console_variable_bool_value(cls, variable_name: str) -> bool:
+            return studio.variables.get(variable_name, "0") != "0"
+
+        @classmethod
+        def execute_console_command(cls, world_context_object: Any, command: str, specific_player: Any = None) -> None:
+            assert isinstance(world_context_object, World)
+            name, value = command.split(" ")
+            assert name in studio.variables
+            studio.variables[name] = value
 
     class InternationalizationLibrary:
         @classmethod
@@ -374,6 +414,43 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class FbxAnimSequenceImportData(Editable):
         pass
 
+    class FbxStaticMeshImportData(Editable):
+        pass
+
+    class FbxTextureImportData(Editable):
+        pass
+
+    class FBXNormalImportMethod(Enum):
+        FBXNIM_COMPUTE_NORMALS = 0
+        FBXNIM_IMPORT_NORMALS = 1
+        FBXNIM_IMPORT_NORMALS_AND_TANGENTS = 2
+
+    class FBXNormalGenerationMethod(Enum):
+        BUILT_IN = 0
+        MIKK_T_SPACE = 1
+
+    class VertexColorImportOption(Enum):
+        REPLACE = 0
+        IGNORE = 1
+        OVERRIDE = 2
+
+    class FBXImportContentType(Enum):
+        FBXICT_ALL = 0
+        FBXICT_GEOMETRY = 1
+        FBXICT_SKINNING_WEIGHTS = 2
+
+    class MaterialSearchLocation(Enum):
+        LOCAL = 0
+        UNDER_PARENT = 1
+        UNDER_ROOT = 2
+        ALL_ASSETS = 3
+        DO_NOT_SEARCH = 4
+
+    class CoordinateSystemPolicy(Enum):
+        MATCH_UP_FORWARD_AXES = 0
+        MATCH_UP_AXIS = 1
+        KEEP_XYZ_AXES = 2
+
     class FBXImportType(Enum):
         FBXIT_STATIC_MESH = 0
         FBXIT_SKELETAL_MESH = 1
@@ -409,6 +486,7 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
             sound._duration_s = soundfile.info(asked["filename"]).duration
             return sound
         assert isinstance(asked["factory"], FbxFactory), "newer engines take Interchange"
+        assert studio.variables.get(INTERCHANGE, "0") == "0", "newer engines take Interchange"
         ui = options._properties
         file = fbx_contents(Path(asked["filename"]))
         skeleton = ui.get("skeleton")
@@ -526,6 +604,13 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         def get_component_by_class(self, component_class: type) -> Any:
             assert component_class is SkeletalMeshComponent
             return SkeletalMeshComponent(self)
+
+    class World(Object):
+        pass
+
+    class UnrealEditorSubsystem(EditorSubsystem):
+        def get_editor_world(self) -> World:
+            return World()
 
     class EditorActorSubsystem(EditorSubsystem):
         def spawn_actor_from_object(

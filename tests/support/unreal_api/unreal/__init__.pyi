@@ -12,6 +12,8 @@ from typing import Any, Literal, TypeVar, overload
 class Object:
     def get_name(self) -> str: ...
     def get_path_name(self) -> str: ...
+    def get_editor_property(self, name: str) -> object: ...
+    def set_editor_property(self, name: str, value: object) -> None: ...
 
 class StructBase: ...
 class Factory(Object): ...
@@ -33,6 +35,10 @@ class Vector(StructBase):
 
 class Rotator(StructBase):
     def __init__(self, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> None: ...
+
+class Color(StructBase): ...
+class Int32Interval(StructBase): ...
+class SoftObjectPath(StructBase): ...
 
 class FrameNumber(StructBase):
     value: int
@@ -57,6 +63,12 @@ class Paths:
 class SystemLibrary:
     @classmethod
     def get_engine_version(cls) -> str: ...
+    @classmethod
+    def get_console_variable_bool_value(cls, variable_name: str) -> bool: ...
+    @classmethod
+    def execute_console_command(
+        cls, world_context_object: Object, command: str, specific_player: Object | None = None
+    ) -> None: ...
 
 class InternationalizationLibrary:
     @classmethod
@@ -190,76 +202,481 @@ class FBXAnimationLengthImportType(Enum):
     FBXALIT_ANIMATED_KEY = ...
     FBXALIT_SET_RANGE = ...
 
+class FBXNormalImportMethod(Enum):
+    FBXNIM_COMPUTE_NORMALS = ...
+    FBXNIM_IMPORT_NORMALS = ...
+    FBXNIM_IMPORT_NORMALS_AND_TANGENTS = ...
+
+class FBXNormalGenerationMethod(Enum):
+    BUILT_IN = ...
+    MIKK_T_SPACE = ...
+
+class VertexColorImportOption(Enum):
+    REPLACE = ...
+    IGNORE = ...
+    OVERRIDE = ...
+
+class FBXImportContentType(Enum):
+    FBXICT_ALL = ...
+    FBXICT_GEOMETRY = ...
+    FBXICT_SKINNING_WEIGHTS = ...
+
+class MaterialSearchLocation(Enum):
+    LOCAL = ...
+    UNDER_PARENT = ...
+    UNDER_ROOT = ...
+    ALL_ASSETS = ...
+    DO_NOT_SEARCH = ...
+
+class CoordinateSystemPolicy(Enum):
+    MATCH_UP_FORWARD_AXES = ...
+    MATCH_UP_AXIS = ...
+    KEEP_XYZ_AXES = ...
+
 class FbxSkeletalMeshImportData(Object):
-    @overload
+    @overload  # type: ignore[override]
     def set_editor_property(
         self,
         name: Literal[
-            "import_morph_targets",
+            "bake_pivot_in_vertex",
+            "compute_weighted_normals",
             "convert_scene",
             "convert_scene_unit",
             "force_front_x_axis",
-            "use_t0_as_ref_pose",
-            "preserve_smoothing_groups",
-            "update_skeleton_reference_pose",
+            "import_mesh_lods",
             "import_meshes_in_bone_hierarchy",
+            "import_morph_targets",
+            "import_vertex_attributes",
+            "keep_sections_separate",
+            "preserve_smoothing_groups",
+            "reorder_material_to_fbx_order",
+            "transform_vertex_to_absolute",
+            "update_skeleton_reference_pose",
+            "use_t0_as_ref_pose",
         ],
         value: bool,
     ) -> None: ...
     @overload
-    def set_editor_property(self, name: Literal["import_uniform_scale"], value: float) -> None: ...
-
-class FbxAnimSequenceImportData(Object):
+    def set_editor_property(self, name: Literal["coordinate_system_policy"], value: CoordinateSystemPolicy) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_content_type"], value: FBXImportContentType) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_rotation"], value: Rotator) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_translation"], value: Vector) -> None: ...
     @overload
     def set_editor_property(
         self,
         name: Literal[
+            "import_uniform_scale",
+            "morph_threshold_position",
+            "threshold_position",
+            "threshold_tangent_normal",
+            "threshold_uv",
+        ],
+        value: float,
+    ) -> None: ...
+    @overload
+    def set_editor_property(
+        self, name: Literal["normal_generation_method"], value: FBXNormalGenerationMethod
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["normal_import_method"], value: FBXNormalImportMethod) -> None: ...
+    @overload
+    def set_editor_property(
+        self, name: Literal["vertex_color_import_option"], value: VertexColorImportOption
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["vertex_override_color"], value: Color) -> None: ...
+    @overload  # type: ignore[override]
+    def get_editor_property(
+        self,
+        name: Literal[
+            "bake_pivot_in_vertex",
+            "compute_weighted_normals",
             "convert_scene",
             "convert_scene_unit",
+            "force_front_x_axis",
+            "import_mesh_lods",
+            "import_meshes_in_bone_hierarchy",
+            "import_morph_targets",
+            "import_vertex_attributes",
+            "keep_sections_separate",
+            "preserve_smoothing_groups",
+            "reorder_material_to_fbx_order",
+            "transform_vertex_to_absolute",
+            "update_skeleton_reference_pose",
+            "use_t0_as_ref_pose",
+        ],
+    ) -> bool: ...
+    @overload
+    def get_editor_property(self, name: Literal["coordinate_system_policy"]) -> CoordinateSystemPolicy: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_content_type"]) -> FBXImportContentType: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_rotation"]) -> Rotator: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_translation"]) -> Vector: ...
+    @overload
+    def get_editor_property(
+        self,
+        name: Literal[
+            "import_uniform_scale",
+            "morph_threshold_position",
+            "threshold_position",
+            "threshold_tangent_normal",
+            "threshold_uv",
+        ],
+    ) -> float: ...
+    @overload
+    def get_editor_property(self, name: Literal["normal_generation_method"]) -> FBXNormalGenerationMethod: ...
+    @overload
+    def get_editor_property(self, name: Literal["normal_import_method"]) -> FBXNormalImportMethod: ...
+    @overload
+    def get_editor_property(self, name: Literal["vertex_color_import_option"]) -> VertexColorImportOption: ...
+    @overload
+    def get_editor_property(self, name: Literal["vertex_override_color"]) -> Color: ...
+
+class FbxStaticMeshImportData(Object):
+    @overload  # type: ignore[override]
+    def set_editor_property(
+        self,
+        name: Literal[
+            "auto_generate_collision",
+            "bake_pivot_in_vertex",
+            "build_nanite",
+            "build_reversed_index_buffer",
+            "combine_meshes",
+            "compute_weighted_normals",
+            "convert_scene",
+            "convert_scene_unit",
+            "force_front_x_axis",
+            "generate_lightmap_u_vs",
+            "import_mesh_lods",
+            "one_convex_hull_per_ucx",
+            "remove_degenerates",
+            "reorder_material_to_fbx_order",
+            "transform_vertex_to_absolute",
+        ],
+        value: bool,
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["coordinate_system_policy"], value: CoordinateSystemPolicy) -> None: ...
+    @overload
+    def set_editor_property(
+        self, name: Literal["distance_field_resolution_scale", "import_uniform_scale"], value: float
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_rotation"], value: Rotator) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_translation"], value: Vector) -> None: ...
+    @overload
+    def set_editor_property(
+        self, name: Literal["normal_generation_method"], value: FBXNormalGenerationMethod
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["normal_import_method"], value: FBXNormalImportMethod) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["static_mesh_lod_group"], value: str) -> None: ...
+    @overload
+    def set_editor_property(
+        self, name: Literal["vertex_color_import_option"], value: VertexColorImportOption
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["vertex_override_color"], value: Color) -> None: ...
+    @overload  # type: ignore[override]
+    def get_editor_property(
+        self,
+        name: Literal[
+            "auto_generate_collision",
+            "bake_pivot_in_vertex",
+            "build_nanite",
+            "build_reversed_index_buffer",
+            "combine_meshes",
+            "compute_weighted_normals",
+            "convert_scene",
+            "convert_scene_unit",
+            "force_front_x_axis",
+            "generate_lightmap_u_vs",
+            "import_mesh_lods",
+            "one_convex_hull_per_ucx",
+            "remove_degenerates",
+            "reorder_material_to_fbx_order",
+            "transform_vertex_to_absolute",
+        ],
+    ) -> bool: ...
+    @overload
+    def get_editor_property(self, name: Literal["coordinate_system_policy"]) -> CoordinateSystemPolicy: ...
+    @overload
+    def get_editor_property(
+        self, name: Literal["distance_field_resolution_scale", "import_uniform_scale"]
+    ) -> float: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_rotation"]) -> Rotator: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_translation"]) -> Vector: ...
+    @overload
+    def get_editor_property(self, name: Literal["normal_generation_method"]) -> FBXNormalGenerationMethod: ...
+    @overload
+    def get_editor_property(self, name: Literal["normal_import_method"]) -> FBXNormalImportMethod: ...
+    @overload
+    def get_editor_property(self, name: Literal["static_mesh_lod_group"]) -> str: ...
+    @overload
+    def get_editor_property(self, name: Literal["vertex_color_import_option"]) -> VertexColorImportOption: ...
+    @overload
+    def get_editor_property(self, name: Literal["vertex_override_color"]) -> Color: ...
+
+class FbxAnimSequenceImportData(Object):
+    @overload  # type: ignore[override]
+    def set_editor_property(
+        self,
+        name: Literal[
+            "add_curve_metadata_to_skeleton",
+            "convert_scene",
+            "convert_scene_unit",
+            "delete_existing_custom_attribute_curves",
+            "delete_existing_morph_target_curves",
+            "delete_existing_non_curve_custom_attributes",
+            "do_not_import_curve_with_zero",
             "force_front_x_axis",
             "import_bone_tracks",
             "import_custom_attribute",
+            "import_meshes_in_bone_hierarchy",
+            "preserve_local_transform",
             "remove_redundant_keys",
-            "do_not_import_curve_with_zero",
-            "delete_existing_morph_target_curves",
-            "add_curve_metadata_to_skeleton",
-            "use_default_sample_rate",
+            "set_material_drive_parameter_on_custom_attribute",
             "snap_to_closest_frame_boundary",
+            "use_default_sample_rate",
         ],
         value: bool,
     ) -> None: ...
     @overload
-    def set_editor_property(self, name: Literal["import_uniform_scale"], value: float) -> None: ...
+    def set_editor_property(self, name: Literal["animation_length"], value: FBXAnimationLengthImportType) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["coordinate_system_policy"], value: CoordinateSystemPolicy) -> None: ...
     @overload
     def set_editor_property(self, name: Literal["custom_sample_rate"], value: int) -> None: ...
     @overload
-    def set_editor_property(self, name: Literal["animation_length"], value: FBXAnimationLengthImportType) -> None: ...
+    def set_editor_property(self, name: Literal["frame_import_range"], value: Int32Interval) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_rotation"], value: Rotator) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_translation"], value: Vector) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_uniform_scale"], value: float) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["material_curve_suffixes"], value: list[str]) -> None: ...
+    @overload  # type: ignore[override]
+    def get_editor_property(
+        self,
+        name: Literal[
+            "add_curve_metadata_to_skeleton",
+            "convert_scene",
+            "convert_scene_unit",
+            "delete_existing_custom_attribute_curves",
+            "delete_existing_morph_target_curves",
+            "delete_existing_non_curve_custom_attributes",
+            "do_not_import_curve_with_zero",
+            "force_front_x_axis",
+            "import_bone_tracks",
+            "import_custom_attribute",
+            "import_meshes_in_bone_hierarchy",
+            "preserve_local_transform",
+            "remove_redundant_keys",
+            "set_material_drive_parameter_on_custom_attribute",
+            "snap_to_closest_frame_boundary",
+            "use_default_sample_rate",
+        ],
+    ) -> bool: ...
+    @overload
+    def get_editor_property(self, name: Literal["animation_length"]) -> FBXAnimationLengthImportType: ...
+    @overload
+    def get_editor_property(self, name: Literal["coordinate_system_policy"]) -> CoordinateSystemPolicy: ...
+    @overload
+    def get_editor_property(self, name: Literal["custom_sample_rate"]) -> int: ...
+    @overload
+    def get_editor_property(self, name: Literal["frame_import_range"]) -> Int32Interval: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_rotation"]) -> Rotator: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_translation"]) -> Vector: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_uniform_scale"]) -> float: ...
+    @overload
+    def get_editor_property(self, name: Literal["material_curve_suffixes"]) -> list[str]: ...
+
+class FbxTextureImportData(Object):
+    @overload  # type: ignore[override]
+    def set_editor_property(
+        self,
+        name: Literal[
+            "base_color_name",
+            "base_diffuse_texture_name",
+            "base_emissive_color_name",
+            "base_emmisive_texture_name",
+            "base_normal_texture_name",
+            "base_opacity_texture_name",
+            "base_specular_texture_name",
+        ],
+        value: str,
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["base_material_name"], value: SoftObjectPath) -> None: ...
+    @overload
+    def set_editor_property(
+        self,
+        name: Literal["convert_scene", "convert_scene_unit", "force_front_x_axis", "invert_normal_maps"],
+        value: bool,
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["coordinate_system_policy"], value: CoordinateSystemPolicy) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_rotation"], value: Rotator) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_translation"], value: Vector) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["import_uniform_scale"], value: float) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["material_search_location"], value: MaterialSearchLocation) -> None: ...
+    @overload  # type: ignore[override]
+    def get_editor_property(
+        self,
+        name: Literal[
+            "base_color_name",
+            "base_diffuse_texture_name",
+            "base_emissive_color_name",
+            "base_emmisive_texture_name",
+            "base_normal_texture_name",
+            "base_opacity_texture_name",
+            "base_specular_texture_name",
+        ],
+    ) -> str: ...
+    @overload
+    def get_editor_property(self, name: Literal["base_material_name"]) -> SoftObjectPath: ...
+    @overload
+    def get_editor_property(
+        self, name: Literal["convert_scene", "convert_scene_unit", "force_front_x_axis", "invert_normal_maps"]
+    ) -> bool: ...
+    @overload
+    def get_editor_property(self, name: Literal["coordinate_system_policy"]) -> CoordinateSystemPolicy: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_rotation"]) -> Rotator: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_translation"]) -> Vector: ...
+    @overload
+    def get_editor_property(self, name: Literal["import_uniform_scale"]) -> float: ...
+    @overload
+    def get_editor_property(self, name: Literal["material_search_location"]) -> MaterialSearchLocation: ...
 
 class FbxImportUI(Object):
+    @overload  # type: ignore[override]
+    def set_editor_property(
+        self, name: Literal["anim_sequence_import_data"], value: FbxAnimSequenceImportData
+    ) -> None: ...
     @overload
     def set_editor_property(
         self,
         name: Literal[
+            "auto_compute_lod_distances",
             "automated_import_should_detect_type",
-            "import_as_skeletal",
-            "import_mesh",
-            "import_animations",
-            "import_materials",
-            "import_textures",
             "create_physics_asset",
+            "import_animations",
+            "import_as_skeletal",
+            "import_materials",
+            "import_mesh",
+            "import_rigid_mesh",
+            "import_textures",
+            "is_obj_import",
+            "override_full_name",
+            "reset_to_fbx_on_material_conflict",
         ],
         value: bool,
     ) -> None: ...
+    @overload
+    def set_editor_property(
+        self,
+        name: Literal[
+            "lod_distance0",
+            "lod_distance1",
+            "lod_distance2",
+            "lod_distance3",
+            "lod_distance4",
+            "lod_distance5",
+            "lod_distance6",
+            "lod_distance7",
+        ],
+        value: float,
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["lod_number", "minimum_lod_number"], value: int) -> None: ...
     @overload
     def set_editor_property(
         self, name: Literal["mesh_type_to_import", "original_import_type"], value: FBXImportType
     ) -> None: ...
     @overload
-    def set_editor_property(self, name: Literal["skeleton"], value: Skeleton) -> None: ...
+    def set_editor_property(self, name: Literal["override_animation_name"], value: str) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["physics_asset"], value: PhysicsAsset | None) -> None: ...
+    @overload
+    def set_editor_property(
+        self, name: Literal["skeletal_mesh_import_data"], value: FbxSkeletalMeshImportData
+    ) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["skeleton"], value: Skeleton | None) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["static_mesh_import_data"], value: FbxStaticMeshImportData) -> None: ...
+    @overload
+    def set_editor_property(self, name: Literal["texture_import_data"], value: FbxTextureImportData) -> None: ...
+    @overload  # type: ignore[override]
+    def get_editor_property(self, name: Literal["anim_sequence_import_data"]) -> FbxAnimSequenceImportData: ...
+    @overload
+    def get_editor_property(
+        self,
+        name: Literal[
+            "auto_compute_lod_distances",
+            "automated_import_should_detect_type",
+            "create_physics_asset",
+            "import_animations",
+            "import_as_skeletal",
+            "import_materials",
+            "import_mesh",
+            "import_rigid_mesh",
+            "import_textures",
+            "is_obj_import",
+            "override_full_name",
+            "reset_to_fbx_on_material_conflict",
+        ],
+    ) -> bool: ...
+    @overload
+    def get_editor_property(
+        self,
+        name: Literal[
+            "lod_distance0",
+            "lod_distance1",
+            "lod_distance2",
+            "lod_distance3",
+            "lod_distance4",
+            "lod_distance5",
+            "lod_distance6",
+            "lod_distance7",
+        ],
+    ) -> float: ...
+    @overload
+    def get_editor_property(self, name: Literal["lod_number", "minimum_lod_number"]) -> int: ...
+    @overload
+    def get_editor_property(self, name: Literal["mesh_type_to_import", "original_import_type"]) -> FBXImportType: ...
+    @overload
+    def get_editor_property(self, name: Literal["override_animation_name"]) -> str: ...
+    @overload
+    def get_editor_property(self, name: Literal["physics_asset"]) -> PhysicsAsset | None: ...
     @overload
     def get_editor_property(self, name: Literal["skeletal_mesh_import_data"]) -> FbxSkeletalMeshImportData: ...
     @overload
-    def get_editor_property(self, name: Literal["anim_sequence_import_data"]) -> FbxAnimSequenceImportData: ...
+    def get_editor_property(self, name: Literal["skeleton"]) -> Skeleton | None: ...
+    @overload
+    def get_editor_property(self, name: Literal["static_mesh_import_data"]) -> FbxStaticMeshImportData: ...
+    @overload
+    def get_editor_property(self, name: Literal["texture_import_data"]) -> FbxTextureImportData: ...
 
 # The level
 
@@ -271,6 +688,11 @@ class SkeletalMeshComponent(ActorComponent):
 class Actor(Object):
     def set_actor_label(self, new_actor_label: str, mark_dirty: bool = True) -> None: ...
     def get_component_by_class(self, component_class: type[ActorComponent]) -> ActorComponent | None: ...
+
+class World(Object): ...
+
+class UnrealEditorSubsystem(EditorSubsystem):
+    def get_editor_world(self) -> World: ...
 
 class EditorActorSubsystem(EditorSubsystem):
     def spawn_actor_from_object(

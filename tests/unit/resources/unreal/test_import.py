@@ -16,6 +16,7 @@ from app.project.casting import StagePosition
 from app.project.model import Project
 from app.score.model import Marker
 from tests.support.doubled import flutist
+from tests.support.fake_unreal import INTERCHANGE
 from tests.unit.export.unreal.conftest import quartet, renamed
 from tests.unit.resources.unreal.conftest import Editor, exported
 
@@ -145,11 +146,56 @@ def test_what_the_importer_is_asked(editor: Editor) -> None:
         assert (data["convert_scene"], data["convert_scene_unit"], data["force_front_x_axis"]) == (True, True, False)
         if mesh:
             assert data["import_morph_targets"] is True
+            method = unreal.FBXNormalImportMethod.FBXNIM_IMPORT_NORMALS_AND_TANGENTS
+            assert data["normal_import_method"] is method
             assert asked["import_animations"] is False
         else:
             assert data["use_default_sample_rate"] is False
             assert data["custom_sample_rate"] == 12
             assert data["delete_existing_morph_target_curves"] is True
+
+
+def test_interchange_is_off_for_fbx_alone_and_on_again(editor: Editor) -> None:
+    # The fake refuses an FBX file while it is on.
+    editor.import_performance()
+    assert editor.studio.variables == {INTERCHANGE: "1"}
+    editor.studio.variables = {INTERCHANGE: "0"}
+    editor.update_performance()
+    assert editor.studio.variables == {INTERCHANGE: "0"}, "who has it off keeps it off"
+    editor.studio.variables = {}
+    editor.update_performance()
+    assert editor.studio.variables == {}, "an older engine does not have it"
+
+
+def test_interchange_is_on_again_after_an_import_that_fails(editor: Editor, monkeypatch: pytest.MonkeyPatch) -> None:
+    from suisou_import.fbx_options import older_importer
+
+    def failing() -> None:
+        with older_importer():
+            assert editor.studio.variables == {INTERCHANGE: "0"}
+            raise RuntimeError("the importer fails")
+
+    with pytest.raises(RuntimeError):
+        failing()
+    assert editor.studio.variables == {INTERCHANGE: "1"}
+
+
+def test_an_older_engine_that_lacks_options_gets_the_others(editor: Editor) -> None:
+    from suisou_import import fbx_options
+
+    kind = editor.unreal.FbxSkeletalMeshImportData
+    known = kind.get_editor_property
+
+    def older(self: Any, name: str) -> Any:
+        if name in ("import_vertex_attributes", "coordinate_system_policy"):
+            raise Exception(f"Failed to find property {name!r}")
+        return known(self, name)
+
+    kind.get_editor_property = older
+    options = fbx_options.mesh_options(None)
+    found = options.get_editor_property("skeletal_mesh_import_data")._properties
+    assert "import_vertex_attributes" not in found
+    assert found["normal_import_method"] is editor.unreal.FBXNormalImportMethod.FBXNIM_IMPORT_NORMALS_AND_TANGENTS
 
 
 def test_performers_stand_at_their_places(editor: Editor) -> None:

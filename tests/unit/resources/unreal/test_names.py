@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support import unreal_stub
 from tests.support.fake_unreal import STUB, fake_unreal, stub_classes
 from tests.unit.resources.unreal.conftest import PYTHON, Editor
 
@@ -39,6 +40,66 @@ def test_mypy_finds_no_other_name() -> None:
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+real = pytest.mark.skipif(not unreal_stub.FILE.exists(), reason="unreal-stub is set up by ./test")
+OPTIONS = {
+    "FbxImportUI": "import_ui",
+    "FbxSkeletalMeshImportData": "skeletal_mesh",
+    "FbxAnimSequenceImportData": "animation",
+    "FbxStaticMeshImportData": "static_mesh",
+    "FbxTextureImportData": "textures",
+}
+
+
+@real
+def test_mypy_finds_no_other_name_in_the_engine_s_own_list(tmp_path: Path) -> None:
+    package = tmp_path / "unreal"
+    package.mkdir()
+    (package / "__init__.py").write_text(unreal_stub.excerpt(set(stub_classes())), encoding="utf-8")
+    config = tmp_path / "mypy.ini"
+    # What is cut out names classes that are not, and is not ours to judge.
+    config.write_text("[mypy]\nexplicit_package_bases = True\n[mypy-unreal.*]\nignore_errors = True\n")
+    wrong = tmp_path / "wrong.py"
+    wrong.write_text("import unreal\n\nunreal.EditorAssetLibrary.load_assets('x')\n")
+    outputs = []
+    for sources in (SOURCES, [wrong]):
+        done = subprocess.run(
+            [sys.executable, "-m", "mypy", f"--config-file={config}", "--cache-dir=/dev/null", *map(str, sources)],
+            env={"MYPYPATH": f"{tmp_path}:{PYTHON}", "PATH": ""},
+            cwd=PYTHON,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        outputs.append(done.stdout + done.stderr)
+    assert outputs[0].startswith("Success"), outputs[0]
+    assert "load_assets" in outputs[1]
+
+
+@real
+@pytest.mark.parametrize("name", OPTIONS)
+def test_every_option_that_may_be_set_is_set(editor: Editor, name: str) -> None:
+    from suisou_import import fbx_options
+
+    unreal = editor.unreal
+    arguments = {"FbxImportUI": (unreal.FBXImportType.FBXIT_ANIMATION, None), "FbxAnimSequenceImportData": (24,)}
+    values = getattr(fbx_options, OPTIONS[name])(*arguments.get(name, ()))
+    documented = unreal_stub.documented_properties(name)
+    data = {prop for prop in documented if prop.endswith("_import_data")}
+    assert set(values) == set(documented) - data
+    assert bool(data) == (name == "FbxImportUI")
+    for prop, value in values.items():
+        kind = {"int32": "int", "Name": "str", "Array[str]": "list"}.get(documented[prop], documented[prop])
+        assert value is None or type(value).__name__ == kind, prop
+
+
+@real
+def test_the_guide_lists_every_option() -> None:
+    guide = (PLUGIN.parents[2] / "docs" / "unreal-import-options.md").read_text(encoding="utf-8")
+    for name in OPTIONS:
+        for prop in unreal_stub.documented_properties(name):
+            assert f"`{prop}`" in guide, f"{name}.{prop}"
 
 
 def test_a_misspelt_property_is_found_by_mypy_and_by_the_fake(tmp_path: Path) -> None:

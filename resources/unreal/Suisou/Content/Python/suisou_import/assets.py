@@ -1,6 +1,6 @@
 """Skeletal meshes, skeletons, animations and the sound: made, updated in place, and removed when no one plays them.
 
-FBX goes through the importer that names its factory, since newer engines would take Interchange by themselves. Every
+FBX goes through the older importer (`suisou_import.fbx_options`), since newer engines would take Interchange. Every
 asset of ours bears the name of its piece as metadata; what does not is someone else's and is not touched.
 """
 
@@ -11,6 +11,7 @@ from typing import TypeVar
 
 import unreal
 
+from suisou_import.fbx_options import animation_options, mesh_options, older_importer
 from suisou_import.performance import Figure, Performance
 from suisou_import.problem import problem, text
 
@@ -60,7 +61,9 @@ def import_mesh(performance: Performance, figure: Figure) -> bool:
         skeleton, anew = None, True
     folder = figure.mesh.rpartition("/")[0]
     before = set(_listed(folder))
-    _import(performance, figure.file, figure.mesh, _mesh_options(skeleton))
+    _import(
+        performance, figure.file, figure.mesh, mesh_options(skeleton if isinstance(skeleton, unreal.Skeleton) else None)
+    )
     mesh = _made(performance, figure.mesh, figure.file, unreal.SkeletalMesh)
     made = mesh.skeleton
     if made is None:
@@ -87,7 +90,7 @@ def import_animation(performance: Performance, figure: Figure) -> unreal.AnimSeq
     there = existing(figure.animation)
     if isinstance(there, unreal.AnimSequence) and there.get_editor_property("skeleton") is not skeleton:
         _delete(figure.animation)
-    _import(performance, figure.file, figure.animation, _animation_options(skeleton, performance.rate))
+    _import(performance, figure.file, figure.animation, animation_options(skeleton, performance.rate))
     return _made(performance, figure.animation, figure.file, unreal.AnimSequence)
 
 
@@ -134,68 +137,6 @@ def _order(path: str) -> tuple[int, str]:
     return next((index for index, prefix in enumerate(prefixes) if name.startswith(prefix)), len(prefixes)), path
 
 
-def _mesh_options(skeleton: unreal.Object | None) -> unreal.FbxImportUI:
-    options = _fbx_options(unreal.FBXImportType.FBXIT_SKELETAL_MESH)
-    options.set_editor_property("import_mesh", True)
-    options.set_editor_property("import_animations", False)
-    options.set_editor_property("import_materials", True)
-    if isinstance(skeleton, unreal.Skeleton):
-        options.set_editor_property("skeleton", skeleton)
-    data = options.get_editor_property("skeletal_mesh_import_data")
-    data.set_editor_property("convert_scene", True)
-    data.set_editor_property("convert_scene_unit", True)
-    data.set_editor_property("force_front_x_axis", False)
-    data.set_editor_property("import_uniform_scale", 1.0)
-    data.set_editor_property("import_morph_targets", True)
-    data.set_editor_property("preserve_smoothing_groups", True)
-    data.set_editor_property("use_t0_as_ref_pose", False)
-    data.set_editor_property("update_skeleton_reference_pose", True)
-    return options
-
-
-def _animation_options(skeleton: unreal.Skeleton, rate: tuple[int, int]) -> unreal.FbxImportUI:
-    options = _fbx_options(unreal.FBXImportType.FBXIT_ANIMATION)
-    options.set_editor_property("import_mesh", False)
-    options.set_editor_property("import_animations", True)
-    options.set_editor_property("import_materials", False)
-    options.set_editor_property("skeleton", skeleton)
-    data = options.get_editor_property("anim_sequence_import_data")
-    data.set_editor_property("convert_scene", True)
-    data.set_editor_property("convert_scene_unit", True)
-    data.set_editor_property("force_front_x_axis", False)
-    data.set_editor_property("import_uniform_scale", 1.0)
-    data.set_editor_property("animation_length", unreal.FBXAnimationLengthImportType.FBXALIT_EXPORTED_TIME)
-    # Left alone, everything is sampled at 30 frames per second.
-    data.set_editor_property("use_default_sample_rate", False)
-    data.set_editor_property("custom_sample_rate", sample_rate(rate))
-    data.set_editor_property("snap_to_closest_frame_boundary", True)
-    data.set_editor_property("import_bone_tracks", True)
-    data.set_editor_property("import_custom_attribute", False)
-    data.set_editor_property("remove_redundant_keys", False)
-    # The face: curves that bear the names of the morph targets. Those that are flat now go.
-    data.set_editor_property("do_not_import_curve_with_zero", True)
-    data.set_editor_property("delete_existing_morph_target_curves", True)
-    data.set_editor_property("add_curve_metadata_to_skeleton", True)
-    return options
-
-
-def sample_rate(rate: tuple[int, int]) -> int:
-    """What the importer is reported: the rate, or 0 (the best for the file's keys) where it is no whole number."""
-    numerator, denominator = rate
-    return 0 if numerator % denominator else numerator // denominator
-
-
-def _fbx_options(kind: unreal.FBXImportType) -> unreal.FbxImportUI:
-    options = unreal.FbxImportUI()
-    options.set_editor_property("automated_import_should_detect_type", False)
-    options.set_editor_property("original_import_type", kind)
-    options.set_editor_property("mesh_type_to_import", kind)
-    options.set_editor_property("import_as_skeletal", True)
-    options.set_editor_property("import_textures", False)
-    options.set_editor_property("create_physics_asset", False)
-    return options
-
-
 def _import(performance: Performance, file: str, asset: str, options: unreal.FbxImportUI | None) -> None:
     folder, _, name = asset.rpartition("/")
     task = unreal.AssetImportTask()
@@ -209,7 +150,8 @@ def _import(performance: Performance, file: str, asset: str, options: unreal.Fbx
     if options is not None:
         task.set_editor_property("factory", unreal.FbxFactory())
         task.set_editor_property("options", options)
-    unreal.AssetToolsHelpers.get_asset_tools().import_asset_tasks([task])
+    with older_importer():
+        unreal.AssetToolsHelpers.get_asset_tools().import_asset_tasks([task])
     if not list(task.get_editor_property("imported_object_paths")):
         raise problem("not_imported", asset=asset, file=performance.path(file))
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import unreal
 
 from suisou_import import assets, checks, sequence
+from suisou_import.fbx_options import sample_rate
 from suisou_import.performance import Performance
 from suisou_import.problem import Cancelled, problem, text
 
@@ -50,7 +51,7 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
         step("step_animation", name=figure.name)
         animation = assets.import_animation(performance, figure)
         keys = int(animation.get_editor_property("number_of_sampled_keys"))
-        if assets.sample_rate(performance.rate) and keys != performance.frames:
+        if sample_rate(performance.rate) and keys != performance.frames:
             reported.append(text("other_length", asset=figure.animation, keys=keys, frames=performance.frames))
     step("step_sound")
     assets.import_sound(performance)
