@@ -27,7 +27,7 @@ from app.encoding import shown
 from app.errors import UsageError
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, refuse_attachment, requested
 from app.export.request import ExportRequest
-from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, REST_POSES, ROOT_BONES, RigOptions
+from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, EYE_TURNS, REST_POSES, ROOT_BONES, RigOptions
 from app.export.run import export as write
 from app.export.tree import clean_up
 from app.formats.keys import KEY_CHOICES
@@ -111,6 +111,7 @@ def add_rig_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--root-bone", choices=ROOT_BONES, default=DEFAULT_RIG.root_bone)
     command.add_argument("--rest-pose", choices=REST_POSES, default=DEFAULT_RIG.rest_pose)
     command.add_argument("--twist-bones", action="store_true")
+    command.add_argument("--eyes", choices=EYE_TURNS, default=DEFAULT_RIG.eyes)
 
 
 jobs = bounded_number(1, 256, "a number of processes", int)
@@ -200,7 +201,9 @@ def _request(
         source=shown(arguments.file.name),
         creator=f"Suisou {program_version()}",
         skeleton=skeleton,
-        rig=RigOptions(arguments.instrument, arguments.root_bone, arguments.rest_pose, arguments.twist_bones),
+        rig=RigOptions(
+            arguments.instrument, arguments.root_bone, arguments.rest_pose, arguments.twist_bones, arguments.eyes
+        ),
         asset=arguments.check_skeleton,
         sound=arguments.sound,
         stage=arguments.stage,

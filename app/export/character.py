@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
 from app.arrays import AnyFloatArray, SingleArray
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
+from app.export.eyes import eyes_of_file, with_turned_balls
+from app.export.morph_normals import with_morph_normals
 from app.export.own_skeleton import own_weights
 from app.export.target import BoneMotion, TargetSkeleton, Trajectory, bone_motion, matrices, normalised_target
 from app.formats.join import join_meshes
 from app.formats.names import numbered
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
+from app.identity_cache import IdentityCache
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.characters.bone_placements import local_placements, world_placements
@@ -54,25 +60,41 @@ def character_scene(
         the character. The clip weighs the morphs that the motion moves.
     """
     target = normalised_target(character.skeleton) if target is None else target
+    eyes = eyes_of_file(character, motion, target)
+    motion = eyes.motion
     if target.choice == "own" and character.own is not None:
         meshes, weights = _own_meshes(character.own.figure, target, name), own_weights(motion.morphs, character.own)
     else:
-        meshes, weights = (_joined_mesh(character, target, name),), motion.morphs
+        shaped = _SHAPED.step(_shaped, character, sys.intern(target.eyes))
+        meshes, weights = (_joined_mesh(shaped, target, name),), motion.morphs
     there = {morph.name for mesh in meshes for morph in mesh.morphs}
+    clip = character_clip(
+        character,
+        motion,
+        name,
+        target,
+        {morph: weight for morph, weight in weights.items() if morph in there},
+        held,
+    )
     return Scene(
         bones=_bound_bones(target, meshes[0]) if _rests_as_bound(target) else skeleton_bones(target),
         meshes=meshes,
-        clip=character_clip(
-            character,
-            motion,
-            name,
-            target,
-            {morph: weight for morph, weight in weights.items() if morph in there},
-            held,
-        ),
+        clip=replace(clip, whole_turns=eyes.whole(target, character, clip.rotations_xyzw)),
         creator=creator,
         name=name,
     )
+
+
+_SHAPED: Final[IdentityCache[Character]] = IdentityCache(16)
+_LIT: Final[IdentityCache[Mesh]] = IdentityCache(128)
+"""The bodies of an ensemble are few, and their shapes take half a second each."""
+
+
+def _shaped(character: Character, eyes: str) -> Character:
+    """A character with all that shapes do in a file."""
+    if eyes == "shapes":
+        character = with_turned_balls(character)
+    return replace(character, meshes=tuple(map(with_morph_normals, character.meshes)))
 
 
 def skeleton_bones(target: TargetSkeleton) -> tuple[Bone, ...]:
@@ -131,10 +153,11 @@ def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[Skin
     binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
     added = len(target.names) - len(target.added) - len(figure.bone_names)
     names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)
+    meshes = [_LIT.step(with_morph_normals, mesh) for mesh in figure.meshes]
     return tuple(
         # What has no weight may name any bone.
         skinned_mesh(mesh, own_name, np.maximum(mesh.joints + np.int32(added), 0), mesh.weights, binds)
-        for mesh, own_name in zip(figure.meshes, names, strict=True)
+        for mesh, own_name in zip(meshes, names, strict=True)
     )
 
 

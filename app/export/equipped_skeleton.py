@@ -91,7 +91,7 @@ class _Growing:
             twists={**target.twists, **self.twists},
             tied={**target.tied, **self.tied},
             sockets=dict(self.sockets),
-            added=frozenset(range(before, len(self.names))),
+            added=target.added | frozenset(range(before, len(self.names))),
         )
 
 
@@ -129,6 +129,7 @@ def equipped(target: TargetSkeleton, character: Character, rig: Rig) -> TargetSk
         target,
         rest_pose=rest_pose,
         twisted_skin=twisted,
+        eyes=options.eyes,
         messages=(*target.messages, *(Message(_KEPT[what], {"character": character.id}) for what in kept)),
     )
 

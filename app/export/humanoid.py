@@ -17,6 +17,7 @@ from app.export.character import character_scene
 from app.export.target import HIPS, TargetSkeleton
 from app.formats.gltf.vrma import GAZE_EXPRESSIONS, LOOK_AT
 from app.formats.scene import NodePlace, Scene
+from app.motion.faces.eyes import EYE_SHAPES
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.characters.bone_placements import world_placements
@@ -99,7 +100,10 @@ def humanoid_scene(character: Character, motion: Motion, name: str, creator: str
     rotations = np.array(clip.rotations_xyzw)
     rotations[:, -1] = gaze(character, motion)
     translations_cm = {target.hips: clip.translations_cm[target.hips]}
-    return replace(scene, clip=replace(clip, rotations_xyzw=rotations, translations_cm=translations_cm))
+    # The gaze turns the eyes, and a face of ARKit's expressions would turn them again.
+    weights = {name: weight for name, weight in clip.morph_weights.items() if name not in EYE_SHAPES}
+    clip = replace(clip, rotations_xyzw=rotations, translations_cm=translations_cm, morph_weights=weights)
+    return replace(scene, clip=clip)
 
 
 def gaze(character: Character, motion: Motion) -> FloatArray:

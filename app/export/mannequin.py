@@ -4,13 +4,14 @@ Axes are an asset's, where a file of it is given: then a rotation means the same
 one can be played on the other. Without a file the axes are those the mannequin has by convention (its table in
 `metadata`), which are near but not the same; Unreal's IK retargeter is the way to the asset then.
 
-The mannequin has neither eyes nor a jaw: what they carry goes with the head.
+The mannequin has neither eyes nor a jaw: ``eye_l`` and ``eye_r`` are added to the head where the character has eyes;
+what a jaw carries goes with the head.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import msgspec
@@ -51,11 +52,13 @@ class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The file: bones before those of the sides, of both sides, and after them; axes X and Z by their name."""
+    """The file: bones before those of the sides, of both sides, and after them, and those that are added; axes X and Z
+    by their name."""
 
     trunk: tuple[_Bone, ...]
     sides: tuple[_Bone, ...]
     others: tuple[_Bone, ...]
+    added: tuple[_Bone, ...]
     axes: dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]
 
 
@@ -65,6 +68,7 @@ _BONES: Final = (
     *(bone.of_side(x, side) for x, side in (("l", "left"), ("r", "right")) for bone in _TABLE.sides),
     *_TABLE.others,
 )
+_ADDED: Final = tuple(bone.of_side(x, side) for x, side in (("l", "left"), ("r", "right")) for bone in _TABLE.added)
 MANNEQUIN: Final[Mapping[str, str]] = {bone.name: bone.parent for bone in _BONES}
 """Parent of every bone; that of the root is empty."""
 _STRAIGHT: Final = ("root", "foot_l", "foot_r")
@@ -124,19 +128,19 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
     places = _places(skeleton, joint_of_bone, tied)
     turned = _conventional(places, tied)
     if asset is not None:
-        for name, rotation in asset.t_pose.items():
-            turned[names.index(name)] = rotation
+        for name in asset.t_pose.keys() & set(names):
+            turned[names.index(name)] = asset.t_pose[name]
         for bone, other in tied.items():
             turned[bone] = turned[other]
     offsets, t_pose = local_placements(parents, places, turned)
     rest = t_pose.copy()
     if asset is not None:
-        for name, rotation in asset.rest.items():
-            rest[names.index(name)] = rotation
+        for name in asset.rest.keys() & set(names):
+            rest[names.index(name)] = asset.rest[name]
     joint_from_bone = np.where((np.array(joint_of_bone) >= 0)[:, None], turned, quaternion.IDENTITY)
     twists = _twists(skeleton, places)
     joint_from_bone[list(twists)] = turned[list(twists)]
-    return TargetSkeleton(
+    target = TargetSkeleton(
         "ue5",
         names,
         parents,
@@ -148,6 +152,35 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
         twists,
         tied,
         hips=joint_of_bone.index(skeleton.index(HIPS)),
+    )
+    return _with_added(target, skeleton, places, turned, asset or MannequinAxes({}, {}))
+
+
+def _with_added(
+    target: TargetSkeleton, skeleton: Skeleton, places: FloatArray, turned: FloatArray, asset: MannequinAxes
+) -> TargetSkeleton:
+    """The target with the bones that the mannequin lacks, of the joints that a character has."""
+    added = [bone for bone in _ADDED if bone.joint in skeleton.names]
+    if not added:
+        return target
+    joints = rest_positions(skeleton)
+    parents = [target.names.index(bone.parent) for bone in added]
+    numbers = [skeleton.index(bone.joint) for bone in added]
+    own = np.stack([asset.t_pose.get(bone.name, _axes(bone)) for bone in added])
+    back = quaternion.conjugate(turned[parents])
+    local = quaternion.multiply(back, own)
+    return replace(
+        target,
+        names=(*target.names, *(bone.name for bone in added)),
+        parents=(*target.parents, *parents),
+        offsets_m=np.concatenate([target.offsets_m, quaternion.rotate(back, joints[numbers] - places[parents])]),
+        rest=np.concatenate(
+            [target.rest, [asset.rest.get(bone.name, turn) for bone, turn in zip(added, local, strict=True)]]
+        ),
+        t_pose=np.concatenate([target.t_pose, local]),
+        joint_of_bone=(*target.joint_of_bone, *numbers),
+        joint_from_bone=np.concatenate([target.joint_from_bone, own]),
+        added=frozenset(range(len(target.names), len(target.names) + len(added))),
     )
 
 
@@ -169,6 +202,18 @@ def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[in
     return places
 
 
+def _axes_of(bone: _Bone) -> tuple[FloatArray, FloatArray]:
+    """X and Z of a bone by the convention."""
+    x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
+    return x, z
+
+
+def _axes(bone: _Bone) -> FloatArray:
+    x, z = _axes_of(bone)
+    turn: FloatArray = quaternion.from_frames(x, np.cross(z, x))
+    return turn
+
+
 def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
     """World rotations (B, 4) of the bones in the T-pose by the axes of the convention."""
     names = tuple(MANNEQUIN)
@@ -177,7 +222,7 @@ def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
         if index in tied:
             turned[index] = turned[tied[index]]
             continue
-        x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
+        x, z = _axes_of(bone)
         if bone.axes not in _STRAIGHT and (way := _way(bone, places, names)) is not None:
             x = np.copysign(1.0, way @ x) * way
         y = np.cross(z, x)

@@ -1,4 +1,4 @@
-"""Options for skeletons: attachment of instruments, root bone, rest pose, twist bones."""
+"""Options for skeletons: attachment of instruments, root bone, rest pose, twist bones, eyes."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ Attachment: TypeAlias = Literal["free", "socket", "ik"]
 """An instrument's own motion in the world, on a bone of the hand that bears it, or on one of that hand's IK target."""
 RootBone: TypeAlias = Literal["origin", "place", "motion"]
 """The root bone stays at the origin, stands at the place on the stage, or goes over the floor below the hips."""
+EyeTurn: TypeAlias = Literal["shapes", "bones"]
+"""Carrier of the turn of eyes: the eyeLook shapes of the face, or the bones of the eyes."""
 RestPose: TypeAlias = Literal["model", "t", "a"]
 """The arms at rest: as the body was modelled, level (T-pose), or 45 degrees down (A-pose)."""
 
 ATTACHMENTS: Final[tuple[Attachment, ...]] = get_args(Attachment)
 ROOT_BONES: Final[tuple[RootBone, ...]] = get_args(RootBone)
 REST_POSES: Final[tuple[RestPose, ...]] = get_args(RestPose)
+EYE_TURNS: Final[tuple[EyeTurn, ...]] = get_args(EyeTurn)
 
 
 class RigOptions(msgspec.Struct, frozen=True):
@@ -28,12 +31,14 @@ class RigOptions(msgspec.Struct, frozen=True):
     rest_pose : RestPose
     twist_bones : bool
         Whether twist bones of the arms carry skin, and are there.
+    eyes : EyeTurn
     """
 
     instrument: Attachment = "free"
     root_bone: RootBone = "origin"
     rest_pose: RestPose = "model"
     twist_bones: bool = False
+    eyes: EyeTurn = "shapes"
 
 
 DEFAULT_RIG: Final = RigOptions()

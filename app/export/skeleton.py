@@ -45,6 +45,8 @@ def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> 
     place = {bone: index for index, bone in enumerate(chosen)}
     translation_cm, rotation = _world(scene, clip, first)
     rotations = np.take(clip.rotations_xyzw, chosen, axis=1)
+    for bone, turns in clip.whole_turns.items():
+        rotations[:, place[bone]] = turns
     rotations[:, 0] = rotation
     offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
     offsets_cm[0] = 0.0

@@ -16,7 +16,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray, SingleArray
 from app.errors import Message
-from app.export.rig_options import RestPose, RootBone
+from app.export.rig_options import EyeTurn, RestPose, RootBone
 from app.formats.scene import NodePlace
 from app.motion.model import Motion
 from app.rig import quaternion
@@ -95,6 +95,8 @@ class TargetSkeleton:
     rest_pose : RestPose
     twisted_skin : bool
         Whether twist bones carry skin.
+    eyes : EyeTurn
+        What turns the eyes; a bone may have a part of what shapes do (`app.export.eyes`).
     """
 
     choice: SkeletonChoice
@@ -115,6 +117,7 @@ class TargetSkeleton:
     place: NodePlace | None = None
     rest_pose: RestPose = "model"
     twisted_skin: bool = False
+    eyes: EyeTurn = "shapes"
 
     @cached_property
     def bone_of_joint(self) -> Mapping[int, int]:

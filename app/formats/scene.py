@@ -121,6 +121,8 @@ class Clip:
         By bone index, relative to the parent; only the bones that move.
     morph_weights : mapping of str to ndarray, shape (F,)
         By morph name, 0 to 1.
+    whole_turns : mapping of int to ndarray, shape (F, 4)
+        Rotations of the bones whose turn is partly made by morphs, with all of it: for formats without morphs.
     keys : Keys or None
         The frames whose values are written, where the format can leave out others; None: all of them.
     """
@@ -131,6 +133,7 @@ class Clip:
     rotations_xyzw: AnyFloatArray
     translations_cm: Mapping[int, AnyFloatArray] = field(default_factory=dict)
     morph_weights: Mapping[str, AnyFloatArray] = field(default_factory=dict)
+    whole_turns: Mapping[int, AnyFloatArray] = field(default_factory=dict)
     keys: Keys | None = None
 
     @property

@@ -40,7 +40,7 @@ class BodyMotion:
     elbows_rad : array
         Both elbows out.
     eyes_yaw_rad, eyes_pitch_rad : array
-        Of the eyes in the head: left, down.
+        Of the eyes in the head: left, down; of a head that turns only for the gaze.
     lowered : array
         0 with the instrument at the lips, 1 with it lowered.
     steadied : array
@@ -59,6 +59,10 @@ class BodyMotion:
     hands : dict of str to array
         Where hands are that leave the instrument (`app.motion.gestures.hand_gestures.limited_hand_gestures`); empty:
         they stay.
+    looks : dict of str to array
+        What the eyes stay on whatever the head does: ``left_rad`` and ``down_rad``, by how much its direction is
+        farther than theirs, and ``near_per_m`` and ``own`` (`app.motion.faces.gaze.Gaze`); empty: they keep to the
+        head.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -88,6 +92,7 @@ class BodyMotion:
     elbows_late_rad: dict[str, FloatArray] = field(default_factory=dict)
     feet: dict[str, FloatArray] = field(default_factory=dict)
     hands: dict[str, FloatArray] = field(default_factory=dict)
+    looks: dict[str, FloatArray] = field(default_factory=dict)
 
     def __getitem__(self, frames: slice) -> BodyMotion:
         """The same motion in some of its frames."""

@@ -19,6 +19,7 @@ from app.motion.faces.gaze import (
     BLINK_SHUT_S,
     BLINK_UP_S,
     HEAD_TURN_S,
+    MUSIC_M,
     MUSIC_PITCH_RAD,
     SACCADE_S,
     GazeFrames,
@@ -323,6 +324,8 @@ class LiveLook:
         return GazeFrames(
             yaw_rad=np.full(FRAMES, self._yaw.at(now_s)),
             pitch_rad=np.full(FRAMES, self._pitch.at(now_s)),
+            near_per_m=np.full(FRAMES, 1.0 / MUSIC_M),
+            own=np.ones(FRAMES),
             head_yaw_rad=np.full(FRAMES, self._head_yaw.at(now_s)),
             head_pitch_rad=np.full(FRAMES, self._head_pitch.at(now_s)),
             left_lid=np.full(FRAMES, lids),

@@ -236,6 +236,8 @@ class ExpressionEvent(msgspec.Struct, frozen=True, gc=False):
 
 AUDIENCE: Final = "audience"
 ABOUT: Final = "about"
+FAR_M: Final = 4.0
+"""Distance of what is looked at where nothing says it."""
 CONDUCTOR: Final = "conductor"
 """Id of the conductor as a giver of entries: used in places, cues and glances as the players' ids are."""
 
@@ -251,6 +253,8 @@ class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
         The direction from the player's own, left and down.
     head_share : float
         How much of it the head turns.
+    away_m : float
+        Distance of what is looked at.
     """
 
     id: str
@@ -260,6 +264,7 @@ class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
     yaw_rad: float
     pitch_rad: float
     head_share: float
+    away_m: float = FAR_M
 
 
 Event: TypeAlias = (

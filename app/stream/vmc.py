@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
+from app.motion.faces.eyes import EYE_SHAPES
 from app.project.casting import StagePosition
 from app.rig import quaternion
 from app.rig.model import Character
@@ -64,7 +65,9 @@ class Sent:
                 self._between[place] = tuple(reversed(above))
         self._skeleton_offsets_m = skeleton.offsets_m
         self._hips_place = int(np.flatnonzero(self._joints == self._hips)[0])
-        self._face = face_layout(faces, sorted({morph.name for mesh in character.meshes for morph in mesh.morphs}))
+        # Eyes are turned by their bones, and receivers would add what shapes say of it.
+        morphs = {morph.name for mesh in character.meshes for morph in mesh.morphs} - set(EYE_SHAPES)
+        self._face = face_layout(faces, sorted(morphs))
         names = [unity_bone(skeleton.names[joint]) for joint in self._joints]
         heads = [
             Head("/VMC/Ext/OK", (LOADED,)),

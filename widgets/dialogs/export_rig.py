@@ -1,4 +1,4 @@
-"""Options of exported skeletons besides their bones: attachment of instruments, root bone, rest pose, twist bones."""
+"""Options of exported skeletons: attachment of instruments, root bone, rest pose, twist bones, eyes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
-from app.export.rig_options import ATTACHMENTS, REST_POSES, ROOT_BONES, RigOptions
+from app.export.rig_options import ATTACHMENTS, EYE_TURNS, REST_POSES, ROOT_BONES, RigOptions
 from widgets.common.controls import Check, Retranslated, named
 from widgets.common.plain import ComboBox
 
@@ -23,11 +23,14 @@ class RigChooser(Retranslated, QWidget):
         self._root_bone = _box("export_root_bone", ROOT_BONES)
         self._rest_pose = _box("export_rest_pose", REST_POSES)
         self._twist_bones = named(Check("rig_chooser.twist_bones"), "export_twist_bones")
+        self._eyes = _box("export_eyes", EYE_TURNS)
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        for index, field in enumerate((self._instrument, self._root_bone, self._rest_pose, self._twist_bones)):
+        fields = (self._instrument, self._root_bone, self._rest_pose, self._eyes, self._twist_bones)
+        for index, field in enumerate(fields):
             layout.addWidget(field, *divmod(index, 2))
         self._instrument.currentIndexChanged.connect(self.changed)
+        self.texted(self._eyes, items=("rig_chooser.eyes_by_shapes", "rig_chooser.eyes_by_bones"))
         self.texted(
             self._instrument,
             items=(
@@ -53,6 +56,7 @@ class RigChooser(Retranslated, QWidget):
             ROOT_BONES[self._root_bone.currentIndex()],
             REST_POSES[self._rest_pose.currentIndex()],
             self._twist_bones.isChecked(),
+            EYE_TURNS[self._eyes.currentIndex()],
         )
 
 

@@ -31,6 +31,18 @@ from app.motion.contacts.still_player import ContactCurves, StillPlayer
 from app.motion.contacts.trunk_and_legs import hips_path, solve_legs, trunk
 from app.motion.contacts.upper_body import UpperBody, joined, upper_body
 from app.motion.curves.soft_bounds import softly_capped
+from app.motion.faces.eyes import (
+    EYE_SHAPES,
+    EYE_SIDES,
+    EyeSide,
+    directions_to,
+    eye_joint,
+    eye_turn,
+    eyes_from_head_m,
+    point,
+    sight_by,
+    weights_for,
+)
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.grip.finger_poses import finger_rotations
@@ -43,6 +55,8 @@ LEAST_DRAWN_M = 0.01
 """However little giving way brings, it is never divided by less ..."""
 LEAST_LEANT_M = 0.005
 """... nor is how far a small lean takes the head aside."""
+LEAST_NEAR_PER_M = 1e-3
+"""Eyes look at things at most a kilometre away."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +89,24 @@ class PlayerBody(StillPlayer):
         """Return how far the trunk leans to the right for each radian it turns to the left, so that the head stays over
         its place: it is ahead of what the trunk turns about."""
         return _aside_per_turn(self)
+
+    @cached_property
+    def eyes_m(self) -> dict[EyeSide, FloatArray]:
+        """Places of the eyes in the head's frame."""
+        return eyes_from_head_m(self.skeleton)
+
+    @cached_property
+    def eyes_from_m(self) -> FloatArray:
+        """The middle between the eyes (3,) before any motion."""
+        middle_m = 0.5 * (self.eyes_m["left"] + self.eyes_m["right"])
+        place_m: FloatArray = self.base.head_m[0] + quaternion.rotate(self.base.head[0], middle_m)
+        return place_m
+
+    @cached_property
+    def bowed_rad(self) -> float:
+        """Angle by which the posture holds the head down."""
+        ahead = quaternion.rotate(self.base.head[0], np.array([0.0, 0.0, 1.0]))
+        return -math.asin(min(max(float(ahead[1]), -1.0), 1.0))
 
     @cached_property
     def farthest(self) -> dict[str, float]:
@@ -125,6 +157,7 @@ def poses(
     instrument_m = np.empty((frames, 3), dtype=np.float32)
     instrument = np.empty((frames, 4), dtype=np.float32)
     controls = {name: np.empty(frames, dtype=np.float32) for name in curves.controls}
+    turned = {name: np.empty(frames, dtype=np.float32) for name in EYE_SHAPES}
     for part in _parts(frames):
         chunk = curves[part]
         known = upper_body(player, chunk) if upper is None else upper[part]
@@ -143,6 +176,12 @@ def poses(
             rotations[part, joint] = posed[:, column]
         for name, values in stops.items():
             controls[name][part] = values
+        for name, weights in _look(player, chunk, known.trunk.head, known.trunk.head_m).items():
+            turned[name][part] = weights
+    for side in EYE_SIDES:
+        if eye_joint(side) in player.skeleton.names:
+            joint = player.skeleton.index(eye_joint(side))
+            rotations[:, joint] = eye_turn(sight_by(side, turned, frames))
     if player.stand is not None:
         drawn_out = player.stand.drawn_out(instrument_m, instrument)
         controls[player.stand.endpin.node] = drawn_out.astype(np.float32)
@@ -151,7 +190,7 @@ def poses(
         first_frame_s=first_frame_s,
         rotations=rotations,
         hips_m=hips_m,
-        morphs={name: values.astype(np.float32) for name, values in curves.morphs.items()},
+        morphs={name: values.astype(np.float32) for name, values in curves.morphs.items()} | turned,
         controls=controls,
         instrument_position_m=instrument_m,
         instrument_rotation=instrument,
@@ -182,11 +221,29 @@ def _pose(
         arms = solve_arms(player, curves, replace(known, carried=carried), swung) | letting_go
     local |= arms
     local |= solve_legs(player.place, skeleton, known.hips_m, known.hips, motion.feet)
-    looking = quaternion.columns(motion.eyes_pitch_rad, motion.eyes_yaw_rad, 0.0)
-    for name in ("leftEye", "rightEye"):
-        if name in skeleton.names:
-            local[skeleton.index(name)] = quaternion.from_rotation_vector(looking)
     return known.hips_m, local, carried, curves.controls
+
+
+def _look(player: PlayerBody, curves: ContactCurves, head: FloatArray, head_m: FloatArray) -> dict[str, FloatArray]:
+    """Weights of the shapes that turn the eyes: to what they look at, and what a face shows beside it."""
+    motion, eyes_m = curves.body, player.eyes_m
+    left_rad, down_rad = motion.eyes_yaw_rad, motion.eyes_pitch_rad
+    if motion.looks:
+        own = motion.looks["own"]
+        target_m = point(
+            left_rad + motion.looks["left_rad"],
+            down_rad + motion.looks["down_rad"] + own * player.bowed_rad,
+            1.0 / np.maximum(motion.looks["near_per_m"], LEAST_NEAR_PER_M),
+        )
+        target_m += player.eyes_from_m * np.stack([own, np.ones(len(own)), own], axis=-1)
+        sights = directions_to(target_m, head, head_m, eyes_m)
+    else:
+        ahead = point(left_rad, down_rad, np.ones(len(left_rad)))
+        sights = dict.fromkeys(EYE_SIDES, ahead)
+    turned: dict[str, FloatArray] = {}
+    for side, sight in sights.items():
+        turned |= weights_for(side, sight)
+    return {name: np.clip(weight + curves.morphs.get(name, 0.0), 0.0, 1.0) for name, weight in turned.items()}
 
 
 def _late(motion: BodyMotion) -> FloatArray | None:

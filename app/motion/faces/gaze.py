@@ -20,7 +20,7 @@ from app.motion.curves.seeded_chance import generator
 from app.motion.curves.spline import Spline
 from app.motion.faces.blinks import BLINK_DOWN_S, BLINK_SHUT_S, BLINK_UP_S, ENTRY_GUARD_S, blinks_of
 from app.motion.faces.silences import Silences, holds, overlaps
-from app.plan.model import PlayerPlan, only
+from app.plan.model import ABOUT, FAR_M, PlayerPlan, only
 from app.plan.styles import share_at
 from app.steps import StepTable, reading
 
@@ -34,8 +34,8 @@ HEAD_LAG_S: Final = 0.18
 """Delay of the head behind its target: with the curve's own rounding it begins some 80 ms after the eyes."""
 HEAD_STEP_S: Final = 0.05
 MOST_YAW_RAD, MOST_UP_RAD, MOST_DOWN_RAD = 0.5, 0.15, 0.4
-MUSIC_PITCH_RAD = 0.20
-"""The music on its stand lies about 12 degrees below the line of sight."""
+MUSIC_PITCH_RAD, MUSIC_M = 0.20, 0.65
+"""The music on its stand lies about 12 degrees below the line of sight, and at this distance from the eyes."""
 LINE_RAD, SYSTEM_RAD, SYSTEMS = 0.075, 0.018, 6
 """Half of a line's width, and how far the next one is below it, of so many on a page."""
 LINE_S = (5.0, 8.0)
@@ -69,6 +69,8 @@ class GazeFrames:
 
     yaw_rad: FloatArray
     pitch_rad: FloatArray
+    near_per_m: FloatArray
+    own: FloatArray
     head_yaw_rad: FloatArray
     head_pitch_rad: FloatArray
     left_lid: FloatArray
@@ -99,6 +101,11 @@ class Gaze:
     ----------
     yaw_rad, pitch_rad : Curve
         Left and down are positive.
+    near_per_m : Curve
+        One divided by the distance of what is looked at.
+    own : Curve
+        1: the directions are from the eyes and the head as the posture holds them, 0: from above the feet and level,
+        as places on the stage are.
     head : Spline
         Yaw and pitch of what the head follows of it.
     left_lid, right_lid : Envelopes
@@ -107,6 +114,8 @@ class Gaze:
 
     yaw_rad: Curve
     pitch_rad: Curve
+    near_per_m: Curve
+    own: Curve
     head: Spline
     left_lid: Envelopes
     right_lid: Envelopes
@@ -118,6 +127,8 @@ class Gaze:
         return GazeFrames(
             yaw_rad=np.clip(self.yaw_rad.sample(times_s), turned_rad - EYES_RAD, turned_rad + EYES_RAD),
             pitch_rad=self.pitch_rad.sample(times_s),
+            near_per_m=self.near_per_m.sample(times_s),
+            own=self.own.sample(times_s),
             head_yaw_rad=head_yaw_rad,
             head_pitch_rad=head_pitch_rad,
             left_lid=self.left_lid.sample(times_s),
@@ -141,7 +152,8 @@ class Watching(NamedTuple):
 
 def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
     """Plan the fixations and blinks of a whole performance, seeded by the player."""
-    at_s, yaw, pitch, share = _fixations(plan, silences, watching)
+    at_s, looks = _fixations(plan, silences, watching)
+    yaw, pitch = looks.yaw, looks.pitch
     far = np.hypot(np.diff(yaw, prepend=yaw[:1]), np.diff(pitch, prepend=pitch[:1]))
     until_s = np.minimum(
         at_s + np.maximum(SACCADE_BASE_S + SACCADE_S_RAD * far, SACCADE_S), np.append(at_s[1:], np.inf)
@@ -150,25 +162,44 @@ def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
     return Gaze(
         yaw_rad=moves_to(at_s, until_s, yaw),
         pitch_rad=moves_to(at_s, until_s, pitch, MUSIC_PITCH_RAD),
-        head=_head(plan, at_s, share * yaw, 0.25 * share * (pitch - MUSIC_PITCH_RAD)),
+        near_per_m=moves_to(at_s, until_s, looks.near, 1.0 / MUSIC_M),
+        own=moves_to(at_s, until_s, looks.own, 1.0),
+        head=_head(plan, at_s, looks.share * yaw, 0.25 * looks.share * (pitch - MUSIC_PITCH_RAD)),
         left_lid=left_lid,
         right_lid=right_lid,
     )
+
+
+class _Fixed(NamedTuple):
+    """Fixations of the eyes, members as of `Gaze` and what share of the turn the head follows; (K,) each."""
+
+    yaw: FloatArray
+    pitch: FloatArray
+    share: FloatArray
+    near: FloatArray
+    own: FloatArray
 
 
 class _Looks(NamedTuple):
     """Looks away from the music: spans (K, 2) in order, and where to."""
 
     spans_s: FloatArray
-    yaw: FloatArray
-    pitch: FloatArray
-    share: FloatArray | float
+    at: _Fixed
 
 
-def _fixations(
-    plan: PlayerPlan, silences: Silences, watching: Watching
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Times, yaw, pitch and what share the head follows, (K,) each."""
+def _looks(
+    spans_s: FloatArray,
+    yaw: FloatArray,
+    pitch: FloatArray,
+    share: FloatArray | float,
+    near: FloatArray | float = 1.0 / FAR_M,
+    own: FloatArray | float = 1.0,
+) -> _Looks:
+    return _Looks(spans_s, _Fixed(yaw, pitch, *(np.broadcast_to(one, len(yaw)) for one in (share, near, own))))
+
+
+def _fixations(plan: PlayerPlan, silences: Silences, watching: Watching) -> tuple[FloatArray, _Fixed]:
+    """Times (K,), and where the eyes go then."""
     random, frame = _random(plan, watching, "reads"), plan.time_frame
     line_s, side = float(random.uniform(*LINE_S)), 1.0 if random.random() < 0.5 else -1.0
     layers = [
@@ -193,14 +224,13 @@ def _fixations(
     line, along = np.divmod((at_s - frame.first_frame_s) / line_s, 1.0)
     yaw = LINE_RAD * (1.0 - 2.0 * along) + 0.03 * (jitter[:, 0] - 0.5)
     pitch = MUSIC_PITCH_RAD + SYSTEM_RAD * (line % SYSTEMS - 0.5 * (SYSTEMS - 1)) + 0.012 * (jitter[:, 1] - 0.5)
-    share = np.full(len(at_s), READING_SHARE)
+    found = _looks(np.empty((0, 2)), yaw, pitch, READING_SHARE, 1.0 / MUSIC_M).at
     for layer in layers:
         if len(layer.spans_s):
             number = np.maximum(np.searchsorted(layer.spans_s[:, 0], at_s, side="right") - 1, 0)
             here = (at_s >= layer.spans_s[number, 0]) & (at_s < layer.spans_s[number, 1])
-            yaw, pitch = np.where(here, layer.yaw[number], yaw), np.where(here, layer.pitch[number], pitch)
-            share = np.where(here, np.broadcast_to(layer.share, len(layer.yaw))[number], share)
-    return at_s, yaw, pitch, share
+            found = _Fixed(*(np.where(here, new[number], old) for new, old in zip(layer.at, found, strict=True)))
+    return at_s, found
 
 
 def _random(plan: PlayerPlan, watching: Watching, purpose: str) -> np.random.Generator:
@@ -226,7 +256,7 @@ def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
     yaw = np.clip(np.where(resting, wide, 0.4 * wide), -MOST_YAW_RAD, MOST_YAW_RAD)
     pitch = np.clip(up, -MOST_UP_RAD, MOST_DOWN_RAD)
     share = np.where(resting, RESTING_SHARE, PLAYING_SHARE)
-    return _Looks(np.stack((start_s, end_s), axis=1)[kept], yaw[kept], pitch[kept], share[kept])
+    return _looks(np.stack((start_s, end_s), axis=1)[kept], yaw[kept], pitch[kept], share[kept])
 
 
 def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
@@ -236,21 +266,27 @@ def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Look
     at_s = last_s + np.array([-0.3, AUDIENCE_S, AUDIENCE_S + 1.7, AUDIENCE_S + 3.9, np.inf])
     yaw = np.append([0.0], 0.10 * chances[1:, 0])
     pitch = np.append([MUSIC_PITCH_RAD - 0.02], -0.02 + 0.015 * chances[1:, 1])
-    return _Looks(np.stack((at_s[:-1], at_s[1:]), axis=1), yaw, pitch, RESTING_SHARE)
+    return _looks(np.stack((at_s[:-1], at_s[1:]), axis=1), yaw, pitch, RESTING_SHARE)
 
 
 def _cues(plan: PlayerPlan, side: float) -> _Looks:
     """Up from the music while giving a cue, and back for the entry; whom to look at the plan says (`_glances`)."""
     spans_s = [(cue.start_s - CUE_LEAD_S, cue.end_s - CUE_BACK_BEATS * cue.beat_s) for cue in plan.cues]
     rows = np.array(spans_s).reshape(-1, 2)
-    return _Looks(rows, np.full(len(rows), side * ASIDE_RAD), np.zeros(len(rows)), PLAYING_SHARE)
+    return _looks(rows, np.full(len(rows), side * ASIDE_RAD), np.zeros(len(rows)), PLAYING_SHARE)
 
 
 def _glances(plan: PlayerPlan) -> _Looks:
     rows = np.array(
-        [(one.start_s, one.end_s, one.yaw_rad, one.pitch_rad, one.head_share / HEAD_TURNS) for one in plan.glances]
-    ).reshape(-1, 5)
-    return _Looks(rows[:, :2], rows[:, 2], rows[:, 3], rows[:, 4])
+        [
+            (
+                *(one.start_s, one.end_s, one.yaw_rad, one.pitch_rad, one.head_share / HEAD_TURNS),
+                *(1.0 / one.away_m, float(one.at == ABOUT)),
+            )
+            for one in plan.glances
+        ]
+    ).reshape(-1, 7)
+    return _looks(rows[:, :2], *rows[:, 2:].T)
 
 
 def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray) -> Spline:

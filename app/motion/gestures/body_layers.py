@@ -99,6 +99,12 @@ def body_motion(
         elbows_rad=elbows + done.elbows_rad,
         eyes_yaw_rad=look.yaw_rad - 0.5 * look.head_yaw_rad - EYES_BACK * aside_rad,
         eyes_pitch_rad=look.pitch_rad - 0.5 * look.head_pitch_rad,
+        looks={
+            "left_rad": 0.5 * look.head_yaw_rad + (EYES_BACK + (1.0 - EYES_BACK) * look.own) * aside_rad,
+            "down_rad": 0.5 * look.head_pitch_rad,
+            "near_per_m": look.near_per_m,
+            "own": look.own,
+        },
         lowered=lowered * (1.0 - done.up_share),
         steadied=np.full(frames, max(0.0, 1.0 - amplitude / FREE_AMPLITUDE)),
         elbow_held_rad={side: held[elbow].up for side, elbow in ELBOWS.items() if elbow in held},

@@ -19,7 +19,6 @@ from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
 from app.motion.by_hand.pose_corrections import within
 from app.motion.curves.curve import Envelopes
-from app.motion.gestures.body_layers import EYES_BACK
 from app.motion.gestures.danced_feet import DancedFeet
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from app.plan.model import BreathEvent
@@ -116,12 +115,10 @@ def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body,
     """
     of = dict(zip(CHANNELS, (amount * dance).T, strict=True))
     angles = {"forward": dict(motion.forward_rad), "turn": dict(motion.turn_rad), "left": dict(motion.left_rad)}
-    looked: dict[str, FloatArray] = {}
     for angle, joints in angles.items():
         hips = of[f"hips_{angle}_rad"] if legs else np.zeros(len(dance))
         trunk = of[f"trunk_{angle}_rad"]
         apart = motion.lowered * (of[f"head_{angle}_rad"] - trunk)
-        looked[angle] = trunk + apart
         for shares, offset in ((TRUNK_SHARES, trunk - hips), (NECK_SHARES, apart)):
             for joint, share in shares.items():
                 limits = body.limits[joint]
@@ -133,8 +130,6 @@ def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body,
         forward_rad=angles["forward"],
         turn_rad=angles["turn"],
         left_rad=angles["left"],
-        eyes_yaw_rad=motion.eyes_yaw_rad - EYES_BACK * looked["turn"],
-        eyes_pitch_rad=motion.eyes_pitch_rad - EYES_BACK * looked["forward"],
     )
     if not legs:
         return moved

@@ -13,7 +13,7 @@ from typing import Final
 
 import msgspec
 
-from app.plan.model import ABOUT, AUDIENCE, CONDUCTOR, CueEvent, GestureEvent, GlanceEvent
+from app.plan.model import ABOUT, AUDIENCE, FAR_M, CueEvent, GestureEvent, GlanceEvent
 from app.plan.music.piece import Seeds
 from app.plan.music.spans import Spans
 from app.plan.rules import lowered_spans_s
@@ -28,7 +28,11 @@ MOST_RAD: Final = 1.1
 """No one looks further aside for it."""
 MOST_UP_RAD: Final = 0.35
 LEVEL_RAD: Final = 0.02
-"""Others' faces, below the player's own eyes."""
+"""Pitch of looks at what has no known height, below the player's own eyes."""
+AUDIENCE_M: Final = 6.0
+OWN_HANDS_M: Final = 0.45
+NEAREST_M: Final = 0.5
+"""No one stands nearer to another."""
 TO_GIVER_S: Final = (0.25, 0.6)
 """Range of the time before the cue begins at which players look at its giver ..."""
 STAYS_S: Final = (0.05, 0.35)
@@ -85,7 +89,7 @@ def glances_of(
             found += _about(event, seeds)
         elif event.part == "audience" and player_id in places:
             yaw_rad = _wrapped(-places[player_id].turn_rad)
-            found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad))
+            found.append(_glance(f"glance:{event.id}", AUDIENCE, event.start_s, event.end_s, yaw_rad, AUDIENCE_M))
         elif event.gesture is not None and event.gesture.gaze is not None and event.amount > 0.0:
             found.append(_at_own_hands(event, event.gesture.gaze))
     taken = Spans((one.start_s, one.end_s) for one in found)
@@ -100,11 +104,8 @@ def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], s
         return []
     before_s = _between(TO_GIVER_S, seeds.chance_at("glance before", cue.end_tick))
     after_s = _between(STAYS_S, seeds.chance_at("glance after", cue.end_tick))
-    yaw_rad = bearing_rad(places[player_id], places[cue.player_id])
-    glance = _glance(f"glance:{cue.id}", cue.player_id, cue.start_s - before_s, cue.downbeat_s + after_s, yaw_rad)
-    if cue.player_id == CONDUCTOR:
-        glance = msgspec.structs.replace(glance, pitch_rad=pitch_rad(places[player_id], places[CONDUCTOR]))
-    return [glance]
+    name, span_s = f"glance:{cue.id}", (cue.start_s - before_s, cue.downbeat_s + after_s)
+    return [glance_at(name, cue.player_id, span_s, places[player_id], places[cue.player_id])]
 
 
 def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
@@ -120,7 +121,7 @@ def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) ->
     for number, (_, other) in enumerate(others[:2]):
         lasts_s = _between(LOOK_S, seeds.chance_at(f"glance {number}", cue.end_tick))
         name = f"glance:{cue.id}:{number}"
-        found.append(_glance(name, other, at_s, at_s + lasts_s, bearing_rad(own, places[other])))
+        found.append(glance_at(name, other, (at_s, at_s + lasts_s), own, places[other]))
         at_s += lasts_s
     return found
 
@@ -150,6 +151,7 @@ def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
         math.radians(gaze.left_deg),
         -math.radians(gaze.up_deg),
         FREE_HEAD,
+        OWN_HANDS_M,
     )
 
 
@@ -163,16 +165,26 @@ def bearing_rad(own: StagePlace, other: StagePlace) -> float:
 
 def pitch_rad(own: StagePlace, other: StagePlace) -> float:
     """Return how far down another's eyes are from a player's own."""
-    away_m = max(math.hypot(other.x_m - own.x_m, other.z_m - own.z_m), 0.5)
-    return round(min(max(math.atan2(own.eyes_m - other.eyes_m, away_m), -MOST_UP_RAD), MOST_UP_RAD), 4)
+    return round(min(max(math.atan2(own.eyes_m - other.eyes_m, _apart_m(own, other)), -MOST_UP_RAD), MOST_UP_RAD), 4)
+
+
+def glance_at(name: str, at: str, span_s: tuple[float, float], own: StagePlace, other: StagePlace) -> GlanceEvent:
+    """A glance at another's eyes."""
+    pitch = pitch_rad(own, other)
+    away_m = round(_apart_m(own, other) / math.cos(pitch), 3)
+    return GlanceEvent(name, at, *span_s, bearing_rad(own, other), pitch, PLAYING_HEAD, away_m)
+
+
+def _apart_m(own: StagePlace, other: StagePlace) -> float:
+    return max(math.hypot(other.x_m - own.x_m, other.z_m - own.z_m), NEAREST_M)
 
 
 def _wrapped(angle_rad: float) -> float:
     return math.remainder(angle_rad, 2.0 * math.pi)
 
 
-def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float) -> GlanceEvent:
-    return GlanceEvent(name, at, start_s, end_s, yaw_rad, LEVEL_RAD, PLAYING_HEAD)
+def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float, away_m: float = FAR_M) -> GlanceEvent:
+    return GlanceEvent(name, at, start_s, end_s, yaw_rad, LEVEL_RAD, PLAYING_HEAD, away_m)
 
 
 def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:

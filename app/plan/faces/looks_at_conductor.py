@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
-from app.plan.faces.glances import PLAYING_HEAD, StagePlace, bearing_rad, pitch_rad
+from app.plan.faces.glances import StagePlace, glance_at
 from app.plan.model import CONDUCTOR, GlanceEvent, TimeFrame
 from app.plan.music.piece import LineTimes, NoteTimes, Piece, Seeds
 from app.plan.music.spans import Spans
@@ -64,7 +64,6 @@ def looks_up(
     if CONDUCTOR not in places or player_id not in places or not len(times.onset_s):
         return ()
     own, there = places[player_id], places[CONDUCTOR]
-    yaw, pitch = bearing_rad(own, there), pitch_rad(own, there)
     if amount <= 0.0:
         return ()
     spans = _certain(times, piece, last_s)
@@ -77,10 +76,9 @@ def looks_up(
             free_s = end_s + LEAST_APART_S
     spans = [(start_s, end_s) for start_s, end_s in spans if frame.first_frame_s <= start_s and end_s <= frame.end_s]
     return tuple(
-        GlanceEvent(f"glance:conductor:{round(piece.clock.ticks(start_s))}", CONDUCTOR, start_s, end_s, yaw, pitch,
-                    PLAYING_HEAD)
-        for start_s, end_s in sorted(spans)
-    )  # fmt: skip
+        glance_at(f"glance:conductor:{round(piece.clock.ticks(span_s[0]))}", CONDUCTOR, span_s, own, there)
+        for span_s in sorted(spans)
+    )
 
 
 def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float, float]]:

@@ -33,6 +33,7 @@ from metadata.model import REQUIRED_JOINTS
 
 OPTIONAL: Final = frozenset({"jaw"})
 """Joints that are not supplied: nothing is the worse for their lack."""
+EYES: Final = ("leftEye", "rightEye")
 TRUNK: Final = ("hips", "spine", "chest", "upperChest")
 
 
@@ -66,7 +67,8 @@ def figure_character(
     rest = rest_of(figure)
     fit = _fitted(figure, rest, bones)
     joint_of_bone = _joints_of_bones(figure, rest, fit)
-    meshes = tuple(_mesh(mesh, joint_of_bone, morphs) for mesh in figure.meshes)
+    eyes = [fit.names.index(name) for name in EYES if name in fit.names]
+    meshes = tuple(_without_turned_balls(_mesh(mesh, joint_of_bone, morphs), eyes) for mesh in figure.meshes)
     fit = supplied_ends(fit, meshes)
     fit = on_the_floor(fit, meshes)
     joint_from_mesh = inverse_binds(fit)
@@ -184,6 +186,19 @@ def _own(figure: Figure, rest: Rest, fit: Fit, morphs: Mapping[str, Mapping[str,
 def _mesh(mesh: Mesh, joint_of_bone: npt.NDArray[np.int32], morphs: Mapping[str, Mapping[str, float]]) -> Mesh:
     joints, weights = _merged(joint_of_bone[mesh.joints], mesh.weights.astype(np.float64))
     return replace(mesh, joints=joints, weights=weights, morphs=_composed(mesh.morphs, morphs))
+
+
+def _without_turned_balls(mesh: Mesh, eyes: Sequence[int]) -> Mesh:
+    """A mesh whose eyeLook morphs leave alone what the joints of eyes turn: both would turn it twice."""
+    shares = np.where(np.isin(mesh.joints, eyes), mesh.weights, 0.0).sum(axis=1)
+    if not shares.any():
+        return mesh
+    kept = (1.0 - shares)[:, None].astype(np.float32)
+    morphs = [
+        replace(morph, deltas_m=morph.deltas_m * kept[morph.vertices]) if morph.name.startswith("eyeLook") else morph
+        for morph in mesh.morphs
+    ]
+    return replace(mesh, morphs=tuple(morphs))
 
 
 def _merged(joints: npt.NDArray[np.int32], weights: FloatArray) -> tuple[npt.NDArray[np.int32], SingleArray]:

@@ -185,13 +185,12 @@ def test_body_skin_and_instrument_are_where_they_were(
 
 
 @pytest.mark.parametrize("options", [RigOptions("socket", "place"), RigOptions("ik", "motion")], ids=str)
-def test_a_skeleton_of_another_file_takes_sockets_and_a_root_that_moves(
-    made: Made, plain: Files, options: RigOptions
-) -> None:
+def test_a_skeleton_of_another_file_takes_sockets_and_a_root_that_moves(made: Made, options: RigOptions) -> None:
     found = made.read("own", options)
     own = made.foreign.own
     assert set(own.figure.bone_names) < set(found.target.names)
-    check_body(plain, found)
+    # Its own shapes turn no eyes.
+    check_body(made.read("suisou", RigOptions(eyes="bones")), found)
 
 
 def test_a_skeleton_of_another_file_keeps_its_rest_pose_and_twist_bones(made: Made) -> None:

@@ -68,8 +68,9 @@ class Piece:
 
     def on(self, name: str) -> tuple[Character, TargetSkeleton]:
         return {
-            "suisou": (self.ours, normalised_target(self.ours.skeleton)),
-            "ue5": (self.ours, mannequin_target(self.ours.skeleton)),
+            # The judge measures bones: those of eyes keep still where shapes turn them.
+            "suisou": (self.ours, replace(normalised_target(self.ours.skeleton), eyes="bones")),
+            "ue5": (self.ours, replace(mannequin_target(self.ours.skeleton), eyes="bones")),
             "own": (self.foreign, own_target(self.foreign)),
             "lacking": (self.lacking, own_target(self.lacking)),
         }[name]
@@ -114,8 +115,6 @@ def differences(plain: object, found: object, path: str = "") -> list[str]:
 @pytest.mark.parametrize("name", ["own", "lacking", "ue5"])
 def test_the_judge_measures_the_same_on_every_skeleton(piece: Piece, plain: dict[str, object], name: str) -> None:
     found = msgspec.to_builtins(piece.measured(name))
-    if name == "ue5":  # it has no eyes to turn
-        found["acceleration"] = plain["acceleration"]
     assert differences(plain, found) == []
 
 

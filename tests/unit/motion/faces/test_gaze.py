@@ -235,7 +235,14 @@ def test_a_head_with_an_instrument_at_its_mouth_turns_little() -> None:
     yaw = np.linspace(-1.4, 1.4, 57)
     still = np.zeros(len(yaw))
     look = GazeFrames(
-        yaw_rad=yaw, pitch_rad=still, head_yaw_rad=yaw, head_pitch_rad=still, left_lid=still, right_lid=still
+        yaw_rad=yaw,
+        pitch_rad=still,
+        near_per_m=still,
+        own=still,
+        head_yaw_rad=yaw,
+        head_pitch_rad=still,
+        left_lid=still,
+        right_lid=still,
     )
     playing, lowered = (with_instrument(look, np.full(len(yaw), low)) for low in (0.0, 1.0))
     assert np.abs(playing.head_yaw_rad).max() < PLAYING_TURN_RAD

@@ -1,0 +1,176 @@
+"""Eyes of a file: each is turned once, by ARKit's eyeLook shapes or by its bone.
+
+Programs add what a bone and what a shape does. Where shapes turn the ball, a bone turns it by what they leave, which is
+nothing for shapes of ours; a format without shapes has the whole turn on the bone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, FloatArray, SingleArray
+from app.export.target import TargetSkeleton
+from app.motion.faces.eyes import EYE_SIDES, SHAPES_RAD, EyeSide, eye_joint, shape_name, shape_turn
+from app.motion.model import Motion
+from app.rig import quaternion
+from app.rig.characters.bone_placements import world_placements
+from app.rig.figure import Figure, OwnSkeleton
+from app.rig.mesh import Mesh, Morph
+from app.rig.model import Character
+
+BALL: Final = 0.5
+"""A vertex of which a larger share hangs on the joint of an eye is one of its ball."""
+TURNS_RAD: Final = np.deg2rad(2.0)
+"""A shape that turns the ball by less moves lids only."""
+_AHEAD: Final = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class EyesOfFile:
+    """Motion of a character whose eyes are turned as in a file.
+
+    Attributes
+    ----------
+    motion : Motion
+        With the turn of the joints of eyes that shapes leave, and the weights of the shapes.
+    turned : mapping of str to (F, 4) float64
+        By joint: the rotation that shapes make beside it, so that their product is the whole turn.
+    """
+
+    motion: Motion
+    turned: Mapping[str, FloatArray]
+
+    def whole(self, target: TargetSkeleton, character: Character, rotations: AnyFloatArray) -> dict[int, FloatArray]:
+        """Rotations (F, 4) on their parents of the bones whose turn is partly made by shapes, with all of it."""
+        found = {}
+        for name, turn in self.turned.items():
+            bone = target.bone_of_joint.get(character.skeleton.index(name), -1)
+            if bone >= 0:
+                own = target.joint_from_bone[bone]
+                added = quaternion.multiply(quaternion.conjugate(own), quaternion.multiply(turn, own))
+                found[bone] = quaternion.multiply(np.asarray(rotations[:, bone], np.float64), added)
+        return found
+
+
+def eyes_of_file(character: Character, motion: Motion, target: TargetSkeleton) -> EyesOfFile:
+    """Share the turn of the eyes between shapes and bones."""
+    own = character.own if target.choice == "own" else None
+    joints = {side: character.skeleton.index(eye_joint(side)) for side in EYE_SIDES if _has(character, side)}
+    if own is None:
+        ways = {side: {way: shape_turn(side, way) for way in SHAPES_RAD} for side in joints}
+    else:
+        ways = {side: _turns_of(own, character.skeleton.index(eye_joint(side)), side) for side in joints}
+    if target.eyes == "bones":
+        doubled = {shape_name(side, way) for side, turns in ways.items() for way in turns} if own is not None else set()
+        return EyesOfFile(replace(motion, morphs=_without(motion.morphs, doubled)), {})
+    rotations, turned = motion.rotations.copy(), dict[str, FloatArray]()
+    for side, joint in joints.items():
+        if not any(len(motion.morphs.get(shape_name(side, way), ())) for way in ways[side]):
+            continue
+        whole = quaternion.normalize(motion.rotations[:, joint].astype(np.float64))
+        made = _made(ways[side], side, motion.morphs, motion.frames)
+        left = _between(made, quaternion.rotate(whole, _AHEAD))
+        left[np.abs(left[:, 3]) > 1.0 - 1e-9] = quaternion.IDENTITY
+        rotations[:, joint] = left
+        turned[eye_joint(side)] = quaternion.multiply(quaternion.conjugate(left), whole)
+    return EyesOfFile(replace(motion, rotations=rotations), turned)
+
+
+def with_turned_balls(character: Character) -> Character:
+    """A character whose eyeLook shapes turn the balls of its eyes too."""
+    if not any(_has(character, side) for side in EYE_SIDES):
+        return character
+    return replace(character, meshes=tuple(_turned_mesh(character, mesh) for mesh in character.meshes))
+
+
+def _turned_mesh(character: Character, mesh: Mesh) -> Mesh:
+    morphs = {morph.name: morph for morph in mesh.morphs}
+    for side in EYE_SIDES:
+        if not _has(character, side):
+            continue
+        joint = character.skeleton.index(eye_joint(side))
+        shares = np.where(mesh.joints == joint, mesh.weights, 0.0).sum(axis=1)
+        vertices = np.flatnonzero(shares > 0.0)
+        if not len(vertices):
+            continue
+        place = np.linalg.inv(character.joint_from_mesh[joint])
+        places_m = mesh.positions_m[vertices].astype(np.float64) - place[:3, 3]
+        for way in SHAPES_RAD:
+            turn = place[:3, :3] @ quaternion.to_matrix(shape_turn(side, way)) @ np.linalg.inv(place[:3, :3])
+            moved = places_m @ (turn - np.eye(3)).T * shares[vertices, None]
+            name = shape_name(side, way)
+            morphs[name] = _added(morphs.get(name), name, vertices, moved, len(mesh.positions_m))
+    return replace(mesh, morphs=tuple(morphs.values()))
+
+
+def _added(morph: Morph | None, name: str, vertices: np.ndarray, moved: FloatArray, count: int) -> Morph:
+    """A morph that also moves some vertices."""
+    if morph is None:
+        return Morph(name, vertices.astype(np.int32), moved.astype(np.float32), None)
+    deltas_m = np.zeros((count, 3))
+    deltas_m[morph.vertices] = morph.deltas_m
+    deltas_m[vertices] += moved
+    moving = np.union1d(morph.vertices, vertices).astype(np.int32)
+    return Morph(name, moving, deltas_m[moving].astype(np.float32), None)
+
+
+def _has(character: Character, side: EyeSide) -> bool:
+    return eye_joint(side) in character.skeleton.names
+
+
+def _without(morphs: Mapping[str, SingleArray], names: set[str]) -> dict[str, SingleArray]:
+    return {name: weights for name, weights in morphs.items() if name not in names}
+
+
+def _made(ways: Mapping[str, FloatArray], side: EyeSide, morphs: Mapping[str, SingleArray], frames: int) -> FloatArray:
+    """Direction (F, 3), unit, into which shapes bring an eye that looks ahead."""
+    place = np.tile(_AHEAD, (frames, 1))
+    for way, turn in ways.items():
+        weights = morphs.get(shape_name(side, way))
+        if weights is not None:
+            place += weights.astype(np.float64)[:, None] * (quaternion.rotate(turn, _AHEAD) - _AHEAD)
+    unit: FloatArray = place / np.linalg.norm(place, axis=1, keepdims=True)
+    return unit
+
+
+def _between(start: FloatArray, end: FloatArray) -> FloatArray:
+    """The shortest rotations (F, 4) from unit directions to others."""
+    across, along = np.cross(start, end), 1.0 + np.sum(start * end, axis=1)
+    return quaternion.normalize(np.concatenate([across, along[:, None]], axis=1))
+
+
+def _turns_of(own: OwnSkeleton, joint: int, side: EyeSide) -> dict[str, FloatArray]:
+    """Rotation (4,) by which each of a figure's own shapes turns the ball of an eye; those of lids are left out."""
+    bone = own.bone_of_joint[joint]
+    found: dict[str, FloatArray] = {}
+    for way in SHAPES_RAD:
+        recipe = own.morphs.get(shape_name(side, way), {})
+        if bone >= 0 and recipe:
+            turn = _turn_of_ball(own.figure, bone, recipe)
+            if np.linalg.norm(quaternion.to_rotation_vector(turn)) > TURNS_RAD:
+                found[way] = turn
+    return found
+
+
+def _turn_of_ball(figure: Figure, bone: int, recipe: Mapping[str, float]) -> FloatArray:
+    """The rotation about a bone that comes nearest to what morphs do to the vertices that hang on it."""
+    places_m, _ = world_placements(figure.parents, figure.translations_m, figure.rotations)
+    before, after = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    for mesh in figure.meshes:
+        ball = np.where(mesh.joints == bone, mesh.weights, 0.0).sum(axis=1) > BALL
+        moved = np.zeros((len(mesh.positions_m), 3))
+        for morph in mesh.morphs:
+            moved[morph.vertices] += recipe.get(morph.name, 0.0) * morph.deltas_m
+        at_m = mesh.positions_m[ball] - places_m[bone]
+        before.append(at_m)
+        after.append(at_m + moved[ball])
+    start, end = np.concatenate(before), np.concatenate(after)
+    if len(start) < 4:
+        return quaternion.IDENTITY
+    left, _, right = np.linalg.svd(end.T @ start)
+    turn: FloatArray = quaternion.from_matrix(left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right)
+    return turn
