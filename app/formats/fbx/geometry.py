@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from app.arrays import AnyFloatArray, FloatArray
 from app.formats.fbx.encode import Element, Property
+from app.formats.fbx.smoothing import smoothing_groups
 from app.formats.scene import MorphTarget, SkinnedMesh
 
 
@@ -80,9 +81,7 @@ def _normal_layer(mesh: SkinnedMesh) -> Element:
 
 
 def _smoothing_layer(mesh: SkinnedMesh) -> Element:
-    # One smoothing group for all: the edges are where the normals say.
-    groups = np.ones(len(mesh.faces), dtype=np.int32)
-    return _layer("LayerElementSmoothing", 102, "ByPolygon", "Direct", ("Smoothing", groups))
+    return _layer("LayerElementSmoothing", 102, "ByPolygon", "Direct", ("Smoothing", smoothing_groups(mesh)))
 
 
 def _uv_layer(mesh: SkinnedMesh, uvs: AnyFloatArray) -> Element:
