@@ -22,8 +22,8 @@ def export(folder: Path, *more: str) -> int:
 def test_the_bones_are_those_asked_for(tmp_path: Path) -> None:
     assert export(tmp_path / "ue5", "--skeleton", "ue5") == 0
     names = set(read_bvh(tmp_path / "ue5" / "Trumpet 1.bvh").names)
-    assert names <= set(MANNEQUIN)
-    assert {"pelvis", "spine_05", "upperarm_twist_01_l", "pinky_03_r"} <= names
+    assert names <= {*MANNEQUIN, "eye_l", "eye_r"}
+    assert {"eye_l", "eye_r", "pelvis", "spine_05", "upperarm_twist_01_l", "pinky_03_r"} <= names
     assert export(tmp_path / "own") == 0
     assert "upperChest" in read_bvh(tmp_path / "own" / "Trumpet 1.bvh").names
 
