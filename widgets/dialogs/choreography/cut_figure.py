@@ -21,8 +21,8 @@ from app.rig import quaternion
 from app.rig.characters.joint_mapping import JointMapping
 from widgets.common.choreography.figures import HIGHEST, draw_figures, placed
 
-_WIDEST = 0.95
-"""In parts of the body's height, with the arms to the sides."""
+_WIDEST = 1.15
+"""In parts of the body's height, with the arms to the sides to the fingertips."""
 _PEN_PX = 2.5
 
 
