@@ -36,6 +36,7 @@ _HEAD = (
     "lips mm",
     "feet mm",
     "penetration mm",
+    "arms mm",
     "breaths",
     "sway",
 )
@@ -120,7 +121,10 @@ def _judgement(report: Report) -> list[str]:
         for player in report.players:
             played += [player, *player.doubles]
         lines += ["", *columns([_HEAD, *map(_row, played)])]
-        lines += ["(greatest distance at any frame of a sounding note, on the meshes read back; * beyond its bound)"]
+        lines += [
+            "(greatest distance at any frame of a sounding note, on the meshes read back; arms: depth of forearms in "
+            "trunk and clothes; * beyond its bound)"
+        ]
         for one in played:
             wrong = failures(one)
             if wrong:
@@ -177,6 +181,7 @@ def _row(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
         _worst([measures.lips]),
         _worst(measures.feet.values()),
         _worst([measures.penetration]),
+        f"{measures.arms.depth_mm:.1f}{'' if measures.arms.kept else '*'}",
         f"{measures.breaths.shown}/{measures.breaths.planned}",
         sway,
     )

@@ -49,6 +49,11 @@ class JointPlayback:
         """Names of all joints."""
         return self._character.skeleton.names
 
+    @cached_property
+    def joint_names(self) -> Mapping[int, str]:
+        """Names of the joints that the file's bones are."""
+        return {bone: self.names[joint] for joint, bone in self._bones.items()}
+
     def bone(self, *joints: str) -> int:
         """The file's bone of the first of these joints that has one; KeyError where none has."""
         for name in joints:

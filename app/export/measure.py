@@ -30,6 +30,7 @@ from app.contacts.bounds import (
 from app.contacts.controls import ControlMeasure, NoteFrames, notes_of
 from app.contacts.touches import TouchJudge, Traces, distance_m, hole_values
 from app.errors import Progress
+from app.export.arm_depths import ArmDepth, arm_depth
 from app.export.frame_blocks import SOLES, Walk, bone_deviation_m
 from app.export.joint_measures import JointMeasure, measure_joints
 from app.export.joint_playback import JointPlayback
@@ -72,7 +73,8 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
     """Section by section what one player's files hold.
 
     ``hovering`` is how far fingers that work nothing are from the nearest of their keys and holes; ``guides`` how far
-    parts that cannot bend are from where they would touch: reported, not judged.
+    parts that cannot bend are from where they would touch: reported, not judged. ``arms`` is how deep a forearm runs
+    into trunk and clothes.
     """
 
     sounding_frames: int
@@ -88,6 +90,7 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
     breaths: BreathMeasure
     hovering: dict[str, Spread] = {}
     guides: dict[str, Spread] = {}
+    arms: ArmDepth = ArmDepth()
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +159,10 @@ class PlayerJudge:
         walk = Walk(joints, held, character, instrument)
         of_joints: list[tuple[JointMeasure, JointMeasure]] = []
 
+        arms: list[ArmDepth] = []
+
         def judge_joints() -> None:
+            arms.append(arm_depth(joints))
             of_joints.append(measure_joints(joints, body, load_skeleton(body.skeleton), float(player.clip.fps)))
 
         depth_m = _depths_m(walk, notes.sounding, judge_joints, progress)
@@ -174,6 +180,7 @@ class PlayerJudge:
                 },
                 limits=limits,
                 acceleration=acceleration,
+                arms=arms[0],
                 breaths=_breaths(self.plan.breaths, times_s, jaw, walk.torso_rad, mouth),
                 **self._lips(traces, notes),
                 **self._touches(traces, notes, held),
