@@ -27,7 +27,7 @@ _CARRIED: Final = 0.9
 _NEAR_M: Final = 0.06
 """About as thick as a forearm in a sleeve is."""
 _ASIDE_M: Final = 0.015
-"""What lies farther aside of the nearest vertex is beyond an edge, a hem or a collar, and not inside."""
+"""A point farther aside of the nearest vertex is beyond an edge, a hem or a collar, and not inside."""
 _MOST_FRAMES, _APART_S, _SAMPLES, _CHUNK = 12, 0.25, 8, 2048
 
 
