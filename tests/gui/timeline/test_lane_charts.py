@@ -124,10 +124,10 @@ def test_short_notes_have_bars_for_the_column(lane: FingeringLane, panel: Timeli
 
 def test_the_names_of_the_keys_are_under_the_mouse_in_both_languages(lane: FingeringLane) -> None:
     event = event_of(lane, LOW_E)
-    assert names_under_mouse(lane, event).startswith("thumb hole + L1·2·3 + left E key + R1·2·3: ")
+    assert names_under_mouse(lane, event).startswith("thumb hole + L1·2·3 + left E/B key + R1·2·3: ")
     with speaking():
         assert "thumb" not in lane.plot.toolTip()
-        assert names_under_mouse(lane, event).startswith("親指の穴 + 左1·2·3 + 左の E キー + 右1·2·3: ")
+        assert names_under_mouse(lane, event).startswith("親指の穴 + 左1·2·3 + 左の E/B キー + 右1·2·3: ")
     assert names_under_mouse(lane, event).startswith("thumb hole")
 
 
@@ -136,7 +136,7 @@ def test_alternates_are_charts_and_one_is_pinned_by_a_click(lane: FingeringLane)
     QTest.mouseClick(lane.plot, Qt.MouseButton.LeftButton, pos=middle(lane, event))
     chips = {chip.objectName(): chip for chip in lane.alternates.findChildren(FingeringChip) if chip.isVisible()}
     right = chips["chip_L1 L2 L3 R1 R2 R3 RE T"]
-    assert right.accessibleName() == "thumb hole + L1·2·3 + R1·2·3 + right E key alternate"
+    assert right.accessibleName() == "thumb hole + L1·2·3 + R1·2·3 + right E/B key alternate"
     assert right.toolTip().startswith(right.text())
     assert right.height() > 60
     assert right.grab().toImage() != chips["chip_L1 L2 L3 LE R1 R2 R3 T"].grab().toImage()
@@ -151,7 +151,7 @@ def test_the_menu_offers_fingerings_in_words(lane: FingeringLane) -> None:
     event, x = event_of(lane, LOW_E), float(middle(lane, event_of(lane, LOW_E)).x())
     menu = lane.context_menu(LaneMouse(x, 20.0, (event.start_s + event.end_s) / 2, 0.5, 0.0, 0))
     assert menu is not None
-    assert menu.actions()[1].text() == "thumb hole + L1·2·3 + R1·2·3 + right E key   alternate"
+    assert menu.actions()[1].text() == "thumb hole + L1·2·3 + R1·2·3 + right E/B key   alternate"
 
 
 def test_each_picture_is_drawn_once(lane: FingeringLane, panel: TimelinePanel) -> None:

@@ -57,7 +57,7 @@ def test_two_ways_to_play_a_note_are_two_in_words_as_well(instrument: Instrument
         ("clarinet_Bb", "(open)", "open", "開放"),
         ("sax_alto_Eb", "hfs oct pd peb", "octave key + palm D key + palm E♭ key + high F♯ key",
          "オクターブキー + パーム D キー + パーム E♭ キー + ハイ F♯ キー"),
-        ("recorder_soprano_C", "l1 l2 lth", "thumb hole half open + L1·2", "裏穴（半開） + 左1·2"),
+        ("recorder_soprano_C", "l1 l2 lth", "thumb hole half open + hole 1·2", "裏穴（半開） + 穴 1·2"),
         ("bassoon", "L1 Lt_w", "whisper key + L1", "ウィスパーキー + 左1"),
         ("ewi", "L1 Rp3 o4", "L1 + low C key + octave roller 4", "左1 + 低音 C キー + オクターブローラー 4"),
         ("trumpet_Bb", "13", "13", "13"),
@@ -69,6 +69,33 @@ def test_a_fingering_in_words(id: str, label: str, english: str, japanese: str) 
     instrument = bundled_maps()[id]
     assert fingering_words(instrument, label, "en") == english
     assert fingering_words(instrument, label, "ja") == japanese
+
+
+PUBLISHED = {
+    # The Woodwind Fingering Guide (wfg.woodwind.org); keys of the clarinet's little fingers by the notes of both
+    # registers (central-gakki.jp and method books), trill keys of the flute after R. Dick, The Other Flute.
+    "clarinet_Bb": ({"register", "A", "G♯", "E♭/B♭", "C♯/G♯", "F♯/C♯", "E/B", "F/C", "B/F♯", "A♭/E♭"}, {"F/C キー"}),
+    "flute": (
+        {"G♯", "E♭", "low C♯", "low C", "D trill", "D♯ trill", "thumb B♭"},
+        {"ブリチアルディキー", "D♯ トリルキー"},
+    ),
+    "oboe": (
+        {"octave", "G♯", "low B", "low B♭", "left E♭", "left F", "F key", "E♭", "low C♯", "low C"},
+        {"オクターブキー"},
+    ),
+    "bassoon": ({"whisper", "C♯", "low D", "low C", "low B", "low B♭", "flick", "pancake"}, {"ウィスパーキー"}),
+    "sax_alto_Eb": ({"octave", "palm D", "palm E♭", "palm F", "front F", "bis", "side C", "side B♭"}, {"低音 C キー"}),
+    "recorder_alto_F": ({"thumb hole", *(f"hole {number}" for number in range(1, 8))}, {"裏穴", "穴 7"}),
+}
+"""Names in published tables, and Japanese ones: parts of a key's name."""
+
+
+@pytest.mark.parametrize("id", PUBLISHED)
+def test_keys_have_the_names_of_published_charts(id: str) -> None:
+    chart = bundled_maps()[id].chart
+    english, japanese = PUBLISHED[id]
+    assert all(any(name in key.en for key in chart) for name in english)
+    assert all(any(name in key.ja for key in chart) for name in japanese)
 
 
 def test_messages_say_keys_by_their_names() -> None:
