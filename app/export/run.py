@@ -28,6 +28,7 @@ from app.export.stage import write_stage
 from app.formats.atomic import atomic_write
 from app.performance.performance_problems import reported_lines
 from app.score.chunks import INCOMPLETE
+from app.score.part_messages import begins_after
 
 Progress = Callable[[float, str], None]
 """Called with the share 0..1 that is done and whose work it is."""
@@ -155,6 +156,10 @@ def _report(
             warnings += [f"{player.name}: {line}" for line in (*own, *lines)]
             ignored += left
     rate = span.fps
+
+    def later(remark: Message) -> bool:
+        return request.bars is not None and begins_after(remark, request.bars[1])
+
     return Report(
         version=request.creator,
         source=request.source,
@@ -166,10 +171,12 @@ def _report(
         bars=request.bars,
         seed=project.seed,
         players=_compared(players),
-        warnings=(*(wording(message) for message in project.score.warnings), *warnings),
+        warnings=(*(wording(message) for message in project.score.warnings if not later(message)), *warnings),
         incomplete=tuple(wording(message) for message in project.score.warnings if message.id in INCOMPLETE),
         unplayed=tuple(
-            UnplayedPartReport(part.name, wording(part.reason), part.note_count) for part in project.score.unplayed
+            UnplayedPartReport(part.name, wording(part.reason), part.note_count)
+            for part in project.score.unplayed
+            if not later(part.reason)
         ),
         left_out=tuple(LeftOutReport(one.player.name, wording(one.reason)) for one in cast.left_out),
         sound=sound_name(request.source) if request.sound else None,

@@ -25,6 +25,13 @@ def about_notes(id_: str, part: str, notes: Sequence[Note], piece: Score, **more
     return Message(id_, {"part": part, "count": len(notes), **where, **more})
 
 
+def begins_after(message: Message, bar: int) -> bool:
+    """Return whether a remark is about some notes of which the first one is after a bar: not where it names no place,
+    or is about a whole part."""
+    place = message.arguments.get("place")
+    return isinstance(place, str) and "total" not in message.arguments and int(place.partition(".")[0]) > bar
+
+
 def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) -> Message:
     """Report the notes left out of a take: how many, why, and where the first ones are."""
     notes = sorted((note for own in faults.values() for note in own), key=lambda note: note.onset_tick)

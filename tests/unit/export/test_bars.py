@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
 from app.arrays import FloatArray
 from app.cli import main
+from app.errors import Message
 from app.export.character import character_scene
 from app.export.playback import ScenePlayback
 from app.export.targets import target_skeleton
@@ -20,9 +23,13 @@ from app.formats.bvh.read import read_bvh
 from app.formats.fbx.read import read_scene
 from app.formats.gltf.vrma import read_vrma
 from app.formats.usd_package import usd_installed
+from app.messages import text
 from app.performance.bodies import character_of
 from app.performance.ensemble import Performance
 from app.performance.span import cut_span
+from app.project.storage import save
+from app.score.model import UnplayedPart
+from app.score.part_messages import about_notes
 from tests.support.performed import player_motion
 from tests.support.skinned import GlbFile, UsdFile
 from tests.unit.cli.test_main import QUARTET
@@ -124,3 +131,30 @@ def test_the_preroll_is_before_the_first_note_only(tmp_path: Path) -> None:
     assert report["first_frame_s"] == pytest.approx(-6 * BAR_S / 3, abs=1e-3)
     report = export(tmp_path / "second", "--format", "bvh", "--from-bar", "1", "--to-bar", "1", "--preroll", "6")
     assert report["first_frame_s"] == pytest.approx(0.0, abs=HALF_A_FRAME_S)
+
+
+def test_remarks_on_reading_are_those_of_the_bars(tmp_path: Path) -> None:
+    project = quartet()
+    part, notes = project.score.parts[0].name, project.score.parts[0].notes
+    early, late = notes[:2], notes[-2:]
+    score = msgspec.structs.replace(
+        project.score,
+        warnings=(
+            about_notes("score.unisons", part, early, project.score),
+            about_notes("score.doubling", part, late, project.score, instrument="cornet"),
+            about_notes("score.looks_written", part, late, project.score, map="trumpet_Bb", outside=2, total=99),
+            Message("score.written", {"part": part, "map": "trumpet_Bb"}),
+        ),
+        unplayed=(UnplayedPart(part, about_notes("score.key_switches", part, late, project.score), 2, 9),),
+    )
+    file = tmp_path / "piece.suisou"
+    save(replace(project, score=score), file)
+    every, some = (
+        export(tmp_path / name, "--format", "bvh", "--to-bar", last, file=file)
+        for name, last in (("every", str(project.score.metre_map.bar_of_tick(late[0].onset_tick))), ("some", "1"))
+    )
+    texts = [text(message) for message in score.warnings]
+    assert [line for line in every["warnings"] if line in texts] == texts
+    assert [line for line in some["warnings"] if line in texts] == [texts[0], *texts[2:]]
+    assert len(every["unplayed"]) == 1
+    assert some["unplayed"] == []
