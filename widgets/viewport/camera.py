@@ -199,14 +199,21 @@ def between(start: Camera, end: Camera, share: float) -> Camera:
     )
 
 
-def followed(camera: Camera, target_m: npt.ArrayLike, elapsed_s: float, settle_s: float = 0.35) -> Camera:
-    """The camera drawn after a moving target, as by a damped spring without overshoot.
+def followed(
+    camera: Camera, target_m: npt.ArrayLike, elapsed_s: float, distance_m: float | None = None, settle_s: float = 0.35
+) -> Camera:
+    """The camera drawn after a moving target, and to another distance, as by a damped spring without overshoot.
 
     ``settle_s`` is the time constant: 63 % of a jump is made up in it.
     """
     share = 1.0 - math.exp(-max(elapsed_s, 0.0) / settle_s)
     target = np.asarray(camera.target_m)
-    return replace(camera, target_m=triple(target + share * (np.asarray(target_m, np.float64) - target)))
+    goal_m = camera.distance_m if distance_m is None else distance_m
+    return replace(
+        camera,
+        target_m=triple(target + share * (np.asarray(target_m, np.float64) - target)),
+        distance_m=camera.distance_m ** (1.0 - share) * goal_m**share,
+    )
 
 
 def _wrapped(angle_rad: float) -> float:

@@ -12,6 +12,10 @@ from widgets.viewport.camera import Camera
 TRANSITION_S = 0.35
 ARRIVED_M = 0.0008
 """A close-up nearer to its middle than this has arrived."""
+ARRIVED_SHARE = 0.002
+"""A distance within this share of where it goes has arrived."""
+SLACK = 1.15
+"""What a close-up shows may grow by this much before the camera goes back."""
 LONGEST_STEP_S = 0.1
 """After a pause the camera goes on as if it had been this long."""
 
@@ -36,6 +40,8 @@ class Eye:
         self._flight: tuple[Camera, Camera, float] | None = None
         self._shift_m = np.zeros(3)
         self._last_s = 0.0
+        self._framed: tuple[float, float] | None = None
+        """The distance as framed, and the one that was needed then; None: not known yet."""
 
     @property
     def destination(self) -> Camera:
@@ -54,7 +60,7 @@ class Eye:
 
     def choose(self, view: View) -> None:
         """Look at something else from now on."""
-        self.view, self.touched = view, False
+        self.view, self.touched, self._framed = view, False, None
         self._shift_m = np.zeros(3)
 
     def place(self, shift_m: FloatArray) -> None:
@@ -63,11 +69,11 @@ class Eye:
 
     def jump(self, camera: Camera) -> None:
         """Look from there at once."""
-        self.camera, self._flight = camera, None
+        self.camera, self._flight, self._framed = camera, None, None
 
     def fly(self, camera: Camera, now_s: float) -> None:
         """Look from there soon."""
-        self._flight = (self.camera, camera, now_s)
+        self._flight, self._framed = (self.camera, camera, now_s), None
 
     def advance(self, now_s: float) -> bool:
         """Go on with a flight; whether there was one."""
@@ -86,14 +92,33 @@ class Eye:
         shifted: FloatArray = middle_m + self._shift_m
         return shifted
 
-    def follow(self, middle_m: FloatArray | None, now_s: float) -> bool:
-        """Go after a place; whether there is still a way to go."""
+    def follow(self, middle_m: FloatArray | None, now_s: float, needed_m: float | None = None) -> bool:
+        """Go after a place; whether there is still a way to go.
+
+        Parameters
+        ----------
+        middle_m : array (3,) or None
+        now_s : float
+        needed_m : float, optional
+            Distance from which all that the close-up shows is in the picture; as far as it grows, the camera goes back.
+        """
         elapsed_s, self._last_s = min(now_s - self._last_s, LONGEST_STEP_S), now_s
         if middle_m is None or self._flight is not None:
             return False
         goal = self.centred(middle_m)
-        self.camera = moves.followed(self.camera, goal, elapsed_s)
-        return bool(np.linalg.norm(goal - np.asarray(self.camera.target_m)) > ARRIVED_M)
+        distance_m = self._distance_m(needed_m)
+        self.camera = moves.followed(self.camera, goal, elapsed_s, distance_m)
+        away = np.linalg.norm(goal - np.asarray(self.camera.target_m)) > ARRIVED_M
+        return bool(away or abs(self.camera.distance_m / distance_m - 1.0) > ARRIVED_SHARE)
+
+    def _distance_m(self, needed_m: float | None) -> float:
+        """Distance that keeps what a close-up shows in the picture: as framed, or farther."""
+        if needed_m is None:
+            return self.camera.distance_m
+        if self._framed is None:
+            self._framed = (self.camera.distance_m, needed_m)
+        framed_m, needed_then_m = self._framed
+        return framed_m * max(needed_m / (SLACK * needed_then_m), 1.0)
 
     def orbit(self, right_px: float, down_px: float) -> None:
         """Turn by hand."""
@@ -113,4 +138,4 @@ class Eye:
         self.camera = moves.dolly(self.camera, steps)
 
     def _grasp(self) -> None:
-        self.touched, self._flight = True, None
+        self.touched, self._flight, self._framed = True, None, None

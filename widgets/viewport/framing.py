@@ -131,6 +131,14 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
     return None
 
 
+def needed_distance_m(view: View, stage: Stage, row: int, camera: Camera, aspect: float) -> float | None:
+    """Distance from which a camera in this direction shows all of a close-up; None where that is always the same."""
+    middle = tracked(view, stage, row)
+    if view != "hands" or middle is None:
+        return None
+    return frame_around(camera, middle, middle + _around(view, stage, row, middle), aspect, _HANDS_MARGIN).distance_m
+
+
 def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> frozenset[int]:
     """Players between the camera and the selected players of a view that is about them."""
     chosen = [row for row in rows if stage.shown[row]]

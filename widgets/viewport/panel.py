@@ -30,7 +30,15 @@ from widgets.viewport.camera_moves import Eye
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
 from widgets.viewport.figures import DrawableFigures, cast_key
-from widgets.viewport.framing import bounds, in_the_way, steady_camera, tracked, turn_rad, view_camera
+from widgets.viewport.framing import (
+    bounds,
+    in_the_way,
+    needed_distance_m,
+    steady_camera,
+    tracked,
+    turn_rad,
+    view_camera,
+)
 from widgets.viewport.header import ViewportHeader
 from widgets.viewport.layer import Layer
 from widgets.viewport.look import Emphasis, look_of
@@ -421,6 +429,14 @@ class ViewportPanel(Retranslated, QWidget):
         stage, rows = self.scene.stage, self.scene.rows()
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
 
+    def _needed_m(self) -> float | None:
+        """Distance from which all of a close-up is in the picture, where that changes."""
+        stage, rows, widget = self.scene.stage, self.scene.rows(), self.canvas_widget()
+        if stage is None or not rows or widget is None:
+            return None
+        aspect = widget.width() / max(widget.height(), 1)
+        return needed_distance_m(self._eye.view, stage, rows[0], self._eye.camera, aspect)
+
     def _view_camera(self) -> Camera:
         stage, widget = self.scene.stage, self.canvas_widget()
         if stage is None or widget is None:
@@ -445,7 +461,7 @@ class ViewportPanel(Retranslated, QWidget):
     def _follow(self) -> None:
         """Let a close-up go after its player."""
         dragging = self._pointer is not None and self._pointer.dragging
-        if self._eye.follow(None if dragging else self._tracked(), perf_counter()):
+        if self._eye.follow(None if dragging else self._tracked(), perf_counter(), self._needed_m()):
             self._ticker.start()
 
     def _tick(self) -> None:

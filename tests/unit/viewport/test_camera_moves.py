@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from widgets.viewport.camera import Camera
-from widgets.viewport.camera_moves import ARRIVED_M, TRANSITION_S, Eye
+from widgets.viewport.camera_moves import ARRIVED_M, SLACK, TRANSITION_S, Eye
 
 FAR = replace(Camera(), target_m=(2.0, 1.0, 0.0), distance_m=3.0)
 
@@ -42,6 +42,28 @@ def test_a_pause_is_no_leap() -> None:
     eye.follow(goal, 0.0)
     eye.follow(goal, 1000.0)
     assert eye.camera.target_m[0] < 0.5
+
+
+def test_a_close_up_goes_back_where_what_it_shows_grows_and_comes_again() -> None:
+    eye, goal, now_s = Eye(), np.array([0.0, 1.0, 0.0]), 0.0
+    eye.jump(replace(Camera(), distance_m=0.6))
+
+    def settle(needed_m: float) -> float:
+        nonlocal now_s
+        now_s += 1.0 / 60.0
+        while eye.follow(goal, now_s, needed_m):
+            now_s += 1.0 / 60.0
+        return eye.camera.distance_m
+
+    assert settle(0.6) == pytest.approx(0.6)
+    assert settle(0.66) == pytest.approx(0.6), "a little more has room"
+    assert settle(1.2) == pytest.approx(1.2 / SLACK, rel=0.01)
+    assert settle(0.5) == pytest.approx(0.6, rel=0.01)
+    # A distance by hand is the user's own, and grows by the same share.
+    eye.dolly(4)
+    nearer = eye.camera.distance_m
+    assert settle(0.6) == pytest.approx(nearer)
+    assert settle(1.2) == pytest.approx(nearer * 2.0 / SLACK, rel=0.01)
 
 
 def test_nothing_is_followed_in_flight_or_where_there_is_nothing_to_follow() -> None:

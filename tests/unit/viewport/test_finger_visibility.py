@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import msgspec
 import numpy as np
 import pytest
 
+from app.arrays import FloatArray
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion
+from app.plan.model import FingeringEvent
 from app.project.model import project_from_score
 from instrument_maps.load import bundled_maps
 from tests.unit.viewport.poses import AT_S, quartet
 from widgets.viewport.camera import Camera
+from widgets.viewport.camera_moves import Eye
 from widgets.viewport.cast import Stage, kit_of, member_of
 from widgets.viewport.finger_visibility import fingers_seen
-from widgets.viewport.framing import tracked, turn_rad, view_camera
+from widgets.viewport.framing import needed_distance_m, tracked, turn_rad, view_camera
 
 USUAL = (-48.0, 14.0)
 BONES = ("Proximal", "Intermediate", "Distal")
@@ -98,6 +102,52 @@ def test_the_instrument_hides_what_is_behind_it() -> None:
     assert behind < before - 0.3
 
 
+def hands_share(stage: Stage, camera: Camera, aspect: float) -> FloatArray:
+    """How far the hands of a player are from the middle of the picture, of half its width and height."""
+    names = ["Hand", *(f"{finger}{bone}" for finger in ("Index", "Middle", "Ring", "Little") for bone in BONES)]
+    joints_m = np.array([stage.joint_m(0, side + name) for side in ("left", "right") for name in names])
+    away = joints_m - camera.eye_m
+    tangent = math.tan(math.radians(camera.fov_deg) / 2.0)
+    seen = np.stack([away @ camera.right / aspect, away @ camera.up], axis=1) / (-away @ camera.backward)[:, None]
+    share: FloatArray = np.abs(seen).max(axis=0) / tangent
+    return share
+
+
+def test_a_slide_that_goes_far_out_later_stays_in_the_picture() -> None:
+    project = quartet()
+    player = project.players[3]
+    performance = Performance(project)
+    slid = sorted(performance.plan(player).fingerings, key=lambda event: event.controls.get("slide", 0.0))
+    live, stage = LiveMotion(performance), Stage([member_of(player, kit_of(player))])
+
+    def show(event: FingeringEvent) -> None:
+        pose = live.pose_now(player.id, (event.start_s + event.end_s) / 2.0)
+        assert pose is not None
+        stage.pose({player.id: pose})
+
+    show(slid[0])
+    eye, now_s = Eye(), 0.0
+    eye.choose("hands")
+    eye.jump(view_camera("hands", stage, [0], Camera(), 2.3))
+
+    def follow() -> None:
+        nonlocal now_s
+        now_s += 1.0 / 60.0
+        middle_m = tracked("hands", stage, 0)
+        while eye.follow(middle_m, now_s, needed_distance_m("hands", stage, 0, eye.camera, 2.3)):
+            now_s += 1.0 / 60.0
+
+    follow()
+    framed_m = eye.camera.distance_m
+    show(slid[-1])
+    follow()
+    assert hands_share(stage, eye.camera, 2.3).max() < 1.0
+    assert hands_share(stage, replace(eye.camera, distance_m=framed_m), 2.3).max() > 1.0, "it would not have been"
+    show(slid[0])
+    follow()
+    assert eye.camera.distance_m == pytest.approx(framed_m, rel=0.01)
+
+
 @pytest.mark.parametrize(
     "map_id", ["trumpet_Bb", "clarinet_Bb", "flute", "bassoon", "horn_double_F_Bb", "sax_baritone_Eb", "tuba_BBb"]
 )
@@ -105,12 +155,6 @@ def test_the_instrument_hides_what_is_behind_it() -> None:
 def test_both_hands_fill_the_picture(map_id: str, aspect: float) -> None:
     """By a projection of its own: every finger is in the picture, and the hands take most of its height or width."""
     stage = playing(map_id)
-    camera = view_camera("hands", stage, [0], Camera(), aspect)
-    names = ["Hand", *(f"{finger}{bone}" for finger in ("Index", "Middle", "Ring", "Little") for bone in BONES)]
-    joints_m = np.array([stage.joint_m(0, side + name) for side in ("left", "right") for name in names])
-    away = joints_m - camera.eye_m
-    tangent = math.tan(math.radians(camera.fov_deg) / 2.0)
-    seen = np.stack([away @ camera.right / aspect, away @ camera.up], axis=1) / (-away @ camera.backward)[:, None]
-    share = np.abs(seen).max(axis=0) / tangent
+    share = hands_share(stage, view_camera("hands", stage, [0], Camera(), aspect), aspect)
     assert share.max() < 0.95
     assert share.max() > 0.7
