@@ -1,4 +1,4 @@
-"""Names of edits of events, which say of what kind these are, whose, and where; and of edits of players."""
+"""Names of edits of notes and events, which say of what kind these are, whose, and where; and of edits of players."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from app.plan.event_id import EventId
 from app.plan.parameters import PARAMETERS
 from app.plan.problem_lines import note_of
 from app.project.edit.events import placed_events
+from app.project.edit.notes import chosen_notes
 from app.project.model import Project
-from app.project.performers import Player
+from app.project.performers import Dancer, Player
 
 OF_EVENTS: Final = {
     "edit.move_events": "edit.move_event",
@@ -39,11 +40,35 @@ def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey])
     """Return the name of an edit of some events, one of `OF_EVENTS`: their kind, their players, from where to where."""
     kinds = {EventId.parse(key.event_id).kind for key in keys}
     kind = kinds.pop() if len(kinds) == 1 else _ANY_KIND
-    of = " · ".join(filter(None, (_players(session, keys), _places(session, keys))))
+    ids = {key.player_id for key in keys}
+    of = " · ".join(filter(None, (_named(session.project, ids), _places(session, keys))))
     said: dict[str, Argument] = {"event": kind, "of": of}
     if len(keys) == 1:
         return Message(OF_EVENTS[name], said)
     return Message(name, {**said, "count": len(keys)})
+
+
+def edit_of_notes(
+    project: Project, name: str, note_ids: Collection[str], player_ids: Collection[str] | None = None
+) -> Message:
+    """Return the name of an edit of some notes: their number, their players, from where to where.
+
+    Parameters
+    ----------
+    player_ids : collection of str, optional
+        Of the players meant, where a part has several; all who play the notes by default.
+    """
+    found = list(chosen_notes(project, note_ids))
+    if player_ids is None:
+        parts = {part.id for part, _ in found}
+        player_ids = {player.id for player in project.players if player.part_id in parts}
+    return edit_at(project, name, len(note_ids), player_ids, [note.onset_tick for _, mine in found for note in mine])
+
+
+def edit_at(project: Project, name: str, count: int, player_ids: Collection[str], ticks: Iterable[int]) -> Message:
+    """Return the name of an edit of so many things of some players, from the first of these ticks to the last."""
+    of = " · ".join(filter(None, (_named(project, player_ids), _range(project, ticks))))
+    return Message(name, {"count": count, "of": of})
 
 
 def edit_of_players(project: Project, name: str, player_ids: Collection[str], **more: Argument) -> Message:
@@ -58,18 +83,21 @@ def edit_of_parameter(project: Project, parameter: str, player_ids: Collection[s
     return edit_of_players(project, "edit.parameter", player_ids, parameter=PARAMETERS[parameter].label)
 
 
-def _players(session: PlannedPiece, keys: Iterable[EventKey]) -> str:
-    ids = {key.player_id for key in keys}
-    names = [player.name for player in session.project.players if player.id in ids]
+def _named(project: Project, player_ids: Collection[str]) -> str:
+    performers: tuple[Player | Dancer, ...] = (*project.players, *project.dancers)
+    names = [one.name for one in performers if one.id in player_ids]
     return ", ".join(names[:_MOST_NAMES]) + (", …" if len(names) > _MOST_NAMES else "")
+
+
+def _range(project: Project, ticks: Iterable[int]) -> str:
+    known = sorted(ticks)
+    return "–".join(dict.fromkeys(project.score.metre_map.label(tick) for tick in (*known[:1], *known[-1:])))
 
 
 def _places(session: PlannedPiece, keys: Iterable[EventKey]) -> str:
     players = {player.id: player for player in session.project.players}
-    ticks = {_tick(session, players[key.player_id], key.event_id) for key in keys if key.player_id in players}
-    known = sorted(tick for tick in ticks if tick is not None)
-    labels = dict.fromkeys(session.project.score.metre_map.label(tick) for tick in (*known[:1], *known[-1:]))
-    return "–".join(labels)
+    ticks = [_tick(session, players[key.player_id], key.event_id) for key in keys if key.player_id in players]
+    return _range(session.project, [tick for tick in ticks if tick is not None])
 
 
 def _tick(session: PlannedPiece, player: Player, event_id: str) -> int | None:

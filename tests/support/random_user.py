@@ -202,7 +202,7 @@ class RandomUser(Restless):
             )
         place = chance.randrange(len(edits))
         self.deeds.append(f"edit {place} {text[:20]!r}")
-        self.session.attempt(Message("edit.move_notes", {"count": 1}), edits[place])
+        self.session.attempt(Message("edit.move_notes", {"count": 1, "of": ""}), edits[place])
 
     def open(self) -> None:
         """Open a file, good or hostile."""

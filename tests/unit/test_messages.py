@@ -152,10 +152,11 @@ def test_no_template_counts_bars_and_beats_by_itself() -> None:
 
 
 @pytest.mark.parametrize(
-    ("count", "reported"), [(0, "Move 0 Notes"), (1, "Move 1 Note"), (2, "Move 2 Notes"), (21, "Move 21 Notes")]
+    ("count", "reported"),
+    [(0, "Move 0 Notes (I)"), (1, "Move 1 Note (I)"), (2, "Move 2 Notes (I)"), (21, "Move 21 Notes (I)")],
 )
 def test_one_is_not_many(count: int, reported: str) -> None:
-    assert text(Message("edit.move_notes", {"count": count})) == reported
+    assert text(Message("edit.move_notes", {"count": count, "of": "I"})) == reported
 
 
 def test_no_template_counts_one_of_many() -> None:

@@ -8,8 +8,8 @@ from typing import Final
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
+from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session
-from app.errors import Message
 from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
 from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit import events as edit_events
@@ -307,18 +307,22 @@ class NoteSection(Retranslated, QWidget):
     ) -> None:
         """Edit the shown notes, by a function that takes them."""
         shown = self._shown
-        if shown is not None and not self._session.attempt(
-            Message(name, {"count": len(shown.note_ids)}), lambda project: change(project, shown), token
-        ):
+        if shown is None:
+            return
+        named = edit_of_notes(self._session.project, name, shown.note_ids)
+        if not self._session.attempt(named, lambda project: change(project, shown), token):
             self.show_notes()
 
     def _edit_own(
         self, name: str, change: Callable[[Project, str, tuple[str, ...]], Project], token: object | None = None
     ) -> None:
         """Edit the shown notes of the player whose fingering is seen, by a function that takes its id and theirs."""
-        if self._shown is not None and self._shown.player is not None:
-            player_id = self._shown.player.id
-            self._edit(name, lambda project, shown: change(project, player_id, shown.own_ids), token)
+        if self._shown is None or self._shown.player is None:
+            return
+        player_id, ids = self._shown.player.id, self._shown.own_ids
+        named = edit_of_notes(self._session.project, name, ids, (player_id,))
+        if not self._session.attempt(named, lambda project: change(project, player_id, ids), token):
+            self.show_notes()
 
     def _set_pitch(self, value: float, token: object | None) -> None:
         self._edit(

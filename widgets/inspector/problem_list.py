@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from operator import is_
 from typing import NamedTuple, TypeAlias
 
 from PySide6.QtCore import QEvent, QItemSelectionModel, QPoint, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QPushButton, QWidget
 
+from app.editor.edit_names import edit_at
 from app.editor.problem_filter import ProblemFilter
 from app.editor.problem_fixes import ProblemFix, fixed, fixes_of
 from app.editor.problems import go_to_problem, show_mended
@@ -17,6 +19,7 @@ from app.messages import filled
 from app.plan.model import Problem
 from app.plan.problem_lines import problem_kind, problems_by_kind
 from app.project.edit.corrections import ignore, unignore
+from app.project.model import Project
 from app.project.performers import Dancer, Player
 from app.score.model import Score
 from widgets.common.clicks import on_click, on_switch
@@ -291,8 +294,7 @@ class ProblemList(Retranslated, QWidget):
             self._mend(fixes[0], chosen)
 
     def _mend(self, fix: ProblemFix, rows: list[RowKey]) -> None:
-        count = sum(len(problems) for _, problems in rows)
-        name = Message("edit.fix_problems", {"count": count})
+        name = _edit_of(self._session.project, "edit.fix_problems", rows)
         if self._session.attempt(name, lambda project: fixed(project, fix, rows)):
             show_mended(self._session, *rows[0])
 
@@ -307,10 +309,8 @@ class ProblemList(Retranslated, QWidget):
         project = self._session.project
         for player_id, problems in rows:
             project = (unignore if again else ignore)(project, player_id, problems)
-        count = sum(len(problems) for _, problems in rows)
-        self._session.apply(
-            Message("edit.count_problems" if again else "edit.ignore_problems", {"count": count}), project
-        )
+        name = _edit_of(self._session.project, "edit.count_problems" if again else "edit.ignore_problems", rows)
+        self._session.apply(name, project)
 
     def _offer(self, at: QPoint) -> None:
         """Open the menu of the row under the pointer."""
@@ -351,3 +351,10 @@ class ProblemList(Retranslated, QWidget):
 
     def hideEvent(self, event: QEvent) -> None:
         self._session.problem_filter = ProblemFilter()
+
+
+def _edit_of(project: Project, name: str, rows: Sequence[RowKey]) -> Message:
+    """Return the name of an edit of rows of problems: their number, their players, from where to where."""
+    problems = [problem for _, of_row in rows for problem in of_row]
+    ticks = [round(project.score.tempo_map.ticks(problem.start_s)) for problem in problems]
+    return edit_at(project, name, len(problems), {player_id for player_id, _ in rows}, ticks)

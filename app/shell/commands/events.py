@@ -17,7 +17,7 @@ from app.editor.additions import (
     bars_of,
     change_styles,
 )
-from app.editor.edit_names import edit_of_events
+from app.editor.edit_names import edit_of_events, edit_of_notes
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -132,7 +132,8 @@ def delete(session: Session) -> None:
     events = events_by_player(session)
     if not events:
         notes = session.selection.notes
-        session.attempt(Message("edit.erase_notes", {"count": len(notes)}), lambda project: erase(project, notes))
+        name = edit_of_notes(session.project, "edit.erase_notes", notes)
+        session.attempt(name, lambda project: erase(project, notes))
         return
     plans = session.plans
 

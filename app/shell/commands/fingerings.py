@@ -6,6 +6,7 @@ import time
 from collections.abc import Mapping, Sequence
 from weakref import WeakKeyDictionary
 
+from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session, Severity
 from app.errors import AppError, Argument, Message
 from app.project.edit.events import pin_fingerings
@@ -105,14 +106,14 @@ def _holds(label: str, signs: str) -> bool:
 
 
 def _pin(session: Session, pins: dict[str, dict[str, str]], token: object | None = None) -> None:
-    count = sum(map(len, pins.values()))
+    ids = {note_id for labels in pins.values() for note_id in labels}
 
     def edit(project: Project) -> Project:
         for player_id, labels in pins.items():
             project = pin_fingerings(project, player_id, labels)
         return project
 
-    session.attempt(Message("edit.pin_fingerings", {"count": count}), edit, token)
+    session.attempt(edit_of_notes(session.project, "edit.pin_fingerings", ids, pins), edit, token)
 
 
 def cycle_fingering(session: Session) -> None:

@@ -9,7 +9,7 @@ import msgspec
 from PySide6.QtCore import QByteArray, QMimeData
 from PySide6.QtGui import QGuiApplication
 
-from app.editor.edit_names import edit_of_events
+from app.editor.edit_names import edit_at, edit_of_events, edit_of_notes
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session, Severity
 from app.editor.timeline_view import Tool
@@ -22,10 +22,6 @@ from app.shell.commands.command_targets import has_notes, has_player, has_someth
 
 MIME_TYPE = "application/x-suisou-notes+json"
 VELOCITY_STEP = 8
-
-
-def _name(id: str, note_ids: frozenset[str]) -> Message:
-    return Message(id, {"count": len(note_ids)})
 
 
 # Selecting
@@ -101,7 +97,7 @@ def select_span(session: Session) -> None:
 def _edit(session: Session, id: str, edit: Callable[[Project, frozenset[str]], Project]) -> None:
     ids = session.selection.notes
     if ids:
-        session.attempt(_name(id, ids), lambda project: edit(project, ids))
+        session.attempt(edit_of_notes(session.project, id, ids), lambda project: edit(project, ids))
 
 
 def _edit_making(
@@ -126,7 +122,8 @@ def split(session: Session) -> None:
     if not ids and session.player is not None:
         part = session.project.part(session.player)
         ids = frozenset(note.id for note in part.notes if note.onset_tick < tick < note.end_tick)
-    _edit_making(session, _name("edit.split_notes", ids), lambda project: notes.split(project, ids, tick), ids)
+    name = edit_of_notes(session.project, "edit.split_notes", ids)
+    _edit_making(session, name, lambda project: notes.split(project, ids, tick), ids)
 
 
 def join(session: Session) -> None:
@@ -148,9 +145,8 @@ def duplicate(session: Session) -> None:
     if session.grid.enabled:
         step = session.grid.step_ticks(score.metre_map)
         length = round(-(-length // step) * step)
-    _edit_making(
-        session, _name("edit.duplicate_notes", ids), lambda project: notes.duplicate(project, ids, length), frozenset()
-    )
+    name = edit_of_notes(session.project, "edit.duplicate_notes", ids)
+    _edit_making(session, name, lambda project: notes.duplicate(project, ids, length), frozenset())
 
 
 def transpose(session: Session, by_pitch: int) -> None:
@@ -257,7 +253,7 @@ def paste(session: Session) -> None:
     tick = max(_playhead_tick(session), 0)
     _edit_making(
         session,
-        Message("edit.paste_notes", {"count": count}),
+        edit_at(session.project, "edit.paste_notes", count, (player.id,), (tick,)),
         lambda project: notes.paste(project, player.part_id, clip, tick),
         frozenset(),
     )

@@ -120,7 +120,7 @@ def test_repaint(panel: TimelinePanel) -> None:
     def drag(number: int) -> None:
         chosen = frozenset(ids[:200])
         session.apply(
-            Message("edit.move_notes", {"count": 200}), notes.move(project, chosen, 10 * number + 1, 0), token
+            Message("edit.move_notes", {"count": 200, "of": ""}), notes.move(project, chosen, 10 * number + 1, 0), token
         )
 
     def play(number: int) -> None:

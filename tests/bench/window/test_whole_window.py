@@ -191,7 +191,7 @@ def correct(editor: LargeEditor, name: str, edit: Edit, unit_s: float) -> None:
         pictures.append(
             editor.picture(
                 player.id,
-                lambda change=change: session.attempt(Message("edit.move_notes", {"count": 1}), change),
+                lambda change=change: session.attempt(Message("edit.move_notes", {"count": 1, "of": ""}), change),
             )
         )
         editor.until(lambda: False, 0.5)

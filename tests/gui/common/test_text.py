@@ -68,7 +68,7 @@ def test_an_edited_part_is_read_anew(session: Session, note: Note) -> None:
     assert session.player is not None
     message = Message("breath.inside_note", {"note": note.id})
     message_text(message, session)
-    session.attempt(Message("edit.move_notes", {"count": 1}), lambda project: move(project, (note.id,), 0, 2))
+    session.attempt(Message("edit.move_notes", {"count": 1, "of": ""}), lambda project: move(project, (note.id,), 0, 2))
     assert "note G4 (2.2.000)" in message_text(message, session)
 
 

@@ -211,4 +211,4 @@ def test_slide_positions_are_in_order() -> None:
 
 
 def _name() -> Message:
-    return Message("edit.pin_fingerings", {"count": 1})
+    return Message("edit.pin_fingerings", {"count": 1, "of": ""})

@@ -86,7 +86,7 @@ def test_lines_are_those_of_a_list_made_anew(qt_app: object, qtbot: QtBot) -> No
     first = shown.list.lines.lines
     assert first
     assert first == fresh()
-    session.apply(Message("edit.move_notes", {"count": 1}), notes.move(session.project, {high[0].id}, 0, -30))
+    session.apply(Message("edit.move_notes", {"count": 1, "of": ""}), notes.move(session.project, {high[0].id}, 0, -30))
     plan()
     assert shown.list.lines.lines == fresh() != first
     session.pitch_display.set(written=True)
@@ -124,7 +124,7 @@ def test_problems_of_dancers_are_listed_counted_and_gone_to(qt_app: object, qtbo
 def _too_high(session: Session, by: int) -> tuple[str, ...]:
     """Move every fourth note of the first player up; the notes."""
     ids = tuple(note.id for note in session.project.score.parts[0].notes[::4])
-    session.apply(Message("edit.move_notes", {"count": len(ids)}), notes.move(session.project, ids, 0, by))
+    session.apply(Message("edit.move_notes", {"count": len(ids), "of": ""}), notes.move(session.project, ids, 0, by))
     return ids
 
 

@@ -93,7 +93,7 @@ def test_an_entry_mends_the_problems_of_a_player_or_of_all(
     session = program.session
     first, second = session.project.players[:2]
     assert not _found(program, message_id)
-    session.apply(Message("edit.move_notes", {"count": 2}), spoil(spoil(session.project, first), second))
+    session.apply(Message("edit.move_notes", {"count": 2, "of": ""}), spoil(spoil(session.project, first), second))
     spoiled, problems = session.project, _of_others(program, message_id)
     assert _found(program, message_id) == {first.id: count, second.id: count}
     _choose(program, second.id, message_id, label.format(count), ends="s")

@@ -22,7 +22,7 @@ def _spoil(program: Program) -> tuple[str, tuple[str, str]]:
     player = session.project.players[1]
     notes = session.project.part(player).notes
     chosen = notes[6].id, notes[12].id
-    session.apply(Message("edit.move_notes", {"count": 2}), move(session.project, chosen, 0, 36))
+    session.apply(Message("edit.move_notes", {"count": 2, "of": ""}), move(session.project, chosen, 0, 36))
     session.set_players((session.project.players[0].id,))
     session.set_playhead(0.0)
     return player.id, chosen

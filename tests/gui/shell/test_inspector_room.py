@@ -45,7 +45,7 @@ def test_the_chart_of_a_note_is_in_sight_until_the_divider_is_dragged(program: P
     splitter = inspector._splitter
     alone = splitter.sizes()[1]
     ids = [note.id for note in notes[4:12]]
-    session.apply(Message("edit.move_notes", {"count": 8}), move(session.project, ids, 0, -24))
+    session.apply(Message("edit.move_notes", {"count": 8, "of": ""}), move(session.project, ids, 0, -24))
     assert splitter.sizes()[1] > alone
     assert fix.isVisible()
     assert _in_sight(chart)

@@ -27,7 +27,7 @@ def _lower(program: Program, number: int, octaves: int = 4, first: int = 4, coun
     session = program.session
     player = session.project.players[number]
     ids = [note.id for note in session.project.part(player).notes[first : first + count]]
-    session.apply(Message("edit.move_notes", {"count": count}), move(session.project, ids, 0, -12 * octaves))
+    session.apply(Message("edit.move_notes", {"count": count, "of": ""}), move(session.project, ids, 0, -12 * octaves))
     return player.id, ids
 
 
@@ -107,7 +107,7 @@ def test_a_row_stays_selected_while_its_problems_become_others(program: Program)
     while program.session.problem is None or program.session.problem[1].message.id != OUTSIDE:
         _press(program, Qt.Key.Key_F8)
     session = program.session
-    session.apply(Message("edit.move_notes", {"count": 1}), move(session.project, ids[-1:], 0, 48))
+    session.apply(Message("edit.move_notes", {"count": 1, "of": ""}), move(session.project, ids[-1:], 0, 48))
     assert _chosen(program) == [(id, OUTSIDE)]
     assert child(program.window, QPushButton, "fix_problems").isEnabled()
 
@@ -149,7 +149,7 @@ def test_a_notice_goes_with_its_problem(program: Program, leave: str) -> None:
         roll = child(program.window, TimelinePanel)._front.roll.plot
         QTest.mouseClick(roll, Qt.MouseButton.LeftButton, pos=QPoint(roll.width() - 4, 4))
     elif leave == "mended":
-        session.apply(Message("edit.move_notes", {"count": 1}), move(session.project, ids, 0, 48))
+        session.apply(Message("edit.move_notes", {"count": 1, "of": ""}), move(session.project, ids, 0, 48))
     else:
         mouse.press(child(program.window, QPushButton, "ignore_problems"))
     assert status.notice_text == ""

@@ -81,7 +81,8 @@ def test_a_correction_without_a_selection_is_shown_and_undo_is_not(program: Prog
     session.set_players((other.id, player.id))
     note = session.project.part(player).notes[3]
     session.apply(
-        Message("edit.pin_fingerings", {"count": 1}), pin_fingerings(session.project, player.id, {note.id: "1-3"})
+        Message("edit.pin_fingerings", {"count": 1, "of": ""}),
+        pin_fingerings(session.project, player.id, {note.id: "1-3"}),
     )
     assert _settled(program, "hands")
     assert session.players[0] == player.id
@@ -97,7 +98,7 @@ def test_an_edit_of_a_player_who_is_not_selected_moves_nothing(program: Program)
     front, other = session.players, session.project.players[1]
     note = session.project.part(other).notes[3]
     pinned = pin_fingerings(session.project, other.id, {note.id: "1-3"})
-    session.apply(Message("edit.pin_fingerings", {"count": 1}), pinned)
+    session.apply(Message("edit.pin_fingerings", {"count": 1, "of": ""}), pinned)
     assert _wait(program) == "ensemble"
     assert session.players == front
 

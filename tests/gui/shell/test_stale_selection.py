@@ -94,7 +94,7 @@ def test_an_event_whose_note_is_gone(program: Program, monkeypatch: pytest.Monke
     session.select(Selection(events=frozenset((EventKey(player.id, breath.id),))))
     monkeypatch.setattr(session, "set_performance", lambda performance: None)
     note_id = breath.id.partition(":")[2]
-    session.attempt(Message("edit.erase_notes", {"count": 1}), lambda project: erase(project, (note_id,)))
+    session.attempt(Message("edit.erase_notes", {"count": 1, "of": ""}), lambda project: erase(project, (note_id,)))
     assert not session.selection
 
 

@@ -91,7 +91,7 @@ def two_players_in_turn(desk: Desk) -> None:
     first, second = desk.project.players[:2]
     ids = [note.id for note in desk.project.part(second).notes]
     later = move(desk.project, ids, desk.project.score.end_tick + 8 * 480, 0)
-    desk.session.document.apply(Message("edit.move_notes", {"count": len(ids)}), later)
+    desk.session.document.apply(Message("edit.move_notes", {"count": len(ids), "of": ""}), later)
     desk.session.set_players((first.id, second.id))
 
 

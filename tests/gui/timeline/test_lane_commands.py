@@ -319,7 +319,7 @@ def test_f8_walks_through_the_problems_of_all_players(panel: TimelinePanel, sess
         note = session.project.part(player).notes[4]
         requested.append((player.id, note.id))
         session.attempt(
-            Message("edit.pin_fingerings", {"count": 1}),
+            Message("edit.pin_fingerings", {"count": 1, "of": ""}),
             lambda project, player=player, note=note: edit.pin_fingerings(project, player.id, {note.id: "99"}),
         )
     all_of_them = problems.problems(session)

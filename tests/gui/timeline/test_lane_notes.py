@@ -105,7 +105,7 @@ def test_the_chips_bring_the_generators_choice_back(panel: TimelinePanel, sessio
     player_id = front_plan(session).player_id
     label = next(f.label for f in lane.alternates.choices(player_id, event) if f.label != event.label)
     session.attempt(
-        Message("edit.pin_fingerings", {"count": 1}),
+        Message("edit.pin_fingerings", {"count": 1, "of": ""}),
         lambda project: edit.pin_fingerings(project, player_id, {event.note_id: label}),
     )
     click(lane, place_of(lane, event.start_s, event.end_s))

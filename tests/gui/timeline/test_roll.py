@@ -538,7 +538,9 @@ def test_the_notes_behind_are_drawn_once_until_they_or_what_is_shown_change(stag
     assert colour("2:5") == seen
     assert roll.notes._behind is drawn
     old = stage.middle("2:5")
-    assert session.attempt(Message("edit.move_notes", {"count": 1}), lambda it: notes.move(it, {"2:5"}, 0, -3))
+    assert session.attempt(
+        Message("edit.move_notes", {"count": 1, "of": ""}), lambda it: notes.move(it, {"2:5"}, 0, -3)
+    )
     assert stage.middle("2:5") != old
     assert colour("2:5") == seen
     session.document.undo()

@@ -1,10 +1,10 @@
-"""Names of edits of events say of what kind they are, whose, and where."""
+"""Names of edits of notes and events say of what kind they are, whose, and where."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from app.editor.edit_names import edit_of_events, edit_of_parameter, edit_of_players
+from app.editor.edit_names import edit_of_events, edit_of_notes, edit_of_parameter, edit_of_players
 from app.editor.selection import EventKey
 from app.errors import Message
 from app.messages import text
@@ -67,3 +67,17 @@ def test_an_edit_of_players_names_the_first_ones_and_counts_the_rest() -> None:
     assert text(every) == "Mute Trumpet 1, Trumpet 2, … (4)"
     assert text(every, "ja") == "ミュート: Trumpet 1, Trumpet 2, … (4)"
     assert text(edit_of_parameter(project, "amplitude", ids[2:3])).endswith(": Trombone 1")
+
+
+def test_an_edit_of_notes_says_whose_they_are_and_from_where_to_where() -> None:
+    project = quartet_project()
+    first, second = project.players[:2]
+    mine, others = project.part(first).notes, project.part(second).notes
+    label = project.score.metre_map.label
+    one = edit_of_notes(project, "edit.pin_fingerings", {mine[3].id}, (first.id,))
+    assert text(one) == f"Pin Fingering of 1 Note ({first.name} · {label(mine[3].onset_tick)})"
+    several = edit_of_notes(project, "edit.move_notes", {mine[9].id, mine[4].id, others[6].id})
+    ticks = (mine[4].onset_tick, mine[9].onset_tick, others[6].onset_tick)
+    place = f"{label(min(ticks))}–{label(max(ticks))}"
+    assert text(several) == f"Move 3 Notes ({first.name}, {second.name} · {place})"
+    assert text(several, "ja") == f"音符を移動（3 個、{first.name}, {second.name} · {place}）"

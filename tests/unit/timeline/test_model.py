@@ -118,7 +118,7 @@ def test_a_drag_is_one_step_and_can_be_taken_back() -> None:
     before = desk.project
     step = LiveEdit(desk, desk)
     for ticks in (10, 20, 30):
-        assert step.edit(Message("edit.move_notes", {"count": 1}), moved_by(ticks))
+        assert step.edit(Message("edit.move_notes", {"count": 1, "of": ""}), moved_by(ticks))
     assert (onset(desk), len(desk.document.done)) == (30, 1)
     step.take_back()
     assert desk.project is before
@@ -128,9 +128,9 @@ def test_a_drag_is_one_step_and_can_be_taken_back() -> None:
 def test_a_step_that_was_undone_in_the_middle_does_nothing_more() -> None:
     desk = Desk()
     step = LiveEdit(desk, desk)
-    step.edit(Message("edit.move_notes", {"count": 1}), moved_by(10))
+    step.edit(Message("edit.move_notes", {"count": 1, "of": ""}), moved_by(10))
     desk.document.undo()
-    assert not step.edit(Message("edit.move_notes", {"count": 1}), moved_by(20))
+    assert not step.edit(Message("edit.move_notes", {"count": 1, "of": ""}), moved_by(20))
     step.take_back()
     assert onset(desk) == 0
 

@@ -11,6 +11,7 @@ from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.arrays import FloatArray
+from app.editor.edit_names import edit_of_notes
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session, Severity
 from app.editor.timeline_view import Tool
@@ -325,7 +326,7 @@ class CurvesLane(Lane):
 
         if values:
             self.session.attempt(
-                Message("edit.set_embouchure", {"count": len(values)}),
+                edit_of_notes(self.session.project, "edit.set_embouchure", values, (player_id,)),
                 lambda project: with_values(project, player_id, curve, values),
             )
 

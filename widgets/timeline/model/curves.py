@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.arrays import FloatArray
+from app.editor.edit_names import edit_of_notes
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
 from app.project.edit.dynamics import change_level
@@ -143,7 +144,7 @@ class DragCurve(EditGesture):
         values = {note_id: round(min(max(start + change, 0.0), 1.0), 3) for note_id, start in self._starts.items()}
         others = {note_id: value for note_id, value in values.items() if value != round(self._starts[note_id], 3)}
         self._step.attempt(
-            Message("edit.set_embouchure", {"count": len(self._starts)}),
+            edit_of_notes(self._step.base, "edit.set_embouchure", self._starts, (self._player_id,)),
             lambda project: with_values(project, self._player_id, self._curve, others),
         )
 
@@ -187,6 +188,6 @@ class DrawCurve(EditGesture):
         values = dict(self._values)
         if values:
             self._step.attempt(
-                Message("edit.set_embouchure", {"count": len(values)}),
+                edit_of_notes(self._step.base, "edit.set_embouchure", values, (self._player_id,)),
                 lambda project: with_values(project, self._player_id, self._curve, values),
             )

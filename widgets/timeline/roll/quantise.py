@@ -8,8 +8,8 @@ from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QHideEvent, QKeyEvent
 from PySide6.QtWidgets import QCheckBox, QFrame, QGridLayout, QPushButton, QWidget
 
+from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session
-from app.errors import Message
 from app.project.edit import notes
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
@@ -98,7 +98,7 @@ class QuantisePopover(Retranslated, QFrame):
             return
         ids, base = self._session.selection.notes, self._base
         self._session.attempt(
-            Message("edit.quantise_notes", {"count": len(ids)}),
+            edit_of_notes(base, "edit.quantise_notes", ids),
             lambda _: notes.quantise(
                 base,
                 ids,
@@ -135,7 +135,7 @@ class QuantisePopover(Retranslated, QFrame):
         super().hideEvent(event)
         if not self._kept and self._session.project is self._ours and self._ours is not self._base:
             self._session.apply(
-                Message("edit.quantise_notes", {"count": len(self._session.selection.notes)}),
+                edit_of_notes(self._base, "edit.quantise_notes", self._session.selection.notes),
                 self._base,
                 self._token,
                 self,

@@ -10,6 +10,7 @@ from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import QWidget
 
 from app.arrays import FloatArray
+from app.editor.edit_names import edit_at
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -202,7 +203,8 @@ class CurveEditing(Lane):
                 project, made = edit.add_curve(project, player, channel, ((tick, keys[0].value),))
             return edit.paste_keys(project, player, made, keys, tick)
 
-        if self._attempt(Message("edit.paste_curve_keys", {"count": len(keys)}), edited):
+        pasted = edit_at(self.session.project, "edit.paste_curve_keys", len(keys), (player,), (tick,))
+        if self._attempt(pasted, edited):
             self.select_keys(frozenset(KeyRef(made, key.tick - keys[0].tick + tick) for key in keys))
 
     def select_all(self) -> None:
@@ -231,7 +233,8 @@ class CurveEditing(Lane):
         player, keys = self.player_id, by_curve(self.selected)
         if player is None or not keys:
             return False
-        message = Message(name, {"count": len(self.selected)})
+        ticks = [key.tick for key in self.selected]
+        message = edit_at(self.session.project, name, len(ticks), (player,), ticks)
         return self._attempt(message, lambda project: change(project, player, keys))
 
     def _attempt(self, name: Message, change: Callable[[Project], Project]) -> bool:

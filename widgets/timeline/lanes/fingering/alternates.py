@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication, QFrame, QMenu, QPushButton
 
+from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session
 from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
@@ -125,7 +126,7 @@ class Alternates(QFrame):
             if note.id in selected and label in {item.label for item in instrument.fingerings_for(note.pitch)}
         }
         self._session.attempt(
-            Message("edit.pin_fingerings", {"count": len(labels)}),
+            edit_of_notes(self._session.project, "edit.pin_fingerings", labels, (player_id,)),
             lambda project: pin_fingerings(project, player_id, labels),
         )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
+from app.editor.edit_names import edit_at
 from app.errors import Message
 from app.plan.by_hand.additive_curve import Tangent
 from app.project.edit import additive as edit
@@ -61,9 +62,9 @@ class DragKeys(EditGesture):
             free = mouse.shift or mouse.alt
             by = snapped(self._session.grid, score, self._grabbed.tick + ticks, free) - self._grabbed.tick
         up = rounded(self._channel, value)
-        moved = by_curve(self._keys)
+        moved, ticks_before = by_curve(self._keys), [key.tick for key in self._keys]
         done = self._step.edit(
-            Message("edit.move_curve_keys", {"count": len(self._keys)}),
+            edit_at(self._step.base, "edit.move_curve_keys", len(self._keys), (self._player_id,), ticks_before),
             lambda project: edit.move_keys(project, self._player_id, moved, by, up),
         )
         if done:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from app.editor.edit_names import edit_of_notes
 from app.editor.selection import Selection
 from app.errors import Message
 from app.project.edit import notes
@@ -87,7 +88,7 @@ class Move(RollGesture):
 
     def _place(self, by_tick: int, by_pitch: int) -> None:
         self.step.edit(
-            Message("edit.move_notes", {"count": len(self._ids)}),
+            edit_of_notes(self.step.base, "edit.move_notes", self._ids),
             lambda project: notes.move(project, self._ids, by_tick, by_pitch),
         )
         self.moved = self._note.id
@@ -135,7 +136,7 @@ class Copy(Move):
             project, copies = notes.duplicate(project, self._ids, by_tick, by_pitch)
             return project
 
-        if self.step.edit(Message("edit.duplicate_notes", {"count": len(self._ids)}), copied):
+        if self.step.edit(edit_of_notes(self.step.base, "edit.duplicate_notes", self._ids), copied):
             self.session.select(Selection(frozenset(copies or self._ids)))
             self.moved = copies[0] if copies else ""
 
@@ -158,7 +159,7 @@ class Resize(RollGesture):
         target = edge + mouse.tick - self.at.tick
         placed = snapped(self.session.grid, self.step.base.score, target, mouse.alt)
         self.step.edit(
-            Message("edit.resize_notes", {"count": len(self._ids)}),
+            edit_of_notes(self.step.base, "edit.resize_notes", self._ids),
             lambda project: notes.resize(project, self._ids, placed - edge, at_start=self._at_start),
         )
 
@@ -174,7 +175,7 @@ class Velocity(RollGesture):
     def follow(self, mouse: LaneMouse) -> None:
         by = round((self.at.y_px - mouse.y_px) * VELOCITY_A_PX)
         self.step.edit(
-            Message("edit.change_velocity", {"count": len(self._ids)}),
+            edit_of_notes(self.step.base, "edit.change_velocity", self._ids),
             lambda project: notes.change_velocity(project, self._ids, by),
         )
         self.sounded = self._note.id
@@ -221,7 +222,7 @@ class Erase(RollGesture):
         if hit is not None and hit.id not in self._gone:
             self._gone.add(hit.id)
             self.step.edit(
-                Message("edit.erase_notes", {"count": len(self._gone)}),
+                edit_of_notes(self.step.base, "edit.erase_notes", self._gone),
                 lambda project: notes.erase(project, self._gone),
             )
 
