@@ -15,7 +15,7 @@ ARRIVED_M = 0.0008
 ARRIVED_SHARE = 0.002
 """A distance within this share of where it goes has arrived."""
 SLACK = 1.15
-"""What a close-up shows may grow by this much before the camera goes back."""
+"""Factor by which what a close-up shows may grow before the camera goes back."""
 LONGEST_STEP_S = 0.1
 """After a pause the camera goes on as if it had been this long."""
 

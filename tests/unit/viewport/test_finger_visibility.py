@@ -103,7 +103,7 @@ def test_the_instrument_hides_what_is_behind_it() -> None:
 
 
 def hands_share(stage: Stage, camera: Camera, aspect: float) -> FloatArray:
-    """How far the hands of a player are from the middle of the picture, of half its width and height."""
+    """Distance of the hands of a player from the middle of the picture, of half its width and height."""
     names = ["Hand", *(f"{finger}{bone}" for finger in ("Index", "Middle", "Ring", "Little") for bone in BONES)]
     joints_m = np.array([stage.joint_m(0, side + name) for side in ("left", "right") for name in names])
     away = joints_m - camera.eye_m
