@@ -106,7 +106,10 @@ class ReadMotion:
 
 
 def read_motion(
-    path: str | os.PathLike[str], fps: Fraction | None = None, joints: Mapping[str, str] | None = None
+    path: str | os.PathLike[str],
+    fps: Fraction | None = None,
+    joints: Mapping[str, str] | None = None,
+    figure: str = "",
 ) -> ReadMotion:
     """Read the motion of any humanoid.
 
@@ -118,6 +121,8 @@ def read_motion(
         The true frame rate, where the file's is wrong.
     joints : mapping of str to str, optional
         Corrections of bones, see `captured_body`.
+    figure : str
+        Root of the skeleton to read where a BVH file has several; empty: the first.
 
     Raises
     ------
@@ -125,7 +130,7 @@ def read_motion(
         If it is none of these or has no animation, or a leg, an arm, the hips or the head cannot be found in it.
     """
     file = Path(path)
-    bvh = read_motion_file(file)
+    bvh = read_motion_file(file, figure)
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)

@@ -43,6 +43,7 @@ def read_pair(
     credits: Path | None = None,
     cuts: Path | None = None,
     joints: Mapping[str, str] | None = None,
+    figure: str = "",
 ) -> ReadPair:
     """Read a pair.
 
@@ -65,13 +66,15 @@ def read_pair(
         are to be found.
     joints : mapping of str to str, optional
         Corrections of the motion's bones by joint, see `app.choreography.raw_skeleton.JOINTS`; empty: none.
+    figure : str
+        Root of the motion's skeleton where its file has several; empty: the first.
 
     Raises
     ------
     AppError
         A file cannot be read, is none of the kind, or has cuts that do not fit the motion.
     """
-    read = read_motion(motion, fps, joints)
+    read = read_motion(motion, fps, joints, figure)
     score = uncast_score(read_contents(music))
     rhythm = audible_rhythm(score)
     if not len(rhythm.hits_s):

@@ -16,8 +16,13 @@ SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf", ".vrma")
 _HEAD_BYTES: Final = 4096
 
 
-def read_motion_file(path: str | os.PathLike[str]) -> BvhClip:
+def read_motion_file(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
     """Read the motion of a BVH, FBX or glTF file (.glb, .gltf, .vrma), whatever it is called.
+
+    Parameters
+    ----------
+    figure : str
+        Root of the skeleton to read where a BVH file has several; empty: the first.
 
     Raises
     ------
@@ -28,7 +33,7 @@ def read_motion_file(path: str | os.PathLike[str]) -> BvhClip:
         head = stream.read(_HEAD_BYTES)
     kind = _kind(head) or Path(path).suffix.lower()
     if kind == ".bvh":
-        return read_bvh(path)
+        return read_bvh(path, figure)
     # Their libraries take long to import.
     from app.rig.node_motion import read_fbx_motion, read_gltf_motion
 

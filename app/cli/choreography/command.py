@@ -50,6 +50,7 @@ class PairFiles:
     credits: Path | None = None
     cuts: Path | None = None
     joints: Mapping[str, str] = field(default_factory=dict)
+    figure: str | None = None
 
 
 class _AddPair(argparse.Action):
@@ -132,6 +133,7 @@ def _add_learn(actions: Actions) -> None:
         type=Path,
         metavar="FILE",
     )
+    of_pair.add_argument("--figure", action=_OfPair, default=argparse.SUPPRESS, metavar="ROOT")
     of_pair.add_argument("--bone", action=_CorrectBone, default=argparse.SUPPRESS, metavar="JOINT=NAME")
     command.add_argument("--states", type=bounded_number(1, MOST_STATES, "a number of basic motions", int), metavar="K")
     command.add_argument("--seed", type=whole_number, default=0, metavar="N")
@@ -163,6 +165,7 @@ def learn(arguments: argparse.Namespace) -> None:
                     credits=one.credits,
                     cuts=one.cuts,
                     joints=one.joints,
+                    figure=one.figure or "",
                 )
             )
         model = learned(

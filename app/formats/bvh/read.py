@@ -43,29 +43,34 @@ _FRAMES: Final = re.compile(r"\s*Frames\s*:\s*(\S+)\s+Frame[ \t]*Time\s*:\s*(\S+
 _BRACES: Final = re.compile(r"([{}])")
 
 
-def read_bvh(path: str | os.PathLike[str]) -> BvhClip:
+def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
     """Read a BVH file with any channels in any order, also with positions of joints other than the root.
 
     Position channels take the place of the offset, as in most programs; a root offset is left out. Rotations are about
-    the axes in the order of their channels, where one is missing by 0. Of several skeletons the first is read.
+    the axes in the order of their channels, where one is missing by 0.
+
+    Parameters
+    ----------
+    figure : str
+        Root of the skeleton to read where there are several; empty: the first.
 
     Raises
     ------
     FileError
-        If it is no such file.
+        If it is no such file; ``motion.no_figure`` if no skeleton has that root.
     """
     data = read_file(path, MOST_BYTES)
     wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    return decode_bvh(data.decode("utf-16" if wide else "utf-8-sig", "replace"), os.fspath(path))
+    return decode_bvh(data.decode("utf-16" if wide else "utf-8-sig", "replace"), os.fspath(path), figure)
 
 
-def decode_bvh(text: str, file: str) -> BvhClip:
+def decode_bvh(text: str, file: str, figure: str = "") -> BvhClip:
     """Clip of a file's text, as `read_bvh`."""
     found = _MOTION.search(text)
     head, motion = (text[: found.start()], text[found.end() :]) if found else (text, "")
     skeleton = _Skeleton(file)
     skeleton.read(head)
-    return _motion(motion, skeleton, len(text[: found.end()].splitlines()) if found else 0)
+    return _motion(motion, skeleton, len(text[: found.end()].splitlines()) if found else 0, figure)
 
 
 class _Skeleton:
@@ -83,6 +88,15 @@ class _Skeleton:
     def roots(self) -> list[int]:
         """First joint of each figure."""
         return [joint for joint, parent in enumerate(self.parents) if parent < 0]
+
+    def figure(self, first: int) -> _Skeleton:
+        """The figure whose root is this joint, alone."""
+        stop = next((root for root in self.roots if root > first), len(self.names))
+        found, own = _Skeleton(self.file), slice(first, stop)
+        found.names, found.offsets, found.channels = self.names[own], self.offsets[own], self.channels[own]
+        found.parents = [-1, *(parent - first for parent in self.parents[first + 1 : stop])]
+        found.end_sites = {joint - first: end for joint, end in self.end_sites.items() if first <= joint < stop}
+        return found
 
     def read(self, head: str) -> None:
         pieces = ((number, piece.split()) for number, line in _lines(head) for piece in _BRACES.split(line))
@@ -157,7 +171,7 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
     return enumerate(text.splitlines(), start=1)
 
 
-def _motion(motion: str, skeleton: _Skeleton, line: int) -> BvhClip:
+def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip:
     """Read what follows MOTION, which is on a line."""
     file = skeleton.file
     said = _FRAMES.match(motion)
@@ -176,14 +190,21 @@ def _motion(motion: str, skeleton: _Skeleton, line: int) -> BvhClip:
     if not 1 <= frames < 2**31:
         raise FileError("bvh.frames", file=file, found=said[1][:40])
     width = sum(len(channels) for channels in skeleton.channels)
-    before = line - 1 + len(motion[: said.end()].splitlines())
-    values, guesses = _table(motion[said.end() :], frames, width, file, before)
+    before_table = line - 1 + len(motion[: said.end()].splitlines())
+    values, guesses = _table(motion[said.end() :], frames, width, file, before_table)
     roots = skeleton.roots
+    names = [skeleton.names[joint] for joint in roots]
+    if figure and figure not in names:
+        raise FileError("motion.no_figure", file=file, figure=figure, figures=shortened(", ".join(names), 200))
     if len(roots) > 1:
-        others = ", ".join(skeleton.names[joint] for joint in roots[1:])
-        guesses += (Message("motion.figures", {"name": skeleton.names[0], "others": shortened(others, 80)}),)
+        first = roots[names.index(figure) if figure else 0]
+        others = ", ".join(skeleton.names[joint] for joint in roots if joint != first)
+        if not figure:
+            guesses += (Message("motion.figures", {"name": skeleton.names[first], "others": shortened(others, 80)}),)
+        before = sum(len(channels) for channels in skeleton.channels[:first])
+        skeleton, values = skeleton.figure(first), values[:, before:]
     fps, rate_guess = _rate(frame_time, said[2])
-    return _clip(values, skeleton, roots[1] if len(roots) > 1 else len(skeleton.names), fps, rate_guess, guesses)
+    return _clip(values, skeleton, fps, rate_guess, guesses)
 
 
 def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[FloatArray, tuple[Message, ...]]:
@@ -234,23 +255,22 @@ def _is_number(word: str) -> bool:
 def _clip(
     table: FloatArray,
     skeleton: _Skeleton,
-    joints: int,
     fps: Fraction,
     rate_guess: Message | None,
     guesses: tuple[Message, ...],
 ) -> BvhClip:
-    """Make the clip of the first joints of the skeleton."""
-    frames = len(table)
+    """Make the clip of the only figure of a skeleton; the table may have columns of others behind."""
+    frames, joints = len(table), len(skeleton.names)
     if frames * joints > _FREE_ROTATIONS + 4 * table.size:
         # Joints need not have channels, and then cost the file nothing in a frame.
         raise FileError("bvh.too_large", file=skeleton.file)
-    offsets = np.array(skeleton.offsets[:joints])
+    offsets = np.array(skeleton.offsets)
     offsets[0] = 0.0
     rotations = np.zeros((frames, joints, 4))
     rotations[..., 3] = 1.0
     translations: dict[int, AnyFloatArray] = {}
     column = 0
-    for joint, channels in enumerate(skeleton.channels[:joints]):
+    for joint, channels in enumerate(skeleton.channels):
         columns = table[:, column : column + len(channels)]
         column += len(channels)
         turned = [at for at, name in enumerate(channels) if name.endswith("rotation")]
@@ -266,10 +286,10 @@ def _clip(
     for joint in [joint for joint, places in translations.items() if (places == places[0]).all()]:
         offsets[joint] = translations.pop(joint)[0]
     return BvhClip(
-        tuple(skeleton.names[:joints]),
-        tuple(skeleton.parents[:joints]),
+        tuple(skeleton.names),
+        tuple(skeleton.parents),
         offsets,
-        {joint: end for joint, end in skeleton.end_sites.items() if joint < joints},
+        skeleton.end_sites,
         fps,
         root_translation,
         rotations,

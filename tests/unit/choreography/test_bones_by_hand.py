@@ -66,6 +66,11 @@ def test_any_correction_gives_a_body_or_an_error_that_keeps_the_bones(joints: di
     assert dict(kept.found.bones) == dict(found)
 
 
+def test_a_figure_is_chosen_for_the_pair_before() -> None:
+    typed = "choreography learn --pair a.bvh a.mid --figure partner --pair b.bvh b.mid --to x"
+    assert [pair.figure for pair in parser().parse_args(typed.split()).pairs] == ["partner", None]
+
+
 def test_corrections_belong_to_the_pair_before_them() -> None:
     typed = "choreography learn --pair a.bvh a.mid --bone head=Kopf --bone neck= --pair b.bvh b.mid --to x"
     assert parser().parse_args(typed.split()).pairs == (

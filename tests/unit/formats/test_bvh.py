@@ -264,7 +264,7 @@ def test_a_file_that_is_cut_off_is_read_as_far_as_it_goes() -> None:
     np.testing.assert_array_equal(found.rotations_xyzw, decode_bvh(text, "a.bvh").rotations_xyzw[:4])
 
 
-def test_of_several_figures_the_first_is_read() -> None:
+def test_of_several_figures_the_first_is_read_or_the_one_asked_for() -> None:
     text = encode_bvh(clip(frames=3)).decode()
     head, motion = text.split("MOTION")
     start, rows = motion.split("\n", 3)[:3], motion.split("\n", 3)[3].splitlines()
@@ -273,6 +273,14 @@ def test_of_several_figures_the_first_is_read() -> None:
     found = decode_bvh(both, "a.bvh")
     assert found.guesses == (Message("motion.figures", {"name": "hips", "others": "partner"}),)
     same(replace(found, guesses=()), decode_bvh(text, "a.bvh"))
+    alone = f"{head[: head.index('ROOT')]}{other}MOTION" + "\n".join(
+        ["", *start[1:], *(row.replace("1", "2") for row in rows)]
+    )
+    same(decode_bvh(both, "a.bvh", "partner"), decode_bvh(alone, "b.bvh"))
+    same(decode_bvh(both, "a.bvh", "hips"), decode_bvh(text, "a.bvh"))
+    with pytest.raises(FileError) as caught:
+        decode_bvh(both, "a.bvh", "nobody")
+    assert caught.value.message.arguments["figures"] == "hips, partner"
 
 
 def test_a_wrong_row_is_named_by_its_line() -> None:
