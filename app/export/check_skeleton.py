@@ -73,12 +73,14 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDiffe
     moved = {target.names[bone] for bone in target.moved}
     found = [*_roots(target, asset), *_unit(target, asset)]
     requested = {target.names[bone] for bone in target.added}
+    # Added joints are the eyes, which keep still where shapes turn them.
+    still = {target.names[bone] for bone in target.added if target.joint_of_bone[bone] >= 0 and target.eyes == "shapes"}
     found += [
         SkeletonDifference("requested", name, severe=False)
         if name in requested
         else SkeletonDifference("additional", name, name in moved)
         for name in target.names
-        if name not in theirs
+        if name not in theirs and name not in still
     ]
     found += [SkeletonDifference("missing", name, severe=False) for name in asset.bone_names if name not in ours]
     for name in (name for name in target.names if name in theirs):

@@ -12,7 +12,9 @@ import pytest
 
 from app.errors import Message
 from app.export.check_skeleton import SkeletonDifference, check_skeleton, reported
+from app.export.mannequin import MANNEQUIN, mannequin_target
 from app.export.own_skeleton import own_target
+from app.export.rig_options import EyeTurn
 from app.export.target import TargetSkeleton
 from app.messages import text
 from app.rig import quaternion
@@ -53,6 +55,17 @@ def turned(figure: Figure, bone: str, angle_deg: float) -> Figure:
 
 
 HAND, HEAD, HAIR = PREFIX + "leftHand", PREFIX + "head", "hair_1"
+
+
+@pytest.mark.parametrize(("eyes", "asked"), [("shapes", set()), ("bones", {"eye_l", "eye_r"})])
+def test_eyes_that_the_mannequin_lacks_are_told_where_bones_turn_them(eyes: EyeTurn, asked: set[str]) -> None:
+    character = character_named("woman_adult")
+    target = replace(mannequin_target(character.skeleton), eyes=eyes)
+    asset = Figure(
+        "asset", "gltf", tuple(MANNEQUIN), target.parents[:89], target.offsets_m[:89], target.rest[:89], ()
+    )  # fmt: skip
+    found = check_skeleton(target, asset)
+    assert {(one.kind, one.bone, one.severe) for one in found} == {("requested", bone, False) for bone in asked}
 
 
 def test_the_same_file_differs_in_nothing() -> None:
