@@ -60,6 +60,11 @@ FROZEN: Final = 2
 STARTS_RAD_S: Final = 1.5
 MOST_FROZEN: Final = 0.25
 """A clip that rests longer than this part of its time was made so."""
+MOST_BENT_DEG: Final = {"spine": 120.0, "chest": 120.0, "head": 130.0}
+"""No neck bends farther from the T-pose, nor does a back: a head that hangs upside down was captured wrongly, however
+slowly it got there. Of 70 captures of six makers the farthest neck that may be right is at 104."""
+MOST_WRONG: Final = 0.5
+"""A clip that is bent like that for a longer part of its time was read or made so."""
 
 MOST_AT_ONCE: Final = 1_000_000
 """Numbers that are compared at a time: noise is damage everywhere."""
@@ -111,6 +116,7 @@ def damage(clip: MotionClip, tolerance: float = 1.0) -> tuple[Damage, ...]:
     found = _with_held(speeds, found)
     found.update((start, stop, part) for start, stop in _frozen(speeds) for part in range(len(PARTS)))
     found.update(_stopped(speeds))
+    found.update(_too_far_bent(clip))
     return tuple(_merged(found))
 
 
@@ -253,6 +259,17 @@ def _stopped(speeds: FloatArray) -> Iterator[tuple[int, int, int]]:
             inside = start > 0 and stop < len(turned)
             if inside and stop - start >= FROZEN and max(turned[start - 1], turned[stop]) > STARTS_RAD_S:
                 yield start - 1, stop + 1, part
+
+
+def _too_far_bent(clip: MotionClip) -> Iterator[tuple[int, int, int]]:
+    """Spans in which the trunk or the neck is bent as no body can be."""
+    for name, most_deg in MOST_BENT_DEG.items():
+        part = SEGMENTS.index(name)
+        swing, _ = quaternion.swing_twist(clip.rotations[:, part], (0.0, 1.0, 0.0))
+        beyond = np.abs(swing[:, 3]) < np.cos(0.5 * np.radians(most_deg))
+        if beyond.mean() <= MOST_WRONG:
+            for start, stop in runs(beyond):
+                yield max(start - 1, 0), min(stop, len(clip) - 1), part
 
 
 def runs(of: BoolArray) -> list[tuple[int, int]]:

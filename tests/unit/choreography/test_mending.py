@@ -230,3 +230,20 @@ def test_a_clip_of_no_length_has_no_damage() -> None:
     for frames in range(6):
         few = dancing(60).span(0, frames)
         assert mended(replace(few, fps=Fraction(60))).clip is not None
+
+
+@pytest.mark.parametrize("axis", AXES[:3])
+def test_a_head_that_slowly_goes_upside_down_is_left_out(axis: tuple[float, float, float]) -> None:
+    """Two seconds to hang down, two there, two back: nothing is sudden, yet no neck does so."""
+    clip = dancing()
+    share = np.interp(np.arange(len(clip)) / 60.0, [1.0, 3.0, 5.0, 7.0], [0.0, 1.0, 1.0, 0.0])
+    for most_deg, wrong in ((160.0, True), (70.0, False)):
+        bent = turning(clip, "head", np.radians(most_deg) * share, axis)
+        done = mended(bent)
+        assert bool(done.left_out) is wrong
+        if wrong:
+            (one,) = done.left_out
+            assert one.parts == ("head",)
+            assert 1.0 < one.start / 60.0 < 3.0 < 5.0 < one.stop / 60.0 < 7.0
+    # Where a body is so for most of its time, that is how it was read.
+    assert not mended(turning(clip, "head", np.full(len(clip), np.radians(160.0)), axis)).left_out
