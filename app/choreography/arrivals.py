@@ -13,11 +13,11 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from app.arrays import FloatArray, IntArray
+from app.choreography.accent_grid import AccentGrid
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
 from app.choreography.music_offset import speed_minima
-from app.choreography.sequence import AccentGrid
 from app.choreography.warp import TimeMap, map_with_arrivals
 
 SMOOTHING_S: Final = 5.0 / 60.0
@@ -88,12 +88,12 @@ def best_arrival_map(
     along, speed = along[seen], (joint_speed_m_s(draft) / np.maximum(speeds, LEAST_SPEED))[seen]
     times_s = np.arange(plain.times_s[0], plain.times_s[-1], 1.0 / FPS)
     falls_along, _ = shown.at(falls)
-    beats_s = grid.times_s[grid.on_beat]
+    beats_s, felt_s = grid.times_s[grid.strengths == 1.0], grid.times_s[grid.on_beat]
     best, best_value, tried = shown, -1.0, shown
     for number in range(1 + TRIES):
         places, rates = tried.at(times_s)
         frames = arrival_frames(np.interp(places, along, speed) * rates, FPS)
-        value = alignment(times_s[frames], beats_s) + FALLS_SHARE * alignment(tried.when(falls_along), beats_s)
+        value = alignment(times_s[frames], beats_s) + FALLS_SHARE * alignment(tried.when(falls_along), felt_s)
         if value > best_value:
             best, best_value = tried, value
         if number < TRIES:

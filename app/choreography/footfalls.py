@@ -14,8 +14,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from app.arrays import FloatArray
+from app.choreography.accent_grid import AccentGrid
 from app.choreography.feet import SAME_M, FootPlant
-from app.choreography.sequence import AccentGrid
 
 REACH_S: Final = 0.12
 """A footfall is moved no farther than this."""

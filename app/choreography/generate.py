@@ -14,6 +14,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
+from app.choreography.accent_grid import AccentGrid, grid_of
 from app.choreography.arrivals import (
     FALLS_SHARE,
     FPS,
@@ -39,14 +40,8 @@ from app.choreography.model import ChoreographyModel
 from app.choreography.pairing import trust_in
 from app.choreography.phrases import returning_places
 from app.choreography.rhythm import Rhythm, felt_at
-from app.choreography.sequence import (
-    AccentGrid,
-    Constraints,
-    SegmentCandidates,
-    Weights,
-    choose,
-    grid_of,
-)
+from app.choreography.segment_arrivals import accents_s, meets_of
+from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.spins import hips_rad, without_haste
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
@@ -54,8 +49,8 @@ from app.rig import quaternion
 
 DRAFT_FPS: Final = Fraction(30)
 """Frame rate of the draft in which arrivals are looked for."""
-DRAFTS: Final = 2
-"""Drafts, each by the best time map that follows from the one before."""
+DRAFTS: Final = 4
+"""Most drafts, each by the best time map that follows from the one before."""
 _LEAST_S: Final = 0.01
 """Beyond the first start and the last end; a segment may meet its beat at either."""
 STANDING: Final = 4.0
@@ -64,7 +59,7 @@ PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
 BEAT_S: Final = 0.5
 """The same, for a capture without steps."""
-IDLE: Final = 4.0
+IDLE: Final = 1.5
 """Log odds against a segment that idles."""
 IDLE_SHARE: Final = 0.4
 """A body idles that is slower than this share of the median speed of the capture ..."""
@@ -118,7 +113,6 @@ class Choreographer:
         self.model = model
         self._stitcher = Stitcher(model)
         self._speeds = [joint_speed_m_s(clip) for clip in model.clips]
-        self._hits_s = self._slowest_s()
         self._usual_rad_s: dict[Fraction, float] = {}
         captured = [hips_rad(model.clips[one.clip].span(one.start, one.end + 1)) for one in model.segments]
         fps = float(model.clips[0].fps)
@@ -144,6 +138,21 @@ class Choreographer:
         ]
 
     @cached_property
+    def _fps(self) -> list[float]:
+        return [float(clip.fps) for clip in self.model.clips]
+
+    @cached_property
+    def _arrivals(self) -> list[IntArray]:
+        """Frames of each clip in which the body arrives."""
+        return [arrival_frames(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
+
+    @cached_property
+    def _hits_s(self) -> FloatArray:
+        """(S,) time in its clip of the moment of each segment that is put on the beat."""
+        slow = [smoothed(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
+        return accents_s(self.model.segments, self._fps, slow, self._arrivals, self._falls_s)
+
+    @cached_property
     def _idle(self) -> FloatArray:
         """(S,) share of each segment during which the body idles."""
         mean = [
@@ -165,7 +174,7 @@ class Choreographer:
     def candidates(self) -> SegmentCandidates:
         """The model's segments, compared with one another."""
         model, segments = self.model, self.model.segments
-        fps = [float(clip.fps) for clip in model.clips]
+        fps = self._fps
         states = np.array([one.state for one in segments], np.int64)
         joins = distances_m(self._stitcher.ends, self._stitcher.starts)
         for at, (one, following) in enumerate(pairwise(segments)):
@@ -178,6 +187,7 @@ class Choreographer:
             after_s=np.array([one.end / fps[one.clip] for one in segments]) - self._hits_s,
             joins_m=joins,
             log_transition=log_a[states[:, None], states[None, :]],
+            meets=meets_of(segments, fps, self._arrivals, self._falls_s, self._hits_s),
         )
 
     @cached_property
@@ -282,7 +292,7 @@ class Choreographer:
             )
             return _Plan(tuple(steps), times, hits)
 
-        beats_s = grid.times_s[grid.on_beat]
+        beats_s, felt_s = grid.times_s[grid.strengths == 1.0], grid.times_s[grid.on_beat]
         first = map_with_arrivals(plain, self._arrivals_s(segments, hits), grid, self._falls_along(segments, hits))
         first_s = float(plain.times_s[0])
         count = math.ceil((float(plain.times_s[-1]) - first_s) * float(DRAFT_FPS))
@@ -290,14 +300,16 @@ class Choreographer:
             return planned(first)
         draft_s = first_s + np.arange(count) / float(DRAFT_FPS)
         shown, best, best_value = first, first, -1.0
-        for number in range(DRAFTS):
+        for _ in range(DRAFTS):
             clip, falls_s, down_s = self._draft(planned(shown), body, draft_s, grid)
             arrivals = draft_s[arrival_frames(joint_speed_m_s(clip), float(DRAFT_FPS))]
-            value = alignment(arrivals, beats_s) + FALLS_SHARE * alignment(down_s, beats_s)
+            value = alignment(arrivals, beats_s) + FALLS_SHARE * alignment(down_s, felt_s)
             if value > best_value:
                 best, best_value = shown, value
-            if number < DRAFTS - 1:
-                shown = best_arrival_map(clip, first_s, shown, plain, grid, falls_s)
+            following = best_arrival_map(clip, first_s, shown, plain, grid, falls_s)
+            if following is shown:
+                break
+            shown = following
         return planned(best)
 
     def _draft(
@@ -318,16 +330,6 @@ class Choreographer:
         """See `app.choreography.footfalls.on_beats`."""
         speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
         return on_beats(standing, len(clip), float(clip.fps), first_s, grid, self._step_s, speeds_m_s)
-
-    def _slowest_s(self) -> FloatArray:
-        """(S,) time in its clip at which each segment arrives: where the body is slowest from the accent to the end."""
-        slow = [smoothed(speed, float(clip.fps)) for speed, clip in zip(self._speeds, self.model.clips, strict=True)]
-        found = [
-            (one.accent + int(slow[one.clip][one.accent : one.end + 1].argmin()))
-            / float(self.model.clips[one.clip].fps)
-            for one in self.model.segments
-        ]
-        return np.array(found)
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
         """Return how far along all motions the body arrives: minima of the speed of segments laid end to end."""

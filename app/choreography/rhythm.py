@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from app.arrays import FloatArray, IntArray
+from app.arrays import BoolArray, FloatArray, IntArray
 
 SYMBOLS: Final = tuple(range(35, 82))
 """The 47 percussion sounds of General MIDI System Level 1: symbol n is note 35 + n."""
@@ -35,6 +35,8 @@ class Rhythm:
         Of each beat, as the metre divides it: 3 of a dotted quarter of six eighths; 2 without.
     melody : Rhythm, optional
         Beside percussion, what melody, bass and accents stand for.
+    written : (N,) bool, optional
+        Of each beat, whether it is one of the piece; where others are felt between them, see `felt_at`.
     """
 
     beats_s: FloatArray
@@ -45,13 +47,14 @@ class Rhythm:
     derived: bool
     divisions: IntArray | None = None
     melody: Rhythm | None = None
+    written: BoolArray | None = None
 
 
 def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
     """Return whether two rhythms are the same to a dancer."""
     if one is None or other is None:
         return one is other
-    arrays = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions")
+    arrays = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions", "written")
     same = all(np.array_equal(getattr(one, name), getattr(other, name)) for name in arrays)
     return same and are_alike(one.melody, other.melody)
 
@@ -97,6 +100,7 @@ def felt_at(rhythm: Rhythm, beat_s: float) -> Rhythm:
             beats_s=np.interp(beats + part / count[beats], np.arange(len(count)), rhythm.beats_s),
             bar_beats=(rhythm.bar_beats * divisions)[beats] + part,
             divisions=np.full(len(beats), 2),
+            written=(part == 0) & (True if rhythm.written is None else rhythm.written[beats]),
         )
         return felt_at(divided, beat_s)
     downbeats = np.flatnonzero(rhythm.bar_beats == 0)

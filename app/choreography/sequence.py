@@ -21,19 +21,16 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IntArray, SingleArray
+from app.arrays import FloatArray, IntArray, SingleArray
+from app.choreography.accent_grid import AccentGrid
 from app.choreography.heard import HeardHits
-from app.choreography.rhythm import Rhythm
+from app.choreography.moves import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
-SPEEDS: Final = (0.67, 1.5)
-"""A motion is danced no slower and no faster than this from one arrival to the next, beside the speed it was captured
-at; in between its speed goes over smoothly and was up to 1.75 for a moment."""
 MOST_BEATS: Final = 4
 """From one accent to the next there are at most so many beats."""
 
@@ -60,6 +57,8 @@ class Weights:
         Of each time that a segment was danced within `LATELY_S`.
     returns : float
         Of a segment that was danced where the music was as it is again.
+    meets : float
+        Of an arrival of the body on a beat against one between beats; footfalls likewise.
     """
 
     join_per_m: float = 40.0
@@ -70,35 +69,15 @@ class Weights:
     chance: float = 0.6
     lately: float = 2.0
     returns: float = 2.0
+    meets: float = 1.5
 
 
 LATELY_S: Final = 12.0
 PHRASE_BEATS: Final = 16
 """Beats that are searched at a time; the motions danced in them then count as danced lately."""
-NEVER: Final = -1e9
-_SHARES: Final = 64
-"""Accuracy, as a part of the time from accent to accent, of where two segments meet."""
 
 
-@dataclass(frozen=True, eq=False)
-class AccentGrid:
-    """Times at which a dance can place accents.
-
-    Attributes
-    ----------
-    times_s : (G,) float64
-        Ascending.
-    on_beat : (G,) bool
-    """
-
-    times_s: FloatArray
-    on_beat: BoolArray
-
-    @cached_property
-    def beats(self) -> FloatArray:
-        """(G,) places in beats from the first one."""
-        on_beat = np.flatnonzero(self.on_beat)
-        return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
+_MIDDLES: Final = (np.arange(SHARES) + 0.5) / SHARES
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +93,8 @@ class SegmentCandidates:
         How far the end of the one is from the start of the other.
     log_transition : (S, S) float64
         Log odds of the second's state after the first's.
+    meets : SegmentMeets, optional
+        When bodies arrive and feet come down.
     """
 
     states: IntArray
@@ -121,6 +102,7 @@ class SegmentCandidates:
     after_s: FloatArray
     joins_m: FloatArray
     log_transition: FloatArray
+    meets: SegmentMeets | None = None
 
 
 @dataclass(frozen=True)
@@ -139,17 +121,6 @@ class Constraints:
     pinned: Mapping[int, int] = field(default_factory=dict)
     segments: Mapping[int, int] = field(default_factory=dict)
     forbidden: frozenset[tuple[int, int]] = frozenset()
-
-
-def grid_of(rhythm: Rhythm) -> AccentGrid:
-    """Beats, and the places between them that divide them as the metre does."""
-    beats = rhythm.beats_s
-    if len(beats) < 2:
-        return AccentGrid(beats, np.ones(len(beats), bool))
-    divisions = np.full(len(beats), 2) if rhythm.divisions is None else rhythm.divisions
-    places = np.concatenate([at + np.arange(parts) / parts for at, parts in enumerate(divisions[:-1].tolist())])
-    places = np.append(places, len(beats) - 1.0)
-    return AccentGrid(np.interp(places, np.arange(len(beats)), beats), places % 1.0 == 0.0)
 
 
 def choose(
@@ -228,6 +199,7 @@ class _Search:
     ) -> None:
         self._grid, self._candidates, self._weights, self._constraints = grid, candidates, weights, constraints
         self._heard = replace(heard, summed=weights.model * weights.heard * heard.summed)
+        self._hits = heard.before(grid.times_s).tolist()
         self._earliest = np.searchsorted(grid.beats, grid.beats - MOST_BEATS - 1e-6).tolist()
         self._constrained = sorted({*constraints.pinned, *constraints.segments})
         self._forbidden: dict[int, list[int]] = {}
@@ -235,20 +207,21 @@ class _Search:
             self._forbidden.setdefault(place, []).append(state)
         nothing = np.zeros(len(candidates.states))
         self._usual = nothing if usual is None else weights.model * usual
+        meets = candidates.meets or no_meets(len(nothing))
         self._off_beat = -weights.off_beat * ~grid.on_beat
+        self._at_accent = weights.meets * (grid.strengths[:, None] - 0.5) * meets.accents
         self._initial = nothing if initial is None else weights.model * initial
-        base = weights.model * candidates.log_transition - weights.join_per_m * candidates.joins_m
-        np.fill_diagonal(base, NEVER)
-        self._base = base.astype(np.float32)
-        self._lasts_s = candidates.after_s[:, None] + candidates.before_s[None, :]
-        # A row for each end, as of the scores of moves: where they meet, as places in the tables of `_add_struck`.
-        meets = (_SHARES * candidates.after_s / np.maximum(self._lasts_s.T, 1e-9)).astype(np.intp)
-        row, every = np.minimum(meets, _SHARES - 1) * len(nothing), np.arange(len(nothing))
-        self._of_start, self._of_end = row + every, row + every[:, None]
-        self._taken = np.empty(row.shape, np.float32)
-        self._between: dict[int, SingleArray] = {}
-        self._longest_s = float(self._lasts_s.max()) / SPEEDS[0] if self._lasts_s.size else 0.0
-        self._shortest_s = float(self._lasts_s.min()) / SPEEDS[1] if self._lasts_s.size else 0.0
+        self._moves = SegmentMoves(
+            grid,
+            MoveCosts(
+                weights.model * candidates.log_transition - weights.join_per_m * candidates.joins_m,
+                candidates.before_s,
+                candidates.after_s,
+                weights.speed,
+                self._usual,
+                replace(meets, worths=weights.meets * meets.worths),
+            ),
+        )
 
     def phrase(
         self, before: tuple[int, int] | None, first: int, stop: int, extra: FloatArray, ends: FloatArray
@@ -260,34 +233,30 @@ class _Search:
         times = self._grid.times_s
         count = stop - first
         best = np.full((count, len(self._initial)), float(NEVER) * 10.0)
-        came = np.full((count, len(self._initial), 2), -1, np.int64)
-        scores, every = np.empty_like(self._base), np.arange(len(self._initial))
+        segments = len(self._initial)
+        # Place and segment that each accent was reached from, as one number.
+        came = np.full((count, segments), -1, np.int64)
         for place in range(first, stop):
             row = place - first
-            own = self._usual + self._off_beat[place] + extra[row] + self._allowed(place)
+            own = self._usual + self._off_beat[place] + self._at_accent[place] + extra[row] + self._allowed(place)
             if before is None and row == 0:
                 struck = self._heard.between(times[place] - self._candidates.before_s, times[place])
                 best[row] = self._initial + struck + own
-            elif before is not None:
-                gap_s = times[place] - times[before[0]]
-                if self._possible(gap_s):
-                    scores[:] = self._moves(gap_s)
-                    self._add_struck(scores, before[0], place)
-                    reached = scores[:, before[1]] + own
-                    better = reached > best[row]
-                    best[row, better] = reached[better]
-                    came[row, better] = -1
+            elif before is not None and self._moves.possible(times[place] - times[before[0]]):
+                table = self._moves.table_from(before[1], before[0], place)
+                heard, total = self._struck(before[0], place)
+                reached = table.best(np.zeros(len(own), np.float32), heard)[1] + own + total
+                np.maximum(best[row], reached, out=best[row])
             for earlier in range(max(first, self._earliest[place]), place):
-                gap_s = times[place] - times[earlier]
-                if not self._possible(gap_s) or self._skips(earlier, place):
+                if not self._moves.possible(times[place] - times[earlier]) or self._skips(earlier, place):
                     continue
-                np.add(self._moves(gap_s), best[earlier - first].astype(np.float32), out=scores)
-                self._add_struck(scores, earlier, place)
-                from_segment = scores.argmax(axis=1)
-                reached = scores[every, from_segment] + own
+                table = self._moves.table(earlier, place, every=self._is_constrained(earlier))
+                heard, total = self._struck(earlier, place)
+                from_segment, reached = table.best(best[earlier - first].astype(np.float32), heard)
+                reached = reached + own + total
                 better = reached > best[row]
-                best[row, better] = reached[better]
-                came[row, better, 0], came[row, better, 1] = earlier, from_segment[better]
+                np.copyto(best[row], reached, where=better)
+                np.copyto(came[row], earlier * segments + from_segment, where=better)
         return self._way_back(best + ends, came, first, stop)
 
     def latest(self, place: int) -> int:
@@ -297,7 +266,7 @@ class _Search:
     def reaches(self, place: int, later: int) -> bool:
         """Return whether an accent at a place can be followed by one from ``later`` on."""
         gaps_s = self._grid.times_s[later : self.latest(place) + 1] - self._grid.times_s[place]
-        return any(self._possible(gap_s) for gap_s in gaps_s)
+        return any(self._moves.possible(gap_s) for gap_s in gaps_s)
 
     def _way_back(self, best: FloatArray, came: IntArray, first: int, stop: int) -> list[tuple[int, int]]:
         """From the best accent near the end."""
@@ -314,8 +283,8 @@ class _Search:
         row = max(rows, key=lambda at: float(finally_[at].max()))
         segment = int(finally_[row].argmax())
         way = [(first + row, segment)]
-        while came[row, segment, 0] >= 0:
-            place, segment = int(came[row, segment, 0]), int(came[row, segment, 1])
+        while came[row, segment] >= 0:
+            place, segment = divmod(int(came[row, segment]), came.shape[1])
             row = place - first
             way.append((place, segment))
         return way[::-1]
@@ -336,34 +305,17 @@ class _Search:
         """Return whether going from one place to the other leaves out one that has to have an accent."""
         return bisect_right(self._constrained, earlier) < bisect_left(self._constrained, place)
 
-    def _add_struck(self, scores: SingleArray, earlier: int, place: int) -> None:
-        """Add the log odds of what is struck from one accent to the next: of the one's segment until they meet, then of
-        the other's."""
-        start_s, stop_s = self._grid.times_s[[earlier, place]]
-        times_s, summed = self._heard.times_s, self._heard.summed
-        first, stop = self._heard.before(self._grid.times_s[[earlier, place]])
+    def _is_constrained(self, place: int) -> bool:
+        return place in self._forbidden or place in self._constraints.pinned or place in self._constraints.segments
+
+    def _struck(self, earlier: int, place: int) -> tuple[SingleArray | None, FloatArray | float]:
+        """Log odds of what is struck from one accent to the next: (SHARES, S) until the one's segment goes over into
+        the other's, and (S,) altogether."""
+        first, stop = self._hits[earlier], self._hits[place]
         if first == stop:
-            return
-        shares = (times_s[first:stop] - start_s) / (stop_s - start_s)
-        met = first + np.searchsorted(shares, (np.arange(_SHARES) + 0.5) / _SHARES)
-        for log_odds, which in (
-            (summed[met] - summed[first], self._of_start),
-            (summed[stop] - summed[met], self._of_end),
-        ):
-            scores += log_odds.astype(np.float32).take(which, out=self._taken, mode="clip")
-
-    def _possible(self, gap_s: float) -> bool:
-        return self._shortest_s <= gap_s <= self._longest_s
-
-    def _moves(self, gap_s: float) -> SingleArray:
-        """(S, S) score of going to the one's accent from the other's in a time; times are rounded to one in 50."""
-        key = round(50.0 * float(np.log(gap_s)))
-        if key not in self._between:
-            off = np.log(self._lasts_s / np.exp(key / 50.0))
-            limit = np.log(SPEEDS[1])
-            cost = self._weights.speed * np.square(off / limit)
-            moves = self._base - cost.astype(np.float32)
-            moves[np.abs(off) > limit + 0.02] += np.float32(NEVER)
-            # A row for each end: the search for the best start runs through memory.
-            self._between[key] = np.ascontiguousarray(moves.T)
-        return self._between[key]
+            return None, 0.0
+        start_s, stop_s = self._grid.times_s[earlier], self._grid.times_s[place]
+        times_s, summed = self._heard.times_s, self._heard.summed
+        met = np.searchsorted((times_s[first:stop] - start_s) / (stop_s - start_s), _MIDDLES)
+        until = summed[first : stop + 1] - summed[first]
+        return until.astype(np.float32).take(met, axis=0), until[-1]

@@ -17,7 +17,9 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from app.arrays import FloatArray
-from app.choreography.sequence import SPEEDS, AccentGrid
+from app.choreography.accent_grid import AccentGrid
+from app.choreography.moves import SPEEDS
+from app.choreography.segment_arrivals import STEPPED_S
 
 REST_S: Final = 0.4
 """A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""
@@ -30,9 +32,7 @@ ARRIVES_BETWEEN: Final = 0.1
 ANCHOR: Final = 0.05
 """Worth of an arrival on a beat, of one in the middle between two, and of a segment that stays where it was put."""
 STEPPED: Final = 0.2
-"""Added worth of an arrival on a beat with which a foot comes down, ..."""
-STEPPED_S: Final = 0.12
-"""... no farther from it than this, for so far a foot alone can be moved (`app.choreography.footfalls`)."""
+"""Added worth of an arrival on a beat with which a foot comes down."""
 SPEED: Final = 0.2
 """Cost of going from one to the next at a limit of `SPEEDS`; by the square in between."""
 MOVED: Final = 0.2
@@ -140,7 +140,8 @@ def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: flo
         for at in near:
             place_s = float(grid.times_s[at])
             moved = MOVED * ((place_s - time) / MOST_S) ** 2
-            options.append((place_s, (on_beat if grid.on_beat[at] else ARRIVES_BETWEEN) - moved))
+            strength = float(grid.strengths[at])
+            options.append((place_s, strength * on_beat + (1.0 - strength) * ARRIVES_BETWEEN - moved))
         items.append(_Item(along, tuple(options)))
     return items
 

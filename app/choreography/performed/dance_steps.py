@@ -14,6 +14,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
+from app.choreography.accent_grid import grid_of
 from app.choreography.body import ENDS, PARENT_OF, SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.dance import SegmentStep
@@ -21,7 +22,6 @@ from app.choreography.features import facing, height_m, points_m
 from app.choreography.generate import Choreographer
 from app.choreography.model import ChoreographyModel
 from app.choreography.performed.dancers import dancing_of, place_of
-from app.choreography.sequence import grid_of
 from app.errors import AppError, Message, Progress, StopRequested, raise_if_stopped
 from app.identity_cache import IdentityCache
 from app.performance.ensemble import Performance

@@ -19,6 +19,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray
 from app.chance import chance, performed_seed
+from app.choreography.accent_grid import AccentGrid, grid_of
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
@@ -26,7 +27,7 @@ from app.choreography.judge import jerking_seams, jolts, sliding_stands
 from app.choreography.performed.choreographers import choreographer_of, too_long_to_dance
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, are_alike, delayed
-from app.choreography.sequence import AccentGrid, Constraints, grid_of
+from app.choreography.sequence import Constraints
 from app.errors import AppError, Message
 from app.identity_cache import IdentityCache, LargeResults
 from app.motion.curves.curve import Envelopes

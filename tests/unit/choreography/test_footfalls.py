@@ -7,10 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from app.choreography.accent_grid import grid_of
 from app.choreography.contacts import tips_m
 from app.choreography.feet import FootPlant, planted
 from app.choreography.footfalls import REACH_S, on_beats
-from app.choreography.sequence import grid_of
 from tests.support.dances import beaten, stepping
 
 FPS = 60.0

@@ -9,9 +9,9 @@ import mido
 import numpy as np
 import pytest
 
+from app.choreography.accent_grid import grid_of
 from app.choreography.percussion import score_rhythm
 from app.choreography.rhythm import SYMBOLS, Rhythm
-from app.choreography.sequence import grid_of
 from app.score.contents import uncast_score
 from app.score.read import read_contents
 

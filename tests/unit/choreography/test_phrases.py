@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.choreography.accent_grid import grid_of
 from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
 from app.choreography.phrases import likeness_of_bars, returning_bars, returning_places
 from app.choreography.rhythm import Rhythm, felt_at
-from app.choreography.sequence import Weights, grid_of
+from app.choreography.sequence import Weights
 from tests.support.dances import model
 
 BEAT_S = 0.55
@@ -91,6 +92,16 @@ def test_far_tempi_are_felt_at_half_or_double_time() -> None:
         assert felt_at(near, 0.5) is near
     for rhythm in (slow, fast):
         assert felt_at(rhythm, 0.5) is rhythm
+
+
+def test_between_the_beats_of_a_slow_piece_feet_come_down_but_bodies_do_not_arrive() -> None:
+    rhythm = played("A", 2.0)
+    grid = grid_of(felt_at(rhythm, 0.5))
+    strong = grid.times_s[grid.strengths == 1.0]
+    assert np.allclose(strong, rhythm.beats_s)
+    assert grid.on_beat.sum() == 4 * len(rhythm.beats_s) - 3
+    near = grid_of(felt_at(played("A"), 0.5))
+    assert np.array_equal(near.strengths == 1.0, near.on_beat)
 
 
 def test_beats_are_divided_and_joined_as_the_metre_does() -> None:

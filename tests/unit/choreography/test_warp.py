@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.choreography.sequence import SPEEDS, AccentGrid, grid_of
+from app.choreography.accent_grid import AccentGrid, grid_of
+from app.choreography.moves import SPEEDS
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from tests.support.dances import beaten
 

@@ -170,7 +170,7 @@ def test_corrections_that_do_not_hold_are_problems(
 
 
 def test_corrections_go_to_the_nearest_place() -> None:
-    from app.choreography.sequence import AccentGrid
+    from app.choreography.accent_grid import AccentGrid
 
     grid = AccentGrid(np.arange(9) * 0.25, np.arange(9) % 2 == 0)
     tempo = played().score.tempo_map

@@ -1,0 +1,61 @@
+"""Times of a piece at which a dance can place accents."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.rhythm import Rhythm
+
+WEAK: Final = 0.0
+"""Strength of a beat that is only felt, between those of the piece."""
+
+
+@dataclass(frozen=True, eq=False)
+class AccentGrid:
+    """Times at which a dance can place accents.
+
+    Attributes
+    ----------
+    times_s : (G,) float64
+        Ascending.
+    on_beat : (G,) bool
+    written : (G,) bool, optional
+        Beats of the piece itself, where more are felt.
+    """
+
+    times_s: FloatArray
+    on_beat: BoolArray
+    written: BoolArray | None = None
+
+    @cached_property
+    def strengths(self) -> FloatArray:
+        """(G,) 1 on a beat of the piece, `WEAK` on one that is only felt, 0 between beats."""
+        written = self.on_beat if self.written is None else self.written
+        return np.where(written, 1.0, np.where(self.on_beat, WEAK, 0.0))
+
+    @cached_property
+    def beats(self) -> FloatArray:
+        """(G,) places in beats from the first one."""
+        on_beat = np.flatnonzero(self.on_beat)
+        return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
+
+
+def grid_of(rhythm: Rhythm) -> AccentGrid:
+    """Beats, and the places between them that divide them as the metre does."""
+    beats = rhythm.beats_s
+    if len(beats) < 2:
+        return AccentGrid(beats, np.ones(len(beats), bool))
+    divisions = np.full(len(beats), 2) if rhythm.divisions is None else rhythm.divisions
+    places = np.concatenate([at + np.arange(parts) / parts for at, parts in enumerate(divisions[:-1].tolist())])
+    places = np.append(places, len(beats) - 1.0)
+    on_beat = places % 1.0 == 0.0
+    written = None
+    if rhythm.written is not None:
+        written = on_beat.copy()
+        written[on_beat] = rhythm.written
+    return AccentGrid(np.interp(places, np.arange(len(beats)), beats), on_beat, written)

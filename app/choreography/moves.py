@@ -1,0 +1,207 @@
+"""Scores of going from one segment to the next between two places of a piece.
+
+What depends neither on the phrase nor on what is struck is worked out once for each time from place to place, and only
+for the segments from which each one is reached best.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from app.arrays import FloatArray, IntArray, SingleArray
+from app.choreography.accent_grid import AccentGrid
+
+SPEEDS: Final = (0.67, 1.5)
+"""A motion is danced no slower and no faster than this from one arrival to the next, beside the speed it was captured
+at; in between its speed goes over smoothly and was up to 1.75 for a moment."""
+NEVER: Final = -1e9
+MOST_STARTS: Final = 32
+"""A segment is reached from one of so many others: those that fit best, by all but what was danced before them."""
+SHARES: Final = 64
+"""Accuracy, as a part of the time from accent to accent, of where two segments meet."""
+NEAR_S: Final = 0.1
+"""Standard deviation in time of an arrival that still meets a beat: it can be moved a little."""
+
+
+_Beats: TypeAlias = tuple[tuple[int, float], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SegmentMeets:
+    """Arrivals of the body and footfalls in segments, beside the one that is put on the grid.
+
+    Attributes
+    ----------
+    times_s : (S, E) float64
+        From the segment's accent; NaN where it has fewer of them.
+    worths : (S, E) float64
+    accents : (S,) float64
+        Worth of the accent itself as an arrival.
+    """
+
+    times_s: FloatArray
+    worths: FloatArray
+    accents: FloatArray
+
+
+def no_meets(segments: int) -> SegmentMeets:
+    """Segments that arrive at their accents only, whatever that is worth."""
+    return SegmentMeets(np.zeros((segments, 0)), np.zeros((segments, 0)), np.zeros(segments))
+
+
+@dataclass(frozen=True, eq=False)
+class MoveTable:
+    """Scores of going to each segment from some others.
+
+    Attributes
+    ----------
+    scores : (S, K) float32
+    starts : (S, K) int
+        Ascending in each row.
+    of_start, of_end : (S, K) int
+        Flat places in tables (`SHARES`, S): of the one's segment and of the other's, where they meet.
+    taken : (S, K) float32
+        Room for what is looked up.
+    """
+
+    scores: SingleArray
+    starts: IntArray
+    of_start: IntArray
+    of_end: IntArray
+    taken: SingleArray
+
+    @cached_property
+    def rows(self) -> IntArray:
+        """Flat place of the first column of each row."""
+        return np.asarray(np.arange(len(self.starts)) * self.starts.shape[1])
+
+    def best(self, before: SingleArray, heard: SingleArray | None) -> tuple[IntArray, SingleArray]:
+        """(S,) the start from which each segment is reached best, and its score.
+
+        Parameters
+        ----------
+        before : (S,) float32
+            Score of each start.
+        heard : (SHARES, S) float32, optional
+            Log odds of what is struck until the one goes over into the other. What is struck altogether, which each
+            segment as an end would hear, is not added.
+        """
+        scores = before.take(self.starts, mode="clip")
+        scores += self.scores
+        if heard is not None:
+            scores += heard.take(self.of_start, out=self.taken, mode="clip")
+            scores -= heard.take(self.of_end, out=self.taken, mode="clip")
+        chosen = scores.argmax(axis=1) + self.rows
+        return np.asarray(self.starts.take(chosen)), np.asarray(scores.take(chosen))
+
+
+@dataclass(frozen=True, eq=False)
+class MoveCosts:
+    """Costs from which scores of moves are made.
+
+    Attributes
+    ----------
+    base : (S, S) float64
+        Of going from the one to the other, however fast.
+    before_s, after_s : (S,) float64
+        From start to accent and from accent to end, as captured.
+    speed : float
+        Of a motion at a limit of `SPEEDS`; by the square in between.
+    usual : (S,) float64
+        Of the starts: those of a high value are looked at first.
+    meets : SegmentMeets
+        Multiplied by what a meeting is worth.
+    """
+
+    base: FloatArray
+    before_s: FloatArray
+    after_s: FloatArray
+    speed: float
+    usual: FloatArray
+    meets: SegmentMeets
+
+
+class SegmentMoves:
+    """Tables of moves over a grid; times are rounded to one in 50."""
+
+    def __init__(self, grid: AccentGrid, costs: MoveCosts) -> None:
+        self._grid, self._costs = grid, costs
+        self._base = costs.base.T.copy()
+        np.fill_diagonal(self._base, NEVER)
+        self._lasts_s = np.maximum(costs.after_s[None, :] + costs.before_s[:, None], 1e-9)
+        self._log_lasts = np.log(self._lasts_s)
+        self._times_s, self._strengths = grid.times_s.tolist(), grid.strengths.tolist()
+        self._tables: dict[tuple[int, _Beats, bool], MoveTable] = {}
+        self._longest_s = float(self._lasts_s.max(initial=0.0)) / SPEEDS[0]
+        self._shortest_s = float(self._lasts_s.min(initial=np.inf)) / SPEEDS[1]
+
+    def possible(self, gap_s: float) -> bool:
+        """Return whether any motion can last so long from accent to accent."""
+        return self._shortest_s <= gap_s <= self._longest_s
+
+    def table(self, earlier: int, place: int, *, every: bool) -> MoveTable:
+        """Moves from the one place to the other; ``every`` start, where not all are free."""
+        key, beats = self._key(earlier, place)
+        full = (key, beats, every)
+        if full not in self._tables:
+            self._tables[full] = self._made(self._starts(key, every), key, beats)
+        return self._tables[full]
+
+    def table_from(self, start: int, earlier: int, place: int) -> MoveTable:
+        """Moves from one segment: (S, 1)."""
+        return self._made(np.full((len(self._base), 1), start, np.intp), *self._key(earlier, place))
+
+    def _key(self, earlier: int, place: int) -> tuple[int, _Beats]:
+        """Rounded time from place to place; and of the beats when, as a share in hundredths, and how strong."""
+        start_s = self._times_s[earlier]
+        gap_s = self._times_s[place] - start_s
+        beats = tuple(
+            (round(100.0 * (self._times_s[at] - start_s) / gap_s), self._strengths[at])
+            for at in range(earlier, place + 1)
+            if self._strengths[at]
+        )
+        return round(50.0 * math.log(gap_s)), beats
+
+    def _starts(self, key: int, every: bool) -> IntArray:
+        """(S, K) the starts from which each segment is reached best."""
+        count = len(self._base)
+        if every or count <= MOST_STARTS:
+            return np.broadcast_to(np.arange(count), (count, count))
+        values = self._base + self._costs.usual - self._speed_cost(self._log_lasts - key / 50.0)
+        best = np.argpartition(values, count - MOST_STARTS, axis=1)[:, count - MOST_STARTS :]
+        return np.asarray(np.sort(best, axis=1))
+
+    def _speed_cost(self, off: FloatArray) -> FloatArray:
+        limit = float(np.log(SPEEDS[1]))
+        return np.asarray(self._costs.speed * np.square(off / limit) - np.where(np.abs(off) > limit + 0.02, NEVER, 0.0))
+
+    def _made(self, starts: IntArray, key: int, beats: _Beats) -> MoveTable:
+        ends = np.arange(len(starts))[:, None]
+        lasts_s = self._lasts_s[ends, starts]
+        scores = self._base[ends, starts] - self._speed_cost(self._log_lasts[ends, starts] - key / 50.0)
+        scores += self._met(starts, lasts_s, math.exp(key / 50.0), beats)
+        met = np.minimum((SHARES * self._costs.after_s[starts] / lasts_s).astype(np.intp), SHARES - 1) * len(starts)
+        taken = np.empty(starts.shape, np.float32)
+        return MoveTable(scores.astype(np.float32), np.ascontiguousarray(starts), met + starts, met + ends, taken)
+
+    def _met(self, starts: IntArray, lasts_s: FloatArray, gap_s: float, beats: _Beats) -> FloatArray:
+        """(S, K) what meetings with beats are worth from accent to accent, if the motion goes evenly."""
+        meets = self._costs.meets
+        total = np.zeros(starts.shape)
+        if not meets.times_s.size:
+            return total
+        hundredths, strengths = np.array(beats, np.float64).reshape(-1, 2).T
+        off_s = gap_s * (np.arange(SHARES + 1)[:, None] / SHARES - hundredths / 100.0)
+        near = (np.exp(-np.square(off_s / NEAR_S) / 2.0) * strengths).max(axis=1, initial=0.0) - 0.5
+        for times_s, worths in zip(meets.times_s.T, meets.worths.T, strict=True):
+            after, before = times_s > 0.0, times_s < 0.0
+            at = np.where(after, times_s, 0.0)[starts] / lasts_s
+            total += near[np.rint(SHARES * at).astype(np.intp)] * np.where(after, worths, 0.0)[starts]
+            at = 1.0 + np.where(before, times_s, 0.0)[:, None] / lasts_s
+            total += near[np.rint(SHARES * at).astype(np.intp)] * np.where(before, worths, 0.0)[:, None]
+        return total

@@ -1,0 +1,78 @@
+"""Arrivals of the body and footfalls within captured segments, and which of them is put on the beat."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray, IntArray
+from app.choreography.model import MotionSegment
+from app.choreography.moves import SegmentMeets
+
+STEPPED_S: Final = 0.12
+"""A foot comes down with an arrival that is no farther from it than this."""
+ARRIVES: Final = 1.0
+FALLS: Final = 0.5
+"""Worth of an arrival of the body and of a footfall on a beat."""
+_SAME_S: Final = 1e-6
+
+
+def accents_s(
+    segments: Sequence[MotionSegment],
+    fps: Sequence[float],
+    slow: Sequence[FloatArray],
+    arrivals: Sequence[IntArray],
+    falls_s: Sequence[FloatArray],
+) -> FloatArray:
+    """(S,) time in its clip of the moment of each segment that is put on the beat.
+
+    It is where the body arrives and a foot comes down; or else where it arrives; or else where it is slowest from the
+    accent on. Of several the slowest.
+
+    Parameters
+    ----------
+    fps, slow, arrivals, falls_s : sequence
+        By clip: frames per second, smoothed speed of the body in each frame, frames of its minima, and times at which
+        feet come down.
+    """
+    found = []
+    for one in segments:
+        rate, speed = fps[one.clip], slow[one.clip]
+        inside = arrivals[one.clip][slice(*np.searchsorted(arrivals[one.clip], (one.start, one.end)))]
+        stepped = np.abs(inside[:, None] / rate - falls_s[one.clip]).min(axis=1, initial=np.inf) <= STEPPED_S
+        frames = inside[stepped] if stepped.any() else inside
+        if not len(frames):
+            frames = np.arange(one.accent, one.end + 1)
+        found.append(int(frames[speed[frames].argmin()]) / rate)
+    return np.array(found)
+
+
+def meets_of(
+    segments: Sequence[MotionSegment],
+    fps: Sequence[float],
+    arrivals: Sequence[IntArray],
+    falls_s: Sequence[FloatArray],
+    accents: FloatArray,
+) -> SegmentMeets:
+    """Arrivals and footfalls of segments, from their accents; parameters as of `accents_s`."""
+    own, at_accent = [], np.zeros(len(segments))
+    for number, (one, accent_s) in enumerate(zip(segments, accents.tolist(), strict=True)):
+        events = []
+        for moments_s, worth, near_s in (
+            (arrivals[one.clip] / fps[one.clip], ARRIVES, 0.5 / fps[one.clip]),
+            (falls_s[one.clip], FALLS, STEPPED_S),
+        ):
+            span_s = np.array([one.start, one.end]) / fps[one.clip] - _SAME_S
+            from_accent = moments_s[slice(*np.searchsorted(moments_s, span_s))] - accent_s
+            at = np.abs(from_accent) <= near_s
+            at_accent[number] += worth * at.any()
+            events += [(time_s, worth) for time_s in from_accent[~at].tolist()]
+        own.append(events)
+    most = max((len(events) for events in own), default=0)
+    times_s, worths = np.full((len(segments), most), np.nan), np.zeros((len(segments), most))
+    for number, events in enumerate(own):
+        for at_, (time_s, worth) in enumerate(events):
+            times_s[number, at_], worths[number, at_] = time_s, worth
+    return SegmentMeets(times_s, worths, at_accent)
