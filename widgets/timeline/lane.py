@@ -59,8 +59,9 @@ class Lane(Retranslated, QWidget):
     preferred_height_px : int
         Its height in a new window.
     least_height_px : int
-    folded_at_first, hides_empty : bool
-        Class attributes. The second: while there is nothing in it it is not there, unless the user shows it.
+    folded_at_first, hides_empty, is_essential : bool
+        Class attributes. The second: while there is nothing in it it is not there, unless the user shows it. The third:
+        it is in sight in a new window, if that takes no more than lower lanes.
     """
 
     id = ""
@@ -68,6 +69,7 @@ class Lane(Retranslated, QWidget):
     least_height_px = 36
     folded_at_first = False
     hides_empty = False
+    is_essential = False
 
     sought = Signal(float)
     fold_changed = Signal()

@@ -177,7 +177,7 @@ class LaneLayout(QObject):
         before, after = change.before, change.after
         watched = (
             (before.takes, after.takes), (before.dancers, after.dancers), (before.corrections, after.corrections),
-            (before.score, after.score),
+            (before.score, after.score), (before.audio, after.audio),
         )  # fmt: skip
         if change.opened or any(one is not other for one, other in watched):
             self.show_lanes()

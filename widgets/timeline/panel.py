@@ -33,7 +33,7 @@ from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
 from widgets.timeline.stack import LaneStack
 from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
-from widgets.timeline.tool_bar import ToolBar
+from widgets.timeline.tool_bar import BUTTON_PX, ToolBar
 from widgets.timeline.zoom_and_scroll import TimeAxis, TimeBar
 
 ZOOM_A_CLICK = 1.5
@@ -131,7 +131,7 @@ class TimelinePanel(Retranslated, QWidget):
         self.lanes_button.setAutoRaise(True)
         self.lanes_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.lanes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.lanes_button.setFixedSize(QSize(GUTTER_PX - 4, 24))
+        self.lanes_button.setMinimumHeight(BUTTON_PX)
         self.lanes_button.setMenu(self.lane_layout.menu)
         self.time_bar = named(TimeBar(self.axis, self), "time_bar")
         zooms = (
@@ -142,9 +142,9 @@ class TimelinePanel(Retranslated, QWidget):
         self.zoom_buttons = {name: IconButton(self.session, name, tip_id, run, name) for name, tip_id, run in zooms}
         for button in self.zoom_buttons.values():
             button.setAutoRaise(True)
-            button.setFixedSize(QSize(26, 24))
-        zoom_bar = self.zoom_buttons.values()
-        return in_row(self.lanes_button, (self.time_bar, 1), *zoom_bar, margins=(2, 1, 2, 1), spacing=2)
+            button.setFixedSize(QSize(BUTTON_PX, BUTTON_PX))
+        self.tool_bar.show_lanes_and_zoom(self.lanes_button, *self.zoom_buttons.values())
+        return in_row((self.time_bar, 1), margins=(GUTTER_PX, 1, 0, 1))
 
     # What commands ask for
 

@@ -9,7 +9,6 @@ from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QResizeEve
 from PySide6.QtWidgets import QApplication, QFrame, QScrollArea, QWidget
 
 from app.editor.session import Session
-from app.editor.tokens import SPLITTER_PX
 from widgets.common.icons import draw_grip
 from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.timeline.lane import FOLDED_PX, Lane
@@ -17,9 +16,13 @@ from widgets.timeline.stacked_players import CAPTION_PX, StackedPlayers
 
 LINE_PX = 1
 """Below a lane that has only one height."""
+HANDLE_PX = 4
+"""Below a lane that can be made taller; there are several, and lanes that fit are worth more than broad lines."""
 MOST_PX = 2000
-ELASTIC_SHARE = 0.68
-"""Most of the height in sight that the elastic lane takes where the lanes do not fit."""
+ELASTIC_SHARE = 0.66
+"""Most of the height in sight that the elastic lane takes where the lanes do not fit and little is in sight."""
+BESIDE_ELASTIC_PX = 90
+"""Height in sight that the elastic lane leaves to others."""
 
 
 class LaneResizeHandle(QWidget):
@@ -35,7 +38,7 @@ class LaneResizeHandle(QWidget):
 
     def show_use(self, resizes: bool) -> None:
         """Broad, with a grip, where the lane can be made taller; else a line."""
-        self.setFixedHeight(SPLITTER_PX if resizes else LINE_PX)
+        self.setFixedHeight(HANDLE_PX if resizes else LINE_PX)
         self.setCursor(Qt.CursorShape.SizeVerCursor if resizes else Qt.CursorShape.ArrowCursor)
 
     # Qt overrides
@@ -169,10 +172,12 @@ class LaneStack(QScrollArea):
             handle.setVisible(lane in shown)
         lines_px = sum(self._handles[lane.id].height() for lane in shown)
         if self._players.active:
+            self._players.set_sight(self.viewport().height())
             lines_px += self._players.needed_px
         free = [lane for lane in shown if not lane.folded and lane.id not in self._set_px]
         heights = {lane.id: FOLDED_PX if lane.folded else self._set_px.get(lane.id, 0) for lane in shown}
         heights |= {lane.id: self._needed_px(lane) for lane in free}
+        self._fit_essential(shown, free, heights)
         room = self.viewport().height() - sum(heights.values()) - lines_px
         wishes = {lane.id: max(lane.preferred_height_px - heights[lane.id], 0) for lane in free}
         requested = sum(wishes.values())
@@ -196,8 +201,26 @@ class LaneStack(QScrollArea):
         """Height of a lane at least, while the user set none; the elastic lane leaves some of what is in sight."""
         if lane is not self._elastic:
             return lane.needed_height_px
-        most = max(int(ELASTIC_SHARE * self.viewport().height()), lane.least_height_px)
+        in_sight = self.viewport().height()
+        most = max(int(ELASTIC_SHARE * in_sight), in_sight - BESIDE_ELASTIC_PX, lane.least_height_px)
         return min(lane.needed_height_px, most)
+
+    def _fit_essential(self, shown: Sequence[Lane], free: Sequence[Lane], heights: dict[str, int]) -> None:
+        """Make lanes lower than they prefer, as far as they allow, where that brings all essential ones into sight."""
+        essential = [lane for lane in shown if lane.is_essential]
+        if self._players.active or not essential:
+            return
+        above = shown[: shown.index(essential[-1]) + 1]
+        used = sum(heights[lane.id] for lane in above) + sum(self._handles[lane.id].height() for lane in above[:-1])
+        over = used - self.viewport().height()
+        spare = {lane.id: heights[lane.id] - lane.least_height_px
+                 for lane in above if lane in free and lane is not self._elastic}  # fmt: skip
+        if not 0 < over <= sum(spare.values()):
+            return
+        for lane_id in sorted(spare, key=lambda lane_id: -spare[lane_id]):
+            cut = min(over, spare[lane_id])
+            heights[lane_id] -= cut
+            over -= cut
 
     def bring_into_view(self, lane: Lane, at_top: bool = False) -> None:
         """Scroll to a lane; one that is taller than what is in sight shows its beginning.
@@ -205,7 +228,8 @@ class LaneStack(QScrollArea):
         Parameters
         ----------
         at_top : bool
-            Bring it to the top, under its player's name where there is one, as far as there are lanes below.
+            Bring it to the top, under its player's name where there is one, as far as there are lanes below; lanes of
+            several players that fit are all brought into sight.
         """
         # The lane may have been shown or unfolded just now.
         self.arrange()
@@ -218,7 +242,8 @@ class LaneStack(QScrollArea):
         top = shown.mapTo(self._contents, QPoint(0, 0)).y()
         bottom = top + shown.height()
         if at_top:
-            bar.setValue(top - CAPTION_PX if lane.isHidden() else top)
+            whole = self._players.height() <= self.viewport().height()
+            bar.setValue(top if not lane.isHidden() else self._players.y() if whole else top - CAPTION_PX)
             return
         bar.setValue(min(max(bar.value(), bottom - self.viewport().height()), top))
 

@@ -33,11 +33,11 @@ KINDS: Final[tuple[type[Lane], ...]] = (PianoRoll, FingeringLane, BreathLane)
 STACKED_IDS: Final = tuple(kind.id for kind in KINDS)
 MOST_STACKED: Final = 8
 """Players whose lanes are shown at once."""
-CAPTION_PX: Final = 26
-HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 70, FingeringLane.id: 46, BreathLane.id: 26}
-"""Heights by the lane's id, while the user set no other: lanes of two players are in sight at once."""
-LEAST_ROW_PX: Final = 3.5
-"""Height of a pitch in a low roll: two octaves rather than notes that are cut off."""
+CAPTION_PX: Final = 24
+HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 92, FingeringLane.id: 46, BreathLane.id: 26}
+"""Heights by the lane's id, while the user set no other; notes of ten pitches are legible in a roll."""
+LOW_PX: Final[Mapping[str, int]] = {PianoRoll.id: 92, FingeringLane.id: 26, BreathLane.id: 24}
+"""Heights where they bring all players into sight at once, as those of two in a window of usual size."""
 MOST_ROLL_PX: Final = 260
 """Rolls grow to this height where there is room."""
 MOST_PX: Final = 600
@@ -129,7 +129,6 @@ class PlayerLanes(QObject):
             lane.plot.installEventFilter(self)
             lane.ask_height(HEIGHTS_PX[kind.id], HEIGHTS_PX[kind.id] // 2)
         self.roll.set_ghosts(Ghosts.ALONE)
-        self.roll.legible_row_px = LEAST_ROW_PX
 
     @property
     def roll(self) -> PianoRoll:
@@ -173,6 +172,7 @@ class StackedPlayers(Retranslated, QWidget):
         self._chosen: frozenset[str] = frozenset()
         self._open: tuple[str, ...] = STACKED_IDS
         self._set_px: dict[str, int] = {}
+        self._sight_px = 0
         self._folded: set[tuple[str, str]] = set()
         """Players and ids of the lanes that are folded."""
         self._places: list[PlayerLanes] = []
@@ -336,39 +336,51 @@ class StackedPlayers(Retranslated, QWidget):
     def _resize(self, by_px: int) -> None:
         lane = self.sender()
         if isinstance(lane, Lane):
-            self._set_px[lane.id] = _within(lane.id, self._height_px(lane.id) + by_px)
+            self._set_px[lane.id] = _within(lane.id, self._set_px.get(lane.id, self._usual_px[lane.id]) + by_px)
             self.changed.emit()
+
+    def set_sight(self, height_px: int) -> None:
+        """Take the height that the stack has in sight into account."""
+        self._sight_px = height_px
 
     @property
     def needed_px(self) -> int:
         """Height with all rolls as low as they may be."""
-        return sum(self._lane_px(lane) for lane in self._lanes_in_sight()) + self._captions_px
+        return self._total_px(self._usual_px)
 
     @property
-    def _captions_px(self) -> int:
-        return CAPTION_PX * (len(self._ids) + (self._left_out_count > 0))
+    def _usual_px(self) -> Mapping[str, int]:
+        """Heights by the lane's id, while the user set no other."""
+        if self._total_px(HEIGHTS_PX) <= self._sight_px or self._total_px(LOW_PX) > self._sight_px:
+            return HEIGHTS_PX
+        lanes = sum(lane.id == FingeringLane.id and not lane.folded for lane in self._lanes_in_sight())
+        more = (self._sight_px - self._total_px(LOW_PX)) // max(lanes, 1)
+        fingering_px = min(LOW_PX[FingeringLane.id] + more, HEIGHTS_PX[FingeringLane.id])
+        return {**LOW_PX, FingeringLane.id: fingering_px}
+
+    def _total_px(self, usual_px: Mapping[str, int]) -> int:
+        captions_px = CAPTION_PX * (len(self._ids) + (self._left_out_count > 0))
+        return captions_px + sum(self._lane_px(lane, usual_px) for lane in self._lanes_in_sight())
 
     def _lanes_in_sight(self) -> list[Lane]:
         return [lane for one in self.shown for id, lane in one.lanes.items() if id in self._open]
 
-    def _lane_px(self, lane: Lane) -> int:
-        return FOLDED_PX if lane.folded else self._height_px(lane.id)
-
-    def _height_px(self, lane_id: str) -> int:
-        return self._set_px.get(lane_id, HEIGHTS_PX[lane_id])
+    def _lane_px(self, lane: Lane, usual_px: Mapping[str, int]) -> int:
+        return FOLDED_PX if lane.folded else self._set_px.get(lane.id, usual_px[lane.id])
 
     def set_room(self, room_px: int) -> None:
         """Take at least `needed_px`; rolls share what there is more."""
-        lanes = self._lanes_in_sight()
+        lanes, usual_px = self._lanes_in_sight(), self._usual_px
         rolls = [lane for lane in lanes if isinstance(lane, PianoRoll) and not lane.folded]
-        more = max(room_px - self.needed_px, 0) // max(len(rolls), 1)
-        total = self._captions_px
+        total = self._total_px(usual_px)
+        more = max(room_px - total, 0) // max(len(rolls), 1)
         for lane in lanes:
-            height = self._lane_px(lane)
+            height = self._lane_px(lane, usual_px)
             if lane in rolls:
-                height = min(height + more, max(MOST_ROLL_PX, height))
+                higher = min(height + more, max(MOST_ROLL_PX, height))
+                total += higher - height
+                height = higher
             lane.setFixedHeight(height)
-            total += height
         self.setFixedHeight(total)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap
+from PySide6.QtGui import QActionGroup, QColor, QIcon, QPalette, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
 from app.editor.session import Session
@@ -30,6 +30,8 @@ MODES = {
 }
 GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.SELECTED: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}
 BUTTON_PX = 26
+READOUT_PX = 160
+"""Room left for what is under the mouse."""
 SWATCH_PX = 12
 
 
@@ -46,6 +48,8 @@ class ToolBar(Retranslated, QWidget):
         row.setContentsMargins(4, 2, 4, 2)
         row.setSpacing(2)
         self.tools: dict[Tool, QToolButton] = {}
+        self._shrinking: list[QToolButton] = []
+        """Buttons that are their picture only where there is no room for texts, in this order."""
         group = QButtonGroup(self)
         for tool in Tool:
             button = self._button(f"tool_{tool.value}")
@@ -92,6 +96,15 @@ class ToolBar(Retranslated, QWidget):
         self.retranslate()
         self.show_state()
 
+    def show_lanes_and_zoom(self, lanes: QToolButton, *zoom: QToolButton) -> None:
+        """Put the menu of the lanes beside that of the other players' notes, and zoom at the right."""
+        row = self.layout()
+        assert isinstance(row, QHBoxLayout)
+        row.insertWidget(row.indexOf(self.ghosts_button) + 1, lanes)
+        self._shrinking = [lanes, self.ghosts_button]
+        for button in zoom:
+            row.addWidget(button)
+
     def _button(self, name: str) -> QToolButton:
         button = named(QToolButton(self), name)
         button.setAutoRaise(True)
@@ -110,6 +123,7 @@ class ToolBar(Retranslated, QWidget):
         self._modes[mode].setChecked(True)
         self.ghosts_button.setText(self._modes[mode].text())
         self.ghosts_button.setIcon(icon(GHOST_ICONS[mode], self._session.tokens))
+        self._fit_texts()
 
     def report(self, text: str) -> None:
         """Show what is under the mouse; nothing: how much is selected."""
@@ -161,3 +175,21 @@ class ToolBar(Retranslated, QWidget):
         self.setPalette(palette)
         self._fill_players()
         self.show_state()
+
+    def _fit_texts(self) -> None:
+        """Show the texts of buttons as far as there is room."""
+        row = self.layout()
+        if row is None:
+            return
+        for style in (Qt.ToolButtonStyle.ToolButtonTextBesideIcon, Qt.ToolButtonStyle.ToolButtonIconOnly):
+            for button in self._shrinking:
+                row.invalidate()
+                needed = row.sizeHint().width() + max(READOUT_PX - self.readout.sizeHint().width(), 0)
+                if style is Qt.ToolButtonStyle.ToolButtonTextBesideIcon or needed > self.width():
+                    button.setToolButtonStyle(style)
+
+    # Qt overrides
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit_texts()

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import shutil
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import msgspec
+import numpy as np
 import pytest
+import soundfile
 from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
@@ -17,8 +21,11 @@ from pytestqt.qtbot import QtBot
 from app.choreography.performed.dancers import dancing_of
 from app.editor.settings import Settings
 from app.errors import Message
+from app.project.edit.marks import set_marks
 from app.project.edit.piece import set_title
 from app.project.storage import load
+from app.score.marks import Mark
+from app.score.model import Marker
 from app.shell.app import Program
 from app.shell.window import FRAME, Window
 from tests.gui.conftest import QUARTET
@@ -280,7 +287,51 @@ def test_a_new_window_shares_its_height_between_players_and_timeline(start: Star
     heights = {lane.id: lane.mapTo(lanes, lane.rect().topLeft()).y() for lane in window.timeline.stack.lanes}
     assert window.timeline.roll.height() >= min(220, 0.6 * lanes.height())
     assert heights["fingering"] < lanes.height()
-    assert window.timeline.lanes["audio"].height() <= 30
+    assert not window.timeline.lanes["audio"].isVisible()
+
+
+@pytest.mark.parametrize("beside", ["", "dynamics", "flags", "dynamics and flags"])
+@pytest.mark.parametrize("instrument_id", ["trumpet_Bb", "oboe", "bassoon"])
+def test_notes_fingerings_and_breaths_are_in_sight_at_first(start: Start, instrument_id: str, beside: str) -> None:
+    program = start()
+    window, session = program.window, program.session
+    window.resize(1600, 1000)
+    program.editor.files.open(QUARTET, ask=False)
+    project = session.project
+    front = msgspec.structs.replace(project.players[0], instrument_id=instrument_id)
+    project = replace(project, players=(front, *project.players[1:]))
+    if "dynamics" in beside:
+        project = set_marks(project, front.id, [Mark("dynamic", tick=0, text="mf")])
+    if "flags" in beside:
+        project = replace(project, score=msgspec.structs.replace(project.score, markers=(Marker(0, "A"),)))
+    session.apply(Message("edit.piece_settings"), project)
+    window.reset_workspace()
+    QApplication.processEvents()
+    stack = window.timeline.stack
+    room = stack.viewport()
+    ids = [id for id in ("roll", "dynamics", "fingering", "breath") if window.timeline.lanes[id].isVisible()]
+    assert ("dynamics" in ids) == ("dynamics" in beside)
+    for id in ids:
+        lane = window.timeline.lanes[id]
+        top = lane.mapTo(room, lane.rect().topLeft()).y()
+        assert 0 <= top < top + lane.height() <= room.height(), id
+        assert lane.height() >= lane.least_height_px
+    assert window.timeline.roll.height() >= 220
+    assert window.viewport.height() >= 0.45 * window.height()
+
+
+def test_the_audio_lane_is_there_with_a_recording(program: Program, tmp_path: Path) -> None:
+    lane = program.window.timeline.lanes["audio"]
+    assert not lane.isVisible()
+    sound = tmp_path / "tone.wav"
+    soundfile.write(sound, np.zeros(4410, np.float32), 44_100)
+    assert drop(program, sound)
+    assert lane.isVisible()
+    trigger(program, "edit.undo")
+    assert not lane.isVisible()
+    # Shown by hand it says what to do.
+    trigger(program, "lanes.audio")
+    assert lane.isVisible()
 
 
 def test_how_a_user_listens_is_remembered(start: Start, settings: Settings) -> None:

@@ -16,14 +16,15 @@ from app.editor.timeline_view import Tool
 from app.project.edit.players import duplicate_players
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, events, fingerings, notes, timeline
-from tests.gui.timeline.hand import Hand
+from tests.gui.timeline.hand import CTRL, Hand
 from tests.gui.timeline.lane_hands import middle
 from tests.support.windows import child, show_in_front
 from widgets.timeline.lane_layout import lane_state
 from widgets.timeline.lanes.breath import BreathLane
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
+from widgets.timeline.model.roll.shown_notes import LEGIBLE_ROW_PX
 from widgets.timeline.panel import TimelinePanel
-from widgets.timeline.stacked_players import MOST_STACKED, PlayerLanes, StackedPlayers
+from widgets.timeline.stacked_players import HEIGHTS_PX, MOST_STACKED, PlayerLanes, StackedPlayers
 
 
 @pytest.fixture
@@ -296,3 +297,35 @@ def test_stacking_is_kept_with_the_lanes(stacked: TimelinePanel, session: Sessio
     assert of(stacked, ids[1]).lanes[BreathLane.id].height() == before + 30
     folded = {place.session.player_id: place.lanes[FingeringLane.id].folded for place in stacked.players.shown}
     assert folded == {ids[1]: False, ids[2]: False, ids[3]: True}
+
+
+def test_notes_of_two_players_are_legible_and_their_breaths_in_sight(
+    panel: TimelinePanel, session: Session, table: ActionTable
+) -> None:
+    panel.resize(1290, 444)
+    table.attach("window", panel)
+    session.set_players(player_ids(session)[:2])
+    table.refresh()
+    panel.activateWindow()
+    QTest.qWaitForWindowActive(panel)
+    QTest.keyClick(panel.roll.plot, Qt.Key.Key_S, CTRL | Qt.KeyboardModifier.AltModifier)
+    QApplication.processEvents()
+    assert len(panel.players.shown) == 2
+    room = panel.stack.viewport()
+    for place in panel.players.shown:
+        assert place.roll.row_px >= LEGIBLE_ROW_PX - 0.01, "a note is 8 pixels high"
+        breath = place.lanes[BreathLane.id]
+        top = breath.mapTo(room, QPoint(0, 0)).y()
+        assert 0 <= top < top + breath.height() <= room.height()
+        assert breath.height() >= breath.least_height_px
+    # They stay in sight, whoever is in front.
+    QTest.mouseClick(panel.players.shown[1].caption, Qt.MouseButton.LeftButton, pos=QPoint(40, 10))
+    QApplication.processEvents()
+    assert session.players[0] == player_ids(session)[1]
+    assert panel.stack.verticalScrollBar().value() == panel.players.y()
+    # Lanes of three have their usual heights, and are scrolled to.
+    session.set_players(player_ids(session)[:3])
+    QApplication.processEvents()
+    assert all(place.roll.row_px >= LEGIBLE_ROW_PX - 0.01 for place in panel.players.shown)
+    assert panel.players.shown[0].lanes[FingeringLane.id].height() == HEIGHTS_PX[FingeringLane.id]
+    assert panel.stack.verticalScrollBar().maximum() > 0

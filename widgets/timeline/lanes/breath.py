@@ -27,6 +27,8 @@ PREPARATION_SHARE = 0.45
 """Height of a preparation, of the lane."""
 
 
+NEEDED_PX = 28
+"""Height in which depths are told apart easily."""
 LEAST_SHAPE_PX = 6.0
 """Something narrower is a bar."""
 
@@ -36,12 +38,17 @@ class BreathLane(RegionLane):
 
     id = "breath"
     preferred_height_px = 40
-    least_height_px = 28
+    least_height_px = 24
+    is_essential = True
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
         self.problem_marks = ProblemMarks(self, ("breath",))
         self.texted(self.title, text="breath_lane.breath", tip="breath_lane.drag_to_move_up_and")
+
+    @property
+    def needed_height_px(self) -> int:
+        return max(super().needed_height_px, NEEDED_PX)
 
     def kind_name(self, kind: str) -> str:
         return kind_name(kind)

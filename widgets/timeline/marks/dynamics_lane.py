@@ -103,8 +103,9 @@ class DynamicsLane(Lane):
 
     id = "dynamics"
     preferred_height_px = 34
-    least_height_px = 26
+    least_height_px = 24
     hides_empty = True
+    is_essential = True
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self.marks = ShownMarks(session)

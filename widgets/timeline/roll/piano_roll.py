@@ -81,14 +81,13 @@ class PianoRoll(Lane):
     id = "roll"
     preferred_height_px = 240
     least_height_px = 112
+    is_essential = True
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         self.model = RollModel(session, axis)
         self._gesture: MouseGesture | None = None
         self._tool = Tool.SELECT
         self._velocity = FIRST_VELOCITY
-        self.legible_row_px = LEGIBLE_ROW_PX
-        """Height of a pitch at least, until the user scrolled or zoomed."""
         self._pitches_chosen = False
         """True once the user scrolled or zoomed the pitches; until then they suit the height of the lane."""
         super().__init__(session, axis, parent)
@@ -203,9 +202,9 @@ class PianoRoll(Lane):
         here = table.pitch[table.visible(self.axis.start_s, self.axis.end_s)]
         pitches = here if len(here) else table.pitch
         room_px = self.plot_rect.height()
-        if np.ptp(table.pitch) + 1 + self.marks.air_rows <= room_px / self.legible_row_px:
+        if np.ptp(table.pitch) + 1 + self.marks.air_rows <= room_px / LEGIBLE_ROW_PX:
             pitches = table.pitch
-        self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px, self.legible_row_px))
+        self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px))
 
     def bring_notes_into_view(self, note_ids: Iterable[str]) -> None:
         """Scroll to the pitches of notes of the player in front, if most of them are out of view."""

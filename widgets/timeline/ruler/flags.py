@@ -16,7 +16,7 @@ from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.ruler.strip import Strip
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
-FLAGS_PX = 20
+FLAGS_PX = 18
 LEAST_FLAG_PX = 32.0
 """Least width of a flag with a text."""
 MOST_FLAG_PX = 220.0

@@ -52,7 +52,7 @@ from widgets.timeline.ruler.ruler_unit import UnitButton
 from widgets.timeline.ruler.strip import Strip
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
-MARKS_PX = 22
+MARKS_PX = 20
 SCALE_PX = 24
 LOOP_PX, PUNCH_PX = 4.0, 4.0
 HEAD_PX = 6.0

@@ -20,7 +20,7 @@ from widgets.common.instrument_name import language
 from widgets.timeline.plot.drawing import draw_mark, draw_rects, shade, small_font
 from widgets.timeline.plot.plot import LaneView
 
-LEAST_PX, USUAL_PX, PREFERRED_PX = 60, 80, 116
+LEAST_PX, USUAL_PX, PREFERRED_PX = 52, 80, 116
 """Height of a lane with charts: at least, what it needs to be read easily, and at first where there is room."""
 MOST_HOLE_PX = 18.0
 MARGIN_PX = 3.0

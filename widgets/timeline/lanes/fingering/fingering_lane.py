@@ -152,6 +152,7 @@ class FingeringLane(Lane):
     """The fingerings of the player in front. A click on a note shows what else could be played there."""
 
     id = "fingering"
+    is_essential = True
     preferred_height_px = 72
     least_height_px = 46
 

@@ -85,6 +85,7 @@ class WaveformLane(Lane):
 
     id = "audio"
     preferred_height_px, least_height_px = EMPTY_PX, EMPTY_PX
+    hides_empty = True
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, parent)
@@ -101,6 +102,10 @@ class WaveformLane(Lane):
         """Thin while there is nothing to see."""
         empty = self.session.project.audio is None
         self.ask_height(EMPTY_PX if empty else PREFERRED_PX, EMPTY_PX if empty else LEAST_PX)
+
+    @property
+    def is_empty(self) -> bool:
+        return self.session.project.audio is None
 
     def retranslate(self) -> None:
         self.update_items()

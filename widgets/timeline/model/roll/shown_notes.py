@@ -63,9 +63,7 @@ def fitted_pitches(low: float, high: float, room_px: float) -> tuple[float, floa
     return kept_pitches((low + high) / 2 - rows / 2, rows)
 
 
-def legible_pitches(
-    pitches: FloatArray, air: float, room_px: float, row_px: float = LEGIBLE_ROW_PX
-) -> tuple[float, float]:
+def legible_pitches(pitches: FloatArray, air: float, room_px: float) -> tuple[float, float]:
     """The lowest and the highest pitch to show so that notes are legible; where not all fit, as many as possible.
 
     Parameters
@@ -74,11 +72,9 @@ def legible_pitches(
         Of the notes to show, at least one.
     air : float
         Rows to leave free above the notes.
-    row_px : float
-        Least height of a row.
     """
     low, high = float(pitches.min()), float(pitches.max()) + 1.0 + air
-    rows = room_px / row_px
+    rows = room_px / LEGIBLE_ROW_PX
     if high - low <= rows:
         # The air around them is given up first.
         rows = max(min(max(high - low + AIR_ROWS, USUAL_ROWS), rows), LEAST_ROWS)
