@@ -230,7 +230,7 @@ class LiveMotion:
     def work(self, stop_requested: StopRequested = lambda: False) -> bool:
         """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
         player."""
-        if self.is_seen or len(self._made) >= MOST_UNJUDGED:
+        if self.is_moving or len(self._made) >= MOST_UNJUDGED:
             self._judge_made()
         more = self._make_missing(stop_requested)
         if not more:

@@ -19,9 +19,12 @@ OUR_OWN = {
     "app/evaluation/page.py": {"read_text", "read_bytes"},  # and clips that were drawn a moment ago
     "app/messages/details/__init__.py": {"read_text", "tomllib"},
     "app/messages/wordings.py": {"read_text", "tomllib"},
+    "app/cli/commands.py": {"read_text", "tomllib"},
     "app/shell/help/guides.py": {"read_text"},
+    "app/shell/help/places.py": {"read_text", "tomllib"},
     "app/shell/theme.py": {"read_text"},
     "widgets/common/icons.py": {"read_text"},
+    "widgets/viewport/renderer.py": {"read_text"},
     # A file that this process has made: a lock, or what it copies to its backup.
     "app/formats/locks.py": {"open"},
     "app/formats/atomic.py": {"open"},
