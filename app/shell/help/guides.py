@@ -26,7 +26,7 @@ ORDER: Final = (
     *("editor", "correct-by-hand", "cameras"),
     *("from-your-notation-program", "piece-settings", "marks", "acting", "curves", "choreography"),
     *("record-your-first-take", "follow-a-recording", "reference-video", "bring-your-own-character"),
-    *("into-unreal", "files-for-other-programs", "skeletons", "stream-live", "evaluate"),
+    *("into-unreal", "unreal-import-options", "files-for-other-programs", "skeletons", "stream-live", "evaluate"),
     *("add-an-instrument", "metadata", "command-line", "inspect", "glossary"),
     *("install", "tested", "licences", "security", "conduct", "architecture"),
 )
