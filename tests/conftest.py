@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
 from collections.abc import Callable, Iterator
 from typing import Any, Final
 
@@ -18,6 +20,11 @@ from tests.support.touched import Touched, touching
 settings.register_profile("suisou", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None)
 settings.load_profile("suisou")
+
+# No test reads or writes what the user of this machine has: characters, instruments, tables, settings.
+_USER: Final = tempfile.TemporaryDirectory(prefix="suisou-user-")
+for _variable in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"):
+    os.environ[_variable] = f"{_USER.name}/{_variable.lower()}"
 
 
 PATIENCE_MS: Final = 180_000

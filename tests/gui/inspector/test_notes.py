@@ -196,7 +196,7 @@ def test_pitches_are_read(planned: Session) -> None:
     assert pitch_from(display, "F#-1") == 6
     assert pitch_from(display, "Ｃ４") == 60
     assert pitch_from(display, "61") == 61
-    for text in ("", "H3", "128", "C11", "C", "sol"):
+    for text in ("", "X3", "128", "C11", "C", "sol"):
         assert pitch_from(display, text) is None
 
 

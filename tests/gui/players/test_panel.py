@@ -443,7 +443,7 @@ def test_snapping_arrows_and_numbers(panel: PlayersPanel, session: Session) -> N
 def test_characters_have_portraits(panel: PlayersPanel, qtbot: QtBot) -> None:
     combo = child(panel, QComboBox, "player_character")
     assert isinstance(combo, QComboBox)
-    qtbot.waitUntil(lambda: not combo.itemIcon(0).isNull())
+    qtbot.waitUntil(lambda: not any(combo.itemIcon(number).isNull() for number in range(combo.count())))
     heads = [combo.itemIcon(number).pixmap(28, 28).toImage() for number in range(combo.count())]
     for head in heads:
         # Skin or hair in the middle, nothing in the upper corners.
