@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
+from app.editor.edit_names import edit_at
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
@@ -20,8 +21,8 @@ from app.project.model import Project
 from app.score.marks import MARK
 from app.score.model import Note
 
-Addition: TypeAlias = tuple[PlayerPlan, Callable[[Project], Edited]]
-"""A player's plan, and the edit."""
+Addition: TypeAlias = tuple[PlayerPlan, int, Callable[[Project], Edited]]
+"""A player's plan, the tick of the place, and the edit."""
 Places: TypeAlias = Iterable[tuple[PlayerPlan, int]]
 """A player's plan, and the tick of an event."""
 Spans: TypeAlias = Iterable[tuple[PlayerPlan, int, int]]
@@ -37,7 +38,7 @@ def add_breaths(session: Session, places: Places) -> None:
     _add(
         session,
         "edit.add_breath",
-        [(plan, partial(breaths_and_cues.add_breath, plan=plan, tick=tick)) for plan, tick in places],
+        [(plan, tick, partial(breaths_and_cues.add_breath, plan=plan, tick=tick)) for plan, tick in places],
     )
 
 
@@ -74,7 +75,7 @@ def add_cues(session: Session, places: Places) -> None:
     _add(
         session,
         "edit.add_cue",
-        [(plan, partial(breaths_and_cues.add_cue, plan=plan, tick=tick)) for plan, tick in places],
+        [(plan, tick, partial(breaths_and_cues.add_cue, plan=plan, tick=tick)) for plan, tick in places],
     )
 
 
@@ -83,7 +84,8 @@ def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
     amount = 0.5 if GESTURE_KINDS[kind].signed else 1.0
     add = partial(edit.add_gesture, kind=kind, amount=amount)
     made = [
-        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
+        (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
+        for plan, start, end in spans
     ]
     _add(session, "edit.add_gesture", made)
 
@@ -94,7 +96,7 @@ def add_named_gestures(session: Session, name: str, spans: Spans) -> None:
     length_s = session.performance.metadata.gestures.items[name].length_s
     add = partial(edit.add_gesture, kind="named", amount=1.0, gesture=name)
     made = [
-        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
+        (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
         for plan, start, _ in spans
         for end in [round(clock.ticks(clock.seconds(float(start)) + length_s))]
     ]
@@ -106,7 +108,8 @@ def add_expressions(session: Session, name: str, spans: Spans) -> None:
     face = session.performance.expressions[name]
     add = partial(edit.add_expression, expression=name, fade_in_s=face.fade_in_s, fade_out_s=face.fade_out_s)
     made = [
-        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
+        (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
+        for plan, start, end in spans
     ]
     _add(session, "edit.add_expression", made)
 
@@ -115,7 +118,8 @@ def add_styles(session: Session, style: str, spans: Spans) -> None:
     """Let players play in a style over each span."""
     add = partial(edit.add_style, style=style)
     made = [
-        (plan, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end)) for plan, start, end in spans
+        (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
+        for plan, start, end in spans
     ]
     _add(session, "edit.add_style", made)
 
@@ -148,13 +152,14 @@ def _add(session: Session, id: str, additions: Sequence[Addition]) -> None:
     keys: set[EventKey] = set()
 
     def whole(project: Project) -> Project:
-        for plan, add in additions:
+        for plan, _, add in additions:
             project, event_ids = add(project)
             keys.update(EventKey(plan.player_id, event_id) for event_id in event_ids)
         return project
 
     before = session.project
-    if additions and session.attempt(Message(id), whole):
+    players, ticks = {plan.player_id for plan, _, _ in additions}, [tick for _, tick, _ in additions]
+    if additions and session.attempt(edit_at(before, id, len(additions), players, ticks), whole):
         session.select(Selection(events=frozenset(keys)))
         if session.project is before and keys:
             session.notice(Message("edit.is_there"))

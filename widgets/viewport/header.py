@@ -42,6 +42,8 @@ _SHOWN: Final[dict[Shown, tuple[str, str]]] = {
 """Texts, by their ids, and pictures of what is drawn beside the players."""
 FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
+_BETWEEN: Final = " · "
+"""Sign between the parts of the note."""
 _OF_CAMERAS: Final = ("cameras.keep", "cameras.update", "cameras.rename", "cameras.remove")
 
 
@@ -194,7 +196,7 @@ class ViewportHeader(Retranslated, QWidget):
             field.deleteLater()
 
     def set_note(self, text: str) -> None:
-        """Say something between the buttons, as far as there is room."""
+        """Say something between the buttons: the parts from the first on for which there is room."""
         self._note_text = text
         self._note.setToolTip(text)
         self._fold()
@@ -243,9 +245,9 @@ class ViewportHeader(Retranslated, QWidget):
         self._folded.setVisible(not fits)
         views = self._segments if fits else self._folded
         room = self.width() - views.sizeHint().width() - others - 36
-        text = self._note.fontMetrics().elidedText(self._note_text, Qt.TextElideMode.ElideRight, max(room, 0))
-        # A few signs of a sentence help no one.
-        self._note.setText(text if len(text) > 12 or text == self._note_text else "")
+        parts, metrics = self._note_text.split(_BETWEEN), self._note.fontMetrics()
+        whole = (_BETWEEN.join(parts[:count]) for count in range(len(parts), 0, -1))
+        self._note.setText(next((text for text in whole if metrics.horizontalAdvance(text) <= room), ""))
 
     @property
     def _others(self) -> tuple[QToolButton, ...]:

@@ -110,6 +110,10 @@ def test_a_double_click_adds_a_key_and_another_one_joins_its_curve(lane: Additiv
     assert len(curves(lane)) == 2
     document = lane.session.document
     assert [step.name.id for step in document.done] == ["edit.add_curve_key"] * 3
+    label = lane.session.project.metre_map.label
+    assert [str(step.name.arguments["of"]).partition(" · ")[2] for step in document.done] == [
+        label(at) for at in (tick, 10 * QUARTER, 20 * QUARTER)
+    ]
     for left in (1, 1, 0):
         document.undo()
         assert len(curves(lane)) == left
@@ -393,7 +397,7 @@ def test_what_a_body_cannot_do_is_marked_where_it_is(lane: AdditiveLane, session
     _, high = lane.limits
     keys = (CurveKey(0, 0.0), CurveKey(4 * QUARTER, high + 20.0), CurveKey(8 * QUARTER, 0.0))
     session.attempt(
-        Message("edit.add_curve_key"),
+        Message("edit.add_curve_key", {"of": "1"}),
         lambda project: with_corrections(project, player, (AdditiveCurve("own-1", lane.channel, keys),)),
     )
     clock = session.project.score.tempo_map

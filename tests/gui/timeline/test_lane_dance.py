@@ -214,7 +214,7 @@ def test_an_unreadable_choreography_is_said_in_its_row_alone(lane: DanceLane, tm
     path = tmp_path / "broken.choreography"
     path.write_text("{")
     broken = set_choreography(lane.session.project, (NINA,), path)
-    lane.session.document.apply(Message("edit.add_breath"), broken)
+    lane.session.document.apply(Message("edit.add_breath", {"of": "1"}), broken)
     assert lane.dances[NINA].error is not None
     assert lane.dances[MARY].steps
     lane.hover(lane.mouse_at(lane.row_rect(1).center()))

@@ -253,7 +253,8 @@ def test_a_problem_is_marked_and_a_click_selects_its_note(panel: TimelinePanel, 
     )
     before = len(lane.problems)
     session.attempt(
-        Message("edit.add_breath"), lambda project: breaths_and_cues.add_breath(project, plan, note.onset_tick).project
+        Message("edit.add_breath", {"of": "1"}),
+        lambda project: breaths_and_cues.add_breath(project, plan, note.onset_tick).project,
     )
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))

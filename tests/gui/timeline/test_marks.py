@@ -223,6 +223,8 @@ def test_a_double_click_changes_a_dynamic_or_adds_one(marked: Stage) -> None:
     choose("sfz")
     assert marks(marked)[Mark("dynamic", tick=TPQ, text="sfz")] == "hand"
     assert marked.steps == ["edit.set_dynamic", "edit.add_dynamic"]
+    place = marked.session.project.metre_map.label(TPQ)
+    assert str(marked.session.document.done[-1].name.arguments["of"]).endswith(f" · {place}")
     # By the keyboard, too.
     QTest.keyClick(lane(marked).plot, Qt.Key.Key_Return)
     choose("mf")
@@ -248,7 +250,7 @@ def test_a_dynamic_at_one_midi_note_says_how_far_it_holds_and_shows_it(stage: St
     toggle_mark(stage.session, {FRONT: [later]}, "dynamic", "p")
     stage.session.document.undo()
     stage.session.attempt(
-        Message("edit.add_dynamic"),
+        Message("edit.add_dynamic", {"of": "1"}),
         lambda p: set_marks(p, FRONT, [Mark("dynamic", tick=later.onset_tick, text="p")]),
     )
     noted.clear()
@@ -271,7 +273,7 @@ def test_a_dynamic_at_one_midi_note_says_how_far_it_holds_and_shows_it(stage: St
 
 def test_two_dynamics_at_one_tick_stand_side_by_side_and_go_one_by_one(marked: Stage) -> None:
     struck = msgspec.structs.replace(FORTE, text="sfz")
-    marked.session.attempt(Message("edit.add_dynamic"), lambda p: set_marks(p, FRONT, [struck]))
+    marked.session.attempt(Message("edit.add_dynamic", {"of": "1"}), lambda p: set_marks(p, FRONT, [struck]))
     QApplication.processEvents()
     placed = {marks_of(marked)[one.mark]: one.box for one in lane(marked).placed()}
     assert placed[FORTE].right < placed[struck].left
@@ -401,7 +403,7 @@ def test_hidden_marks_are_neither_drawn_nor_caught_and_that_is_remembered(marked
 
 def test_the_lane_of_dynamics_comes_with_the_first_one(stage: Stage) -> None:
     assert lane(stage).isHidden()
-    stage.session.attempt(Message("edit.add_dynamic"), lambda p: set_marks(p, FRONT, [FORTE]))
+    stage.session.attempt(Message("edit.add_dynamic", {"of": "1"}), lambda p: set_marks(p, FRONT, [FORTE]))
     assert lane(stage).isVisible()
     stage.session.document.undo()
     assert lane(stage).isHidden()

@@ -229,6 +229,8 @@ def test_the_pencil_draws_a_note_as_long_as_the_drag(stage: Stage) -> None:
     assert (note.onset_tick, note.end_tick, note.pitch) == (8 * TPQ, 9 * TPQ, 74)
     assert stage.selected == {"n:1"}
     assert stage.steps == ["edit.add_note"]
+    done = stage.session.document.done[-1].name
+    assert str(done.arguments["of"]).endswith(f" · {stage.session.project.metre_map.label(8 * TPQ)}")
     stage.hand.click(stage.place(10.2 * TPQ, 60))
     assert stage.note("n:2").duration_tick == STEP
     assert stage.note("n:2").onset_tick == 10 * TPQ

@@ -41,7 +41,7 @@ from widgets.timeline.model.additive.additive_curves import clip_keys, clip_text
 PLACE = Path("/music/piece.suisou")
 PROJECT = full_project()
 CURVE = next(item for item in PROJECT.corrections["1.1.1"] if isinstance(item, AdditiveCurve))
-EDIT = Message("edit.add_note")
+EDIT = Message("edit.add_note", {"of": "1"})
 
 TEXTS = ["", "\0", "x" * 1_000_000, "\ud800", "\x1b[2J\u202e", "nan", "../../x", "a\nb", "\u2028", "{0}", "１", "-"]
 NUMBERS = [

@@ -11,6 +11,7 @@ from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.additions import tell_reach
+from app.editor.edit_names import edit_at
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -278,7 +279,8 @@ class DynamicsLane(Lane):
         if player is None or (mark is not None and mark.text == text):
             return
         if mark is None:
-            changed, name = Mark("dynamic", tick=max(tick, 0), text=text), Message("edit.add_dynamic")
+            changed = Mark("dynamic", tick=max(tick, 0), text=text)
+            name = edit_at(self.session.project, "edit.add_dynamic", 1, (player.id,), (changed.tick,))
             done = self.session.attempt(name, lambda project: set_marks(project, player.id, [changed]))
         else:
             changed, before = replace(mark, text=text), mark

@@ -111,7 +111,8 @@ class CurveEditing(Lane):
             project, made = edit.add_curve(project, player, channel, ((tick, value),))
             return project
 
-        if self.session.attempt(Message("edit.add_curve_key"), edited):
+        step = edit_at(self.session.project, "edit.add_curve_key", 1, (player,), (tick,))
+        if self.session.attempt(step, edited):
             self.read_curves()
             self.select_keys(frozenset({KeyRef(made, tick)}))
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from app.editor.edit_names import edit_of_notes
+from app.editor.edit_names import edit_at, edit_of_notes
 from app.editor.selection import Selection
-from app.errors import Message
 from app.project.edit import notes
 from app.project.model import Project
 from app.score.model import Note
@@ -201,7 +200,9 @@ class Draw(RollGesture):
             )
             return project
 
-        if self.step.edit(Message("edit.add_note"), added):
+        project = self.step.base
+        players = {player.id for player in project.players if player.part_id == self._part_id}
+        if self.step.edit(edit_at(project, "edit.add_note", 1, players, (self._onset,)), added):
             self.session.select(Selection(frozenset({self.note_id})))
 
     def follow(self, mouse: LaneMouse) -> None:
