@@ -92,9 +92,11 @@ class PieceViews(QObject):
 
     def _restore(self) -> None:
         view = _view(self._settings.piece_view(self._piece()))
-        if view is None:
-            return
         session = self._session
+        if view is None:
+            # Players of the piece before may have the same ids.
+            session.set_players(tuple(player.id for player in session.project.players[:1]))
+            return
         known = {player.id for player in session.project.players}
         players = tuple(id for id in view.players if id in known)
         if players:

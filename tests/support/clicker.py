@@ -337,6 +337,8 @@ class Clicker:
 
     def context_menus(self, spots: dict[str, QWidget], columns: int = 8, rows: int = 3) -> None:
         """Click every entry of the context menus that places of widgets have, at up to `TRIES` places until it acts."""
+        session = self._program.session
+        base = session.selection, session.players
         for spot, widget in spots.items():
             if not widget.isVisible():
                 continue
@@ -344,6 +346,9 @@ class Clicker:
             QApplication.processEvents()
             tried: Counter[Path] = Counter()
             for number, place in enumerate(places(widget, columns, rows)):
+                # A right-click selects: the next menu is that of the state, as it is when its entries are clicked.
+                if (session.selection, session.players) != base:
+                    self._again(frozenset(("selection",)))
                 menu = menu_under(widget, place)
                 if menu is None:
                     close_menus()

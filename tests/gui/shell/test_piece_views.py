@@ -81,6 +81,15 @@ def test_it_comes_back_after_another_piece_and_after_the_program_ended(start: St
     _as_seen(seen, again)
 
 
+def test_another_piece_opens_with_its_first_player_in_front(start: Start, piece: Path, tmp_path: Path) -> None:
+    program = start()
+    program.editor.files.open(piece, ask=False)
+    _look(program)
+    # Read from a like file, its players have the same ids.
+    program.editor.files.open(Path(shutil.copy(piece, tmp_path / "other.mid")), ask=False)
+    assert program.session.players == (program.session.project.players[0].id,)
+
+
 def test_a_saved_piece_has_the_view_it_was_left_with(
     start: Start, piece: Path, answers: Answers, tmp_path: Path
 ) -> None:
