@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import IO, Final
 
 import msgspec
-import platformdirs
 
 from app.encoding import stored
 from app.errors import FileError
@@ -48,11 +47,6 @@ class PresenceNote(msgspec.Struct, frozen=True):
     autosave: str = ""
 
 
-def recovery_folder() -> Path:
-    """Return where the unsaved work of projects without a file is kept."""
-    return platformdirs.user_state_path("suisou", appauthor=False) / "recovery"
-
-
 class Presence:
     """This editor, alive until `leave` or the end of its process.
 
@@ -61,7 +55,7 @@ class Presence:
     Parameters
     ----------
     folder : Path
-        `recovery_folder`; made if needed.
+        `app.project.recovery.recovery_folder`; made if needed.
 
     Attributes
     ----------

@@ -11,6 +11,8 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+import platformdirs
+
 from app.encoding import shown
 from app.errors import FileError
 from app.formats.atomic import sweep
@@ -55,6 +57,11 @@ class Recoverable:
     is_file_changed: bool = False
 
 
+def recovery_folder() -> Path:
+    """Folder on this machine for unsaved work of projects without a file, and for notes of running editors."""
+    return platformdirs.user_state_path("suisou", appauthor=False) / "recovery"
+
+
 def recoverable(folder: Path) -> tuple[Recoverable, ...]:
     """All unsaved work of editors that are gone, the newest first; their other traces are cleared away. May take long:
     every file of unsaved work is read, and the project's own.
@@ -62,7 +69,7 @@ def recoverable(folder: Path) -> tuple[Recoverable, ...]:
     Parameters
     ----------
     folder : Path
-        `app.project.presence.recovery_folder`.
+        `recovery_folder`.
     """
     left = _left_behind(folder)
     found = _described(left, folder)

@@ -34,7 +34,8 @@ from app.formats.scratch import scratch_folder
 from app.project.autosave import Autosave
 from app.project.cameras import VIEWS
 from app.project.edit.piece import new_piece
-from app.project.presence import Presence, recovery_folder
+from app.project.presence import Presence
+from app.project.recovery import recovery_folder
 from app.rig.characters.character_library import begin_characters
 from app.shell.actions import ActionTable
 from app.shell.commands import characters, record
