@@ -38,7 +38,7 @@ from app.rig.skeleton import forward
 
 HIPS: Final = "hips"
 _EYES: Final = ("leftEye", "rightEye")
-"""Not all formats have bones for them."""
+"""Joints that not every format has bones for."""
 _OTHER_BODY_CM: Final = 1.0
 """Bones whose lengths differ by more are those of another body."""
 _HELD_M: Final = 0.03

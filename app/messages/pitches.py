@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final, Literal
 
 PitchNames = Literal["letters", "german", "syllables"]
-"""By letters (B♭4), by the German letters of school bands (B4), or by syllables (Ti♭4)."""
+"""Letters (B♭4), the German letters of school bands (B4), or syllables (Ti♭4)."""
 
 STEPS: Final = ("C", "D", "E", "F", "G", "A", "B")
 _SPELLING: Final = (

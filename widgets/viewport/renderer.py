@@ -50,7 +50,7 @@ SEEN_THROUGH = 0.85
 
 
 _SHADERS = Path(__file__).with_name("shaders")
-"""In GLSL 120, which every driver of the last fifteen years runs."""
+"""Programs in GLSL 120, which every driver of the last fifteen years runs."""
 RING_M = 0.48
 PODIUM_M = (0.28, 0.55)
 """Radii of the rings around a player, and of those that mark the conductor's place."""

@@ -32,7 +32,7 @@ LEVEL_RAD: Final = 0.02
 AUDIENCE_M: Final = 6.0
 OWN_HANDS_M: Final = 0.45
 NEAREST_M: Final = 0.5
-"""No one stands nearer to another."""
+"""Least distance between two players."""
 TO_GIVER_S: Final = (0.25, 0.6)
 """Range of the time before the cue begins at which players look at its giver ..."""
 STAYS_S: Final = (0.05, 0.35)

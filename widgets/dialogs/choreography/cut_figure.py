@@ -22,7 +22,7 @@ from app.rig.characters.joint_mapping import JointMapping
 from widgets.common.choreography.figures import HIGHEST, draw_figures, placed
 
 _WIDEST = 1.15
-"""In parts of the body's height, with the arms to the sides to the fingertips."""
+"""Width in parts of the body's height, with the arms to the sides, to the fingertips."""
 _PEN_PX = 2.5
 
 

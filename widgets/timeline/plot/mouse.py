@@ -1,4 +1,4 @@
-"""The mouse of Qt as models of the timeline know it."""
+"""Conversion of Qt's mouse to the `LaneMouse` of the timeline's models."""
 
 from __future__ import annotations
 
