@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -70,6 +70,15 @@ class MotionClip:
     def span(self, start: int, stop: int) -> MotionClip:
         """Frames ``start`` to ``stop`` (half-open)."""
         return MotionClip(self.shape, self.fps, self.hips_m[start:stop], self.rotations[start:stop])
+
+    def mirrored(self) -> MotionClip:
+        """The motion as a mirror shows it."""
+        swapped = [
+            SEGMENTS.index(name.replace("left", "right") if name.startswith("left") else name.replace("right", "left"))
+            for name in SEGMENTS
+        ]
+        rotations = self.rotations[:, swapped] * (1.0, -1.0, -1.0, 1.0)
+        return replace(self, hips_m=self.hips_m * (-1.0, 1.0, 1.0), rotations=rotations)
 
     def world(self) -> JointTransforms:
         """World transforms: joint 0 is the root on the floor, joint ``1 + n`` segment ``n``."""

@@ -58,7 +58,7 @@ STANDING: Final = 4.0
 PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
 BEAT_S: Final = 0.5
-"""The same, for a capture without steps."""
+"""Time from one footfall to the next, for a capture without steps."""
 IDLE: Final = 1.5
 """Log odds against a segment that idles."""
 IDLE_SHARE: Final = 0.4
@@ -224,7 +224,7 @@ class Choreographer:
         clip, contacts, seams, speeds = self._motion(plan, body, fps, first_s + np.arange(count) / float(fps))
         clip = _sized(clip, manner.size)
         if manner.mirrored:
-            clip, contacts = mirrored(clip), contacts[:, ::-1]
+            clip, contacts = clip.mirrored(), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
         falls = self._on_beats(clip, stands(clip, contacts), first_s, grid_of(rhythm))
         clip = planted(clip, falls.standing, manner.weight, falls.shown)
@@ -364,16 +364,6 @@ class Choreographer:
         frames = Frames(segments, which, source_s, speeds)
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
         return _Motion(unbroken(replace(clip, hips_m=on_stage(clip.hips_m, float(fps)))), contacts, seams, speeds)
-
-
-def mirrored(clip: MotionClip) -> MotionClip:
-    """The motion as a mirror shows it."""
-    swapped = [
-        SEGMENTS.index(name.replace("left", "right") if name.startswith("left") else name.replace("right", "left"))
-        for name in SEGMENTS
-    ]
-    rotations = clip.rotations[:, swapped] * (1.0, -1.0, -1.0, 1.0)
-    return replace(clip, hips_m=clip.hips_m * (-1.0, 1.0, 1.0), rotations=rotations)
 
 
 def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from app.editor.session import Session
-from app.plan.model import FingeringEvent, PlayerPlan
+from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit.events import Placed, placed_events
 from app.project.performers import Player
 from app.score.model import Note, Part
@@ -108,3 +108,8 @@ def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] |
 def fingering_of(plan: PlayerPlan, note_id: str) -> FingeringEvent | None:
     """The fingering event of a note; None for one that cannot sound (the lower note of a chord)."""
     return next((event for event in plan.fingerings if event.note_id == note_id), None)
+
+
+def embouchure_of(plan: PlayerPlan, note_id: str) -> EmbouchureEvent | None:
+    """The embouchure event of a note; None for one that cannot sound."""
+    return next((event for event in plan.embouchures if event.note_id == note_id), None)

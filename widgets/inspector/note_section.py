@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session
 from app.plan.by_hand.corrections import PinFingering, SetEmbouchure
-from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
+from app.plan.model import FingeringEvent, PlayerPlan
 from app.project.edit import events as edit_events
 from app.project.edit import notes as edit_notes
 from app.project.edit.players import instrument_of
@@ -33,7 +33,7 @@ from widgets.common.section import Section
 from widgets.common.text import message_text, sentence
 from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.generated_values import Generated
-from widgets.inspector.inspected_selection import NoteFinder, SelectedNotes, fingering_of, selected_notes
+from widgets.inspector.inspected_selection import NoteFinder, SelectedNotes, embouchure_of, fingering_of, selected_notes
 from widgets.inspector.note_marks import NoteMarks
 
 LATEST_TICK = float(2**31 - 1)
@@ -248,7 +248,7 @@ class NoteSection(Retranslated, QWidget):
         if not events:
             return
         first = next((event for event in events if event.note_id == shown.note.id), events[0])
-        made = _lips_of(bare, first.note_id)
+        made = embouchure_of(bare, first.note_id) if bare is not None else None
         item = self._lips_correction(shown)
         for name, slider in self._lips.items():
             shown_as = round(getattr(first, name), 4)
@@ -389,10 +389,6 @@ class NoteSection(Retranslated, QWidget):
 def _cents_text(cents: float) -> str:
     """``"+12¢"``; empty where a fingering is in tune."""
     return f"{cents:+.0f}¢".replace("-", "−") if round(cents) else ""
-
-
-def _lips_of(plan: PlayerPlan | None, note_id: str) -> EmbouchureEvent | None:
-    return next((event for event in plan.embouchures if event.note_id == note_id), None) if plan is not None else None
 
 
 def _spaced(label: str, instrument: InstrumentMap) -> str:

@@ -16,7 +16,7 @@ from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
 from app.choreography.dance import Dance, Manner
-from app.choreography.generate import Choreographer, mirrored
+from app.choreography.generate import Choreographer
 from app.choreography.joins import fading_difference
 from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints
@@ -119,11 +119,11 @@ def test_to_the_bit() -> None:
 
 def test_a_mirror_shows_left_as_right_and_twice_the_same() -> None:
     clip = stepping(4)
-    seen = mirrored(clip)
+    seen = clip.mirrored()
     there, back = clip.world().positions_m, seen.world().positions_m
     left, right = 1 + 4, 1 + 7
     assert np.allclose(back[:, left], there[:, right] * (-1.0, 1.0, 1.0), atol=1e-9)
-    assert np.allclose(mirrored(seen).rotations, clip.rotations)
+    assert np.allclose(seen.mirrored().rotations, clip.rotations)
     danced = choreographer().dance(beaten(16), Manner(mirrored=True), FPS)
     plain = choreographer().dance(beaten(16), Manner(), FPS)
     assert np.allclose(danced.clip.hips_m * (-1.0, 1.0, 1.0), plain.clip.hips_m, atol=1e-9)

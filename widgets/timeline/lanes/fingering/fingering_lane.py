@@ -179,8 +179,7 @@ class FingeringLane(Lane):
 
     def refresh(self) -> None:
         """Show the plan of the player in front, if it is another."""
-        player = self.session.player
-        plan = self.session.plan
+        player, plan = self.session.player, self.session.plan
         if plan is self._plan and plan is not None:
             return
         if plan is None and player is not None and self._plan is not None and self._plan.player_id == player.id:
