@@ -89,6 +89,9 @@ def frames(packets: list[tuple[float, bytes]]) -> list[Frame]:
                 assert message.arguments == (1,)
                 found.append(Frame(at_s))
                 continue
+            if not found:
+                # The rest of a frame whose beginning was sent before anyone listened.
+                continue
             if message.address == "/VMC/Ext/Blend/Apply":
                 assert message.arguments == ()
                 found[-1].applied = True
