@@ -72,8 +72,10 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
 
 
 def trust_in(model: ChoreographyModel) -> float:
-    """Return how far a dance follows what is struck during single motions, 0 to 1: not where that tells nothing about
-    motions, wholly where it informs by `TRUSTED_BITS`, or where nothing can be said."""
+    """Return how far a dance follows what is struck during single motions, 0 to 1.
+
+    0 where the test finds no information in it; 1 from `TRUSTED_BITS` on, or where the model is too small for the test.
+    """
     found = pairing_of(model)
     if found is None:
         return 1.0

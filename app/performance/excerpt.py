@@ -59,7 +59,7 @@ class PerformanceExcerpt(Performance):
 
     @property
     def shown_players(self) -> tuple[Player, ...]:
-        """The players to be seen in it: not those who move by a choreography, which takes seconds to generate."""
+        """The players to be seen in it: players with a choreography are left out, as it takes seconds to generate."""
         danced = {one.doubles or one.id for one in self.project.players if one.parameters.choreography}
         return tuple(one for one in self.project.players if (one.doubles or one.id) not in danced)
 

@@ -80,7 +80,7 @@ class LiveMotion:
         self._show_more(performance, map(performance.project.player, player_ids), begun)
 
     def show_excerpt(self, performance: Performance, excerpt: PerformanceExcerpt) -> None:
-        """Show a performance that is being planned as an excerpt has it, besides who is shown as planned already."""
+        """Show a performance by its excerpt while it is being planned; players already planned stay as shown."""
 
         def begun(player: Player, old: LiveTrack | None, grid: FrameGrid) -> LiveTrack:
             return old or LiveTrack(player, excerpt.plan(player), excerpt=excerpt)
@@ -368,7 +368,7 @@ class LiveMotion:
 
     @property
     def is_moving(self) -> bool:
-        """True if everyone who is shown has a motion at the playhead, or cannot have one."""
+        """True if each shown player has a motion at the playhead, or cannot have one."""
         shown = self._shown
         here = self._in_sight(shown.grid)[0]
         return all(

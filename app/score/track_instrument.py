@@ -58,8 +58,8 @@ def use_of(channel: TrackChannel) -> Use:
 
     What the sound module was set to decides, but where that is only what channel 10 or a bank usually is, a name of
     anything but percussion makes it a melody. The name of drums or of another untuned percussion makes a rhythm part of
-    any channel; so does the program, where no name tells more. Tuned percussion stays a melody, and so does a tune of a
-    wind's program that is called after a drum.
+    any channel; so does the program, where no name is more exact. Tuned percussion stays a melody, and so does a tune
+    of a wind's program that is called after a drum.
     """
     telling, vague = _named(channel)
     if channel.use == "melodic":

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="packages of Deb
 
 
 def at_terminal(asks: str, typed: bytes) -> str:
-    """What is shown where someone types at a terminal."""
+    """Run the script at a terminal at which this is typed; return its output."""
     import pty
 
     child, terminal = pty.fork()

@@ -219,7 +219,7 @@ def test_a_giant_is_offered_at_the_height_of_a_person(program: Program, tmp_path
 
 
 def test_a_mesh_is_switched_off_and_stays_so(program: Program, tmp_path: Path, qtbot: QtBot) -> None:
-    """What is off is in no picture, no player and no export; at least one stays on."""
+    """A mesh that is off is in no picture, no player and no export; at least one stays on."""
     dialog = opened(program, with_a_shield(tmp_path / "knight.vrm", TODDLER))
     dialog.tabs.setCurrentIndex(2)
     names = ["Toddler", "Shield"]

@@ -28,7 +28,7 @@ PREPARATION_SHARE = 0.45
 
 
 NEEDED_PX = 28
-"""Height in which depths are told apart easily."""
+"""Height in which depths are easily distinguished."""
 LEAST_SHAPE_PX = 6.0
 """Something narrower is a bar."""
 
