@@ -35,6 +35,7 @@ class InstrumentCell(QWidget):
         """Show these boxes with their captions below the row's own."""
         for row in self._rows:
             self._column.removeWidget(row)
+            row.hide()
             row.deleteLater()
         self._rows = []
         for text, box in boxes:
@@ -42,6 +43,8 @@ class InstrumentCell(QWidget):
             caption.setContentsMargins(12, 0, 0, 0)
             self._rows.append(panel(in_row(caption, (box, 1), margins=0)))
             self._column.addWidget(self._rows[-1])
+            # Else Qt does so later, and until then the cell is as low as without it.
+            self._rows[-1].show()
         self.boxes = [box for _, box in boxes]
 
 

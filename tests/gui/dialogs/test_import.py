@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from app.editor.tokens import DARK
+from app.editor.tokens import DARK, LEAST_TARGET_PX
 from app.project import importing
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project, map_choices, project_from_score
@@ -34,7 +35,7 @@ from tests.support.take_files import take_file
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child
 from widgets.dialogs.import_midi import ImportDialog
-from widgets.dialogs.notes_preview import NotesPreview
+from widgets.dialogs.notes_preview import ROW_PX, NotesPreview
 
 LUTKIN = Path(__file__).parents[2] / "data" / "midi" / "ensemble" / "brass_quartet_lutkin_2tpt_tbn_tuba.mid"
 MAPS = {
@@ -560,6 +561,48 @@ def test_each_player_of_a_split_track_has_an_instrument_of_its_own(
     choose(dialog, "split_0", "never")
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     assert dialog.findChild(QComboBox, "instrument_0_1") is None
+
+
+def test_the_instruments_of_a_split_track_lie_below_one_another(
+    qt_app: QApplication, qtbot: QtBot, tmp_path: Path
+) -> None:
+    tasks = SlowTasks()
+    dialog = ImportDialog(read_contents(chords(tmp_path, "Flutes")), bundled_maps(), DARK, tasks)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    QApplication.processEvents()
+
+    def work() -> None:
+        while tasks.waiting:
+            tasks.work(0)
+        QApplication.processEvents()
+
+    def places() -> list[tuple[int, int]]:
+        cell = child(dialog, QComboBox, "instrument_0").parentWidget()
+        shown = [box for box in cell.findChildren(QComboBox) if box.isVisible()]
+        boxes = sorted(shown, key=lambda box: box.mapTo(cell, box.rect().topLeft()).y())
+        tops = [box.mapTo(cell, box.rect().topLeft()).y() for box in boxes]
+        assert tops[-1] + boxes[-1].height() <= cell.height()
+        return [(top, box.height()) for top, box in zip(tops, boxes, strict=True)]
+
+    def is_apart(rows: list[tuple[int, int]]) -> bool:
+        return all(top + height <= below for (top, height), (below, _) in pairwise(rows)) and all(
+            height >= LEAST_TARGET_PX for _, height in rows
+        )
+
+    # What the tracks become is known only after the dialog is shown.
+    work()
+    assert len(places()) == 3
+    assert is_apart(places()), places()
+    # One player's row is as low as before.
+    choose(dialog, "split_0", "never")
+    work()
+    assert len(places()) == 1
+    assert dialog._table.rowHeight(0) == ROW_PX
+    choose(dialog, "split_0", "every")
+    work()
+    assert len(places()) == 3
+    assert is_apart(places()), places()
 
 
 def test_notes_left_out_do_not_read_as_a_lost_part(qt_app: QApplication, qtbot: QtBot, tmp_path: Path) -> None:
