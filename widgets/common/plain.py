@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QHelpEvent, QShowEvent
-from PySide6.QtWidgets import QComboBox, QLabel, QMessageBox, QToolTip, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QMessageBox, QStyledItemDelegate, QToolTip, QWidget
 
 Role: TypeAlias = QMessageBox.ButtonRole
 
@@ -79,8 +79,13 @@ class ComboBox(QComboBox):
     """A combo box whose tip is plain, and whose open list has the keyboard alone.
 
     Qt keeps style sheets from frames within a combo box, and a tip is one. While the list is open, Qt lets shortcuts of
-    the panel work: the arrows would move notes instead of the choice.
+    the panel work: the arrows would move notes instead of the choice. What is marked in it has the accent: as an entry
+    of a menu, which the style makes of it, it would have a thin dark frame alone.
     """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setItemDelegate(QStyledItemDelegate(self))
 
     def showPopup(self) -> None:
         """Open the list."""

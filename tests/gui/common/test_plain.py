@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QEvent, QPoint, Qt
 from PySide6.QtGui import QAccessible, QAction, QHelpEvent, QKeySequence
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QApplication,
     QGroupBox,
@@ -24,6 +25,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from app.editor.tokens import DARK
 from tests.gui.conftest import delete_now
 from tests.support.canary import WATCHES, Canary, canary
 from tests.support.windows import show
@@ -157,3 +159,18 @@ def test_what_a_message_box_says_can_be_copied(qt_app: QApplication, qtbot: QtBo
     for label in texts.values():
         assert label.textInteractionFlags() & Qt.TextInteractionFlag.TextSelectableByMouse
     box.hide()
+
+
+def test_what_is_marked_in_an_open_list_has_the_accent(qt_app: QApplication, qtbot: QtBot) -> None:
+    box = ComboBox()
+    box.addItems(["1/4", "1/8", "1/16"])
+    qtbot.addWidget(box)
+    show(box)
+    box.showPopup()
+    QApplication.processEvents()
+    view = box.view()
+    QTest.keyClick(view, Qt.Key.Key_Down)
+    row = view.visualRect(view.model().index(1, 0))
+    picture = view.viewport().grab().toImage()
+    assert picture.pixelColor(row.right() - 6, row.center().y()).name() == DARK.accent
+    box.hidePopup()
