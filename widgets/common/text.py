@@ -73,7 +73,8 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
     if name == "event":
         return kind_name(str(value))
     if name == "work":
-        return message_text(Message(str(value), message.arguments), session, player_id).rstrip("…")
+        its_own = {other: given for other, given in message.arguments.items() if other != name}
+        return message_text(Message(str(value), its_own), session, player_id).rstrip("…")
     if name in DETAILS:
         return detail_text(str(value), language(), _label)
     if name == "place" and message.id in _STORED:

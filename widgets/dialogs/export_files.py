@@ -30,7 +30,7 @@ from widgets.common.controls import Button, Caption, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
-from widgets.common.text import message_text, sentence
+from widgets.common.text import sentence
 from widgets.dialogs.export_destination import Destination, Done, foresee_folder, foresee_unreal, write
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
@@ -305,7 +305,7 @@ class ExportDialog(WorkingDialog):
         self.exported.emit(self._place.destination, self._place.path)
 
     def _failed(self, error: AppError) -> None:
-        self._files.setText(message_text(error.message))
+        self._files.setText(sentence(error.message))
 
     def _finish(self) -> None:
         self._timer.stop()
@@ -346,7 +346,7 @@ class ExportDialog(WorkingDialog):
                 refuse_attachment(self._formats.formats if into_folder else (), self._rig.options.instrument)
                 text = self._foreseen()
             except AppError as error:
-                problem = text = message_text(error.message)
+                problem = text = sentence(error.message)
         self._start.setEnabled(not problem and not self._running)
         self._files.setText(text)
 
@@ -370,7 +370,7 @@ class ExportDialog(WorkingDialog):
         if seen.removed:
             removed = self.tr("export_dialog.no_longer_needed_will_be")
             lines.append(removed.format(count=len(seen.removed), names=_some(seen.removed)))
-        lines += [f"⚠ {message_text(message)}" for message in seen.kept]
+        lines += [f"⚠ {sentence(message)}" for message in seen.kept]
         return "\n".join(lines)
 
     def retranslate(self) -> None:

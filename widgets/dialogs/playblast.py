@@ -27,7 +27,7 @@ from widgets.common.controls import Button, Check, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
-from widgets.common.text import message_text
+from widgets.common.text import sentence
 from widgets.dialogs.export_range import BeatsBox
 from widgets.dialogs.working import WorkingDialog, stopping
 
@@ -210,7 +210,7 @@ class PlayblastDialog(WorkingDialog):
         self.filmed.emit(path)
 
     def _failed(self, error: AppError) -> None:
-        self._state.setText(message_text(error.message))
+        self._state.setText(sentence(error.message))
 
     def _finish(self) -> None:
         self._timer.stop()

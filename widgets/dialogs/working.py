@@ -15,7 +15,7 @@ from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Retranslated, named
 from widgets.common.help import with_help
 from widgets.common.plain import Label
-from widgets.common.text import message_text
+from widgets.common.text import sentence
 
 _PARTS = 1000
 _LEAST_SHARE, _LEAST_S = 0.02, 0.5
@@ -86,8 +86,6 @@ class WorkingDialog(Retranslated, QDialog):
             self._stop = threading.Event()
             self._began_s = time.monotonic()
             self._show_share(0.0)
-        elif self._stop.is_set():
-            self._under_way.setText(message_text(Message("work.stopped")))
         self._running = running
         self._progress.setVisible(running)
         self._under_way.setVisible(running or self._stop.is_set())
@@ -111,6 +109,8 @@ class WorkingDialog(Retranslated, QDialog):
 
     def retranslate(self) -> None:
         self._close.setText(self.tr("working_dialog.cancel") if self._running else self.tr("working_dialog.close"))
+        if self._stop.is_set() and not self._running:
+            self._under_way.setText(sentence(Message("work.stopped")))
 
     def reject(self) -> None:
         """Escape and the window's own button too."""

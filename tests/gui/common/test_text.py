@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from string import Formatter
+
 import pytest
 
 from app.editor.session import Session
-from app.errors import Message
+from app.errors import Argument, Message
 from app.messages import PITCHES, WORDINGS, text
 from app.project.edit.notes import move
 from app.score.model import Note
@@ -130,3 +132,13 @@ def test_an_instrument_is_reported_by_its_name() -> None:
     reported = message_text(Message("score.chosen_by_range", {"part": "Sopran", "map": "trumpet_Bb"}))
     assert "Trumpet in B♭" in reported
     assert "trumpet_Bb" not in reported
+
+
+@pytest.mark.parametrize("work", sorted(id for id in WORDINGS if id.startswith("work.") and id != "work.cancelled"))
+def test_cancelled_work_is_named(session: Session, work: str) -> None:
+    arguments: dict[str, Argument] = dict.fromkeys(
+        field for _, field, _, _ in Formatter().parse(WORDINGS[work][0]) if field
+    )
+    arguments |= {name: 4 if name == "players" else "Lutkin" for name in arguments}
+    cancelled = message_text(Message("work.cancelled", {**arguments, "work": work}), session)
+    assert cancelled == "cancelled: " + WORDINGS[work][0].rstrip("…").format(**arguments)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QPushButton
+from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -24,6 +24,7 @@ from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from tests.gui.conftest import quartet_project
 from tests.gui.dialogs.conftest import ShowExport, one_player_of_bars
+from tests.gui.japanese import speaking
 from tests.support.bad_players import own_folders, with_character, with_instrument
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child
@@ -150,7 +151,10 @@ def test_cancelled_it_leaves_nothing_and_says_so(
     qtbot.waitUntil(button.isEnabled)
     assert dialog.isVisible()
     assert under_way.isVisible()
-    assert under_way.text() == text(Message("work.stopped"))
+    assert under_way.text() == "Cancelled; nothing was written"
+    with speaking():
+        QApplication.processEvents()
+        assert under_way.text() == text(Message("work.stopped"), "ja")
     qtbot.waitUntil(lambda: reported == ["work.export"])
     qtbot.waitUntil(lambda: not (tmp_path / "out").exists())
     tasks.cancel_all(5.0)
