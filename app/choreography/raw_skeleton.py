@@ -43,12 +43,15 @@ class RawSkeleton:
         Joints, Y up, in the file's unit.
     lines : ndarray, shape (L, 2, 3)
         From each bone's parent to the bone, and to the ends of the last ones.
+    figures : tuple of str
+        Names of all skeletons of the file where it has several.
     """
 
     figure: Figure
     found: JointMapping
     places: FloatArray
     lines: FloatArray
+    figures: tuple[str, ...] = ()
 
     def corrected(self, joints: Mapping[str, str]) -> JointMapping:
         """Bones with a user's corrections. Raises FileError where one names what there is not."""
@@ -85,4 +88,5 @@ def raw_skeleton(
         (places[joint], places[joint] + quaternion.rotate(rotations[joint], end))
         for joint, end in bvh.end_sites_cm.items()
     ]
-    return RawSkeleton(zero_pose(bvh, file), found, places, np.array(lines, np.float64).reshape(-1, 2, 3))
+    shape = np.array(lines, np.float64).reshape(-1, 2, 3)
+    return RawSkeleton(zero_pose(bvh, file), found, places, shape, bvh.figures)

@@ -140,3 +140,12 @@ def with_prop(bvh: BvhClip, bone: str, ways: Sequence[tuple[float, float, float]
         end_sites_cm={**ends, first + len(ways) - 1: np.array(ways[-1])},
         rotations_xyzw=np.concatenate([bvh.rotations_xyzw, still], axis=1),
     )
+
+
+def together(*texts: str) -> str:
+    """The figures of several BVH files, of as many frames, in one."""
+    heads, motions = zip(*(text.split("MOTION", 1) for text in texts), strict=True)
+    tables = [motion.strip().splitlines() for motion in motions]
+    rows = [" ".join(row) for row in zip(*(table[2:] for table in tables), strict=True)]
+    hierarchy = "".join(head[head.index("ROOT") :] for head in heads)
+    return "\n".join(["HIERARCHY", f"{hierarchy}MOTION", *tables[0][:2], *rows, ""])

@@ -36,6 +36,9 @@ class BvhClip:
         How the frame time of a file was understood that does not have it in seconds.
     guesses : tuple of Message
         What else had to be guessed where a file contradicts itself or the usual.
+    figures : tuple of str
+        Names of all skeletons of the file where it has several, this one among them: those of their roots, numbered
+        where they are the same.
     """
 
     names: tuple[str, ...]
@@ -48,3 +51,4 @@ class BvhClip:
     translations_cm: Mapping[int, AnyFloatArray] = field(default_factory=dict)
     rate_guess: Message | None = None
     guesses: tuple[Message, ...] = ()
+    figures: tuple[str, ...] = ()

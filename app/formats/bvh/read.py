@@ -11,6 +11,7 @@ import codecs
 import os
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import Final
@@ -52,7 +53,7 @@ def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
     Parameters
     ----------
     figure : str
-        Root of the skeleton to read where there are several; empty: the first.
+        Name of the skeleton to read where there are several (`BvhClip.figures`); empty: the first.
 
     Raises
     ------
@@ -193,18 +194,25 @@ def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip
     before_table = line - 1 + len(motion[: said.end()].splitlines())
     values, guesses = _table(motion[said.end() :], frames, width, file, before_table)
     roots = skeleton.roots
-    names = [skeleton.names[joint] for joint in roots]
+    names = _numbered([skeleton.names[joint] for joint in roots])
     if figure and figure not in names:
         raise FileError("motion.no_figure", file=file, figure=figure, figures=shortened(", ".join(names), 200))
     if len(roots) > 1:
         first = roots[names.index(figure) if figure else 0]
-        others = ", ".join(skeleton.names[joint] for joint in roots if joint != first)
         if not figure:
-            guesses += (Message("motion.figures", {"name": skeleton.names[first], "others": shortened(others, 80)}),)
+            others = shortened(", ".join(names[1:]), 80)
+            guesses += (Message("motion.figures", {"name": names[0], "others": others}),)
         before = sum(len(channels) for channels in skeleton.channels[:first])
         skeleton, values = skeleton.figure(first), values[:, before:]
     fps, rate_guess = _rate(frame_time, said[2])
-    return _clip(values, skeleton, fps, rate_guess, guesses)
+    clip = _clip(values, skeleton, fps, rate_guess, guesses)
+    return replace(clip, figures=tuple(names)) if len(names) > 1 else clip
+
+
+def _numbered(names: list[str]) -> list[str]:
+    """Names, each once: the second "Hips" is "Hips (2)", which no joint of a file is called."""
+    earlier = [names[:at].count(name) for at, name in enumerate(names)]
+    return [f"{name} ({before + 1})" if before else name for name, before in zip(names, earlier, strict=True)]
 
 
 def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[FloatArray, tuple[Message, ...]]:

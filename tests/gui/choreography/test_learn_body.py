@@ -17,10 +17,11 @@ from app.editor.session import Session
 from app.formats.bvh.read import read_bvh
 from app.formats.bvh.write import write_bvh
 from tests.gui.choreography.test_learn_dialog import drop, shown, state
-from tests.support.rerigged import with_prop, without_names
+from tests.support.rerigged import together, with_prop, without_names
 from tests.support.windows import child
 from tests.unit.choreography.test_command import write_clip, write_drums
 from tests.unit.choreography.test_cuts import arm_swings
+from widgets.common.combo import Combo
 from widgets.dialogs.bone_tree import BoneTree
 from widgets.dialogs.choreography.learn import LearnDialog
 
@@ -119,3 +120,28 @@ def test_corrections_are_taken_back(dialog: LearnDialog, folder: Path) -> None:
     dialog.form._change(motion=folder / "swings.bvh")
     assert dialog.drafts[0].joints == {}
     assert child(dialog, QPushButton, "learn_start").isEnabled()
+
+
+def test_of_a_file_with_two_figures_either_is_learned_from(session: Session, qtbot: QtBot, folder: Path) -> None:
+    swings, both = folder / "swings.bvh", folder / "both.bvh"
+    later = write_clip(folder / "later.bvh", arm_swings(60, swings_s=(1.5, 3.0, 5.0, 6.5)))
+    both.write_text(together(swings.read_text(), later.read_text()))
+    dialog = shown(session, qtbot, folder)
+    drop(dialog, both, folder / "drums.mid")
+    figures = child(dialog, Combo, "learn_figure")
+    assert figures.isVisible()
+    assert [figures.itemText(at) for at in range(figures.count())] == ["hips", "hips (2)"]
+    give(dialog, "neck", "chest")
+    for index, file in ((1, later), (0, swings)):
+        figures.setFocus()
+        QTest.keyClick(figures, Qt.Key.Key_Down if index else Qt.Key.Key_Up)
+        read = dialog._rows[0].found.read
+        assert read is not None
+        assert figures.currentIndex() == index
+        np.testing.assert_array_equal(read.motion.clip.rotations, read_motion(file).clip.rotations)
+        # Bones are corrected for each figure.
+        assert not dialog.drafts[0].joints
+    # A file with one figure leaves nothing to choose.
+    dialog.form._change(motion=swings)
+    assert not figures.isVisible()
+    assert dialog.drafts[0].figure == ""

@@ -14,6 +14,7 @@ from app.formats.bvh.clip import BvhClip
 from app.formats.bvh.read import decode_bvh, read_bvh
 from app.formats.bvh.write import write_bvh
 from tests.support.encoded import encode_bvh
+from tests.support.rerigged import together
 from tests.unit.formats import scenes
 
 
@@ -267,20 +268,26 @@ def test_a_file_that_is_cut_off_is_read_as_far_as_it_goes() -> None:
 def test_of_several_figures_the_first_is_read_or_the_one_asked_for() -> None:
     text = encode_bvh(clip(frames=3)).decode()
     head, motion = text.split("MOTION")
-    start, rows = motion.split("\n", 3)[:3], motion.split("\n", 3)[3].splitlines()
-    other = head[head.index("ROOT") :].replace("hips", "partner")
-    both = "\n".join([f"{head}{other}MOTION", *start[1:], *(f"{row} {row.replace('1', '2')}" for row in rows)])
+    start, rows = motion.split("\n", 3)[:3], motion.split("\n", 3)[3].replace("1", "2")
+    alone = "\n".join([f"{head.replace('hips', 'partner')}MOTION", *start[1:], rows])
+    both = together(text, alone)
     found = decode_bvh(both, "a.bvh")
     assert found.guesses == (Message("motion.figures", {"name": "hips", "others": "partner"}),)
-    same(replace(found, guesses=()), decode_bvh(text, "a.bvh"))
-    alone = f"{head[: head.index('ROOT')]}{other}MOTION" + "\n".join(
-        ["", *start[1:], *(row.replace("1", "2") for row in rows)]
-    )
-    same(decode_bvh(both, "a.bvh", "partner"), decode_bvh(alone, "b.bvh"))
-    same(decode_bvh(both, "a.bvh", "hips"), decode_bvh(text, "a.bvh"))
+    assert found.figures == ("hips", "partner")
+    same(replace(found, guesses=(), figures=()), decode_bvh(text, "a.bvh"))
+    for name, expected in (("partner", alone), ("hips", text)):
+        same(replace(decode_bvh(both, "a.bvh", name), figures=()), decode_bvh(expected, "b.bvh"))
     with pytest.raises(FileError) as caught:
         decode_bvh(both, "a.bvh", "nobody")
     assert caught.value.message.arguments["figures"] == "hips, partner"
+
+
+def test_figures_of_one_name_are_numbered() -> None:
+    text = encode_bvh(clip(frames=3)).decode()
+    second = "\n".join([*text.splitlines()[:-1], text.splitlines()[-1].replace("1", "2"), ""])
+    both = together(text, second, text)
+    assert decode_bvh(both, "a.bvh").figures == ("hips", "hips (2)", "hips (3)")
+    same(replace(decode_bvh(both, "a.bvh", "hips (2)"), figures=()), decode_bvh(second, "b.bvh"))
 
 
 def test_a_wrong_row_is_named_by_its_line() -> None:

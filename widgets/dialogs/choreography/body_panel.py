@@ -55,8 +55,9 @@ class BodyPanel(Retranslated, QWidget):
         self._skeleton: RawSkeleton | None = None
         self._mapping = JointMapping("", {}, (), ())
         self._joint = ""
-        self.raw = named(SkeletonFigure(session), "body_raw")
-        self.first, self.rest = named(PoseFigure(session), "body_first"), named(PoseFigure(session), "body_rest")
+        self.raw = named(SkeletonFigure(session, is_fitted=True), "body_raw")
+        self.first = named(PoseFigure(session, is_fitted=True), "body_first")
+        self.rest = named(PoseFigure(session, is_fitted=True), "body_rest")
         self.body = self.texted(BodyMap(session, self._joint_text), name="character_dialog.joints_of_body")
         self.rows = ColumnList("body_joints", "character_dialog.joint", "character_dialog.bone", stretches=(1,))
         self._items = {joint: QTreeWidgetItem() for joint in joints() if joint in JOINTS}
@@ -96,7 +97,11 @@ class BodyPanel(Retranslated, QWidget):
         ]
         self._choice = in_column(in_row(self._none, self._automatic, margins=0), margins=0)
         shown = in_row(
-            *((picture, 4) for picture in pictures), (self.body, 4), (self.rows, 5), (self._choice, 5), margins=0
+            *((picture, wide) for picture, wide in zip(pictures, (3, 3, 5), strict=True)),
+            (self.body, 4),
+            (self.rows, 5),
+            (self._choice, 5),
+            margins=0,
         )
         tools = in_row((self._said, 1), self._undo, self._redo, self._reset, margins=0)
         in_column(tools, (shown, 1), of=self, margins=0)

@@ -23,6 +23,8 @@ from widgets.common.choreography.figures import HIGHEST, draw_figures, placed
 
 _WIDEST = 1.15
 """Width in parts of the body's height, with the arms to the sides, to the fingertips."""
+_LEAST_WIDTH, _LEAST_HEIGHT = 0.5, 1.1
+"""Room of a pose that the picture is fitted to, with that for a head beyond its joints."""
 _PEN_PX = 2.5
 
 
@@ -40,12 +42,14 @@ class PoseFigure(QWidget):
     ----------
     session : Session
         For its colours.
+    is_fitted : bool
+        True if the picture is as large as the pose that it shows; else as one that has room for all.
     """
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, is_fitted: bool = False, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("cut_figure")
-        self._session = session
+        self._session, self._is_fitted = session, is_fitted
         self._pose: FloatArray | None = None
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
         session.theme_changed.connect(self.update)
@@ -62,8 +66,16 @@ class PoseFigure(QWidget):
 
     def _room(self) -> tuple[float, float]:
         """Height of `HIGHEST`, and place of the floor, in pixels."""
-        height_px = 0.95 * min(self.height(), self.width() * HIGHEST / _WIDEST)
-        return height_px, 0.5 * (self.height() + height_px) - 4.0
+        wide, high, points = _WIDEST, HIGHEST, self._points()
+        if self._is_fitted and len(points):
+            wide = max(_LEAST_WIDTH, 2.0 * float(np.abs(points[:, 0]).max()))
+            high = max(_LEAST_HEIGHT, float(points[:, 1].max()))
+        height_px = 0.95 * HIGHEST * min(self.height() / high, self.width() / wide)
+        return height_px, 0.5 * (self.height() + height_px * high / HIGHEST) - 4.0
+
+    def _points(self) -> FloatArray:
+        """(N, 2) what is drawn."""
+        return np.zeros((0, 2)) if self._pose is None else self._pose
 
     # Qt's own names
 
@@ -123,8 +135,8 @@ def skeleton_pose(
 class SkeletonFigure(PoseFigure):
     """Draws the skeleton of a file."""
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(session, parent)
+    def __init__(self, session: Session, is_fitted: bool = False, parent: QWidget | None = None) -> None:
+        super().__init__(session, is_fitted, parent)
         self._skeleton: SkeletonPose | None = None
 
     @property
@@ -136,6 +148,9 @@ class SkeletonFigure(PoseFigure):
         """Draw another skeleton, or none."""
         self._skeleton = skeleton
         self.update()
+
+    def _points(self) -> FloatArray:
+        return np.zeros((0, 2)) if self._skeleton is None else self._skeleton.lines.reshape(-1, 2)
 
     # Qt's own names
 

@@ -209,11 +209,13 @@ class LearnDialog(WorkingDialog):
         row = self._row
         if row is not None:
             before = row.draft
-            if (draft.motion, draft.fps) != (before.motion, before.fps):
+            if draft.motion != before.motion:
+                draft = msgspec.structs.replace(draft, figure="")
+            if (draft.motion, draft.figure, draft.fps) != (before.motion, before.figure, before.fps):
                 # Its frames are others.
                 draft, row.history = msgspec.structs.replace(draft, cuts=None), CutHistory()
                 row.cut_clip = None
-            if draft.motion != before.motion:
+            if (draft.motion, draft.figure) != (before.motion, before.figure):
                 # Its bones too.
                 draft, row.bones = msgspec.structs.replace(draft, joints={}), DraftHistory.empty()
             row.draft = draft

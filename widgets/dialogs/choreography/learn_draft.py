@@ -32,6 +32,8 @@ class PairDraft(msgspec.Struct, frozen=True):
         Frames of the analysed clip, as the user set them; None: those that were found.
     joints : mapping of str to str
         Corrections of the motion's bones by joint; empty: none.
+    figure : str
+        Skeleton of the motion's file that is learned from, where it has several; empty: the first.
     """
 
     motion: Path | None = None
@@ -41,11 +43,12 @@ class PairDraft(msgspec.Struct, frozen=True):
     fps: Fraction | None = None
     cuts: Cuts | None = None
     joints: Mapping[str, str] = msgspec.field(default_factory=dict)
+    figure: str = ""
 
     @property
-    def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None, Mapping[str, str]]:
+    def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None, Mapping[str, str], str]:
         """The fields that make the files be read again when they change."""
-        return self.motion, self.music, self.credits, self.fps, self.joints
+        return self.motion, self.music, self.credits, self.fps, self.joints, self.figure
 
 
 class PairContents(msgspec.Struct, frozen=True):

@@ -16,6 +16,7 @@ from app.encoding import shown
 from app.formats.rates import exact_rate
 from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from app.score.suffixes import MUSIC
+from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Caption, Retranslated, named, wrapped
 from widgets.common.paths import PathEdit, ask_for_file
 from widgets.common.plain import Label
@@ -32,6 +33,7 @@ from widgets.dialogs.choreography.learn_draft import (
 _FILES = {"motion": MOTION_SUFFIXES, "music": MUSIC, "credits": (CREDITS_SUFFIX,)}
 _LABELS: Final = {
     "motion": "pair_form.motion",
+    "figure": "pair_form.figure",
     "music": "pair_form.music",
     "credits": "pair_form.credits",
     "offset": "pair_form.offset",
@@ -62,8 +64,11 @@ class PairForm(Retranslated, QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._draft, self._found, self._busy = PairDraft(), PairContents(), False
+        self._figures: tuple[str, ...] = ()
+        self._figures_of: Path | None = None
         self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
         self._paths = {name: self.texted(PathEdit(), placeholder=text_id) for name, text_id in _PLACEHOLDERS.items()}
+        self._figure = self.texted(named(Combo(), "learn_figure"), tip="pair_form.figure_tip")
         self._offset = self.texted(
             AutomaticNumber("learn_offset", -_LONGEST_S, _LONGEST_S, step=0.01, decimals=3),
             tip="pair_form.time_of_motion_at_which",
@@ -82,7 +87,11 @@ class PairForm(Retranslated, QWidget):
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(1, 1)
-        for row, name in enumerate(_FILES):
+        self._labels["figure"].setBuddy(self._figure)
+        grid.addWidget(self._labels["figure"], 1, 0)
+        grid.addWidget(self._figure, 1, 1, 1, 2)
+        self._figure.chosen.connect(self._figure_chosen)
+        for row, name in zip((0, 2, 3), _FILES, strict=True):
             path = self._paths[name]
             button = Button("pair_form.choose", partial(self._ask, name), f"learn_{name}_choose")
             path.setObjectName(f"learn_{name}")
@@ -92,13 +101,13 @@ class PairForm(Retranslated, QWidget):
             grid.addWidget(path, row, 1)
             grid.addWidget(button, row, 2)
             path.editingFinished.connect(lambda name=name: self._typed(name))
-        for row, (name, field) in enumerate({"offset": self._offset, "fps": self._fps}.items(), start=len(_FILES)):
+        for row, (name, field) in enumerate({"offset": self._offset, "fps": self._fps}.items(), start=1 + len(_FILES)):
             self._labels[name].setBuddy(field)
             grid.addWidget(self._labels[name], row, 0)
             grid.addWidget(field, row, 1, 1, 2)
             field.changed.connect(self._number_changed)
-        grid.addWidget(room, len(_FILES) + 2, 0, 1, 3)
-        grid.setRowStretch(len(_FILES) + 2, 1)
+        grid.addWidget(room, len(_FILES) + 3, 0, 1, 3)
+        grid.setRowStretch(len(_FILES) + 3, 1)
         self.texted(self._offset.check, text="pair_form.automatic")
         self.texted(self._offset.number, suffix="pair_form.seconds")
         self.texted(self._fps.check, text="pair_form.from_file")
@@ -112,8 +121,21 @@ class PairForm(Retranslated, QWidget):
             path: Path | None = getattr(draft, name)
             if edit.path != path:
                 edit.set_path(path)
+        self._show_figures()
         self._show_numbers()
         self._show_notes()
+
+    def _show_figures(self) -> None:
+        """Offer the skeletons of a file that has several."""
+        skeleton, motion = self._found.skeleton, self._draft.motion
+        if skeleton is not None or motion != self._figures_of:
+            # While another of them is read, or where it cannot be read, they stay.
+            self._figures_of = motion
+            self._figures = () if skeleton is None else skeleton.figures
+        self._figure.set_options([Option(name, shown(name)) for name in self._figures])
+        self._figure.show_option(self._draft.figure or next(iter(self._figures), None))
+        for widget in (self._labels["figure"], self._figure):
+            widget.setVisible(bool(self._figures))
 
     def _show_numbers(self) -> None:
         read, analysis = self._found.read, self._found.analysis
@@ -163,6 +185,9 @@ class PairForm(Retranslated, QWidget):
         path = ask_for_file(self, self._labels[name].text(), near.parent if near is not None else None, filters)
         if path is not None:
             self._change(**{name: path})
+
+    def _figure_chosen(self, name: str) -> None:
+        self._change(figure=name)
 
     def _number_changed(self) -> None:
         fps = self._fps.value

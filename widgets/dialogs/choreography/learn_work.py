@@ -35,7 +35,9 @@ def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callabl
 
     def work(progress: Progress, stop_requested: StopRequested) -> PairRead:
         try:
-            read = read_pair(motion, music, fps=draft.fps, credits=draft.credits, joints=draft.joints)
+            read = read_pair(
+                motion, music, fps=draft.fps, credits=draft.credits, joints=draft.joints, figure=draft.figure
+            )
             return PairRead(number, PairContents(read, analyse(read.pair), skeleton=read.motion.skeleton))
         except Cancelled:
             raise
