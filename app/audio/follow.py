@@ -16,9 +16,9 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
+from app.audio.constant_tempo_offsets import LEAST_APART_S, RecordingPlace, places, usual_ratios
 from app.audio.onset_path import FINAL_WIDTH_S, LEAST_GAP_S, on_onsets
 from app.audio.passages import Passage
-from app.audio.places import LEAST_APART_S, RecordingPlace, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,

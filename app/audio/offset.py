@@ -13,8 +13,8 @@ from typing import Final
 
 import numpy as np
 
+from app.audio.constant_tempo_offsets import TEMPO_RATIOS, RecordingPlace, is_other, places, usual_ratios
 from app.audio.onset_path import chroma_similarity
-from app.audio.places import TEMPO_RATIOS, RecordingPlace, is_other, places, usual_ratios
 from app.audio.score_sound import (
     CHROMA_S,
     EARLY_S,

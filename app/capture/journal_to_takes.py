@@ -6,7 +6,7 @@ from collections.abc import Collection
 from itertools import count
 
 from app.capture.journal import Journal
-from app.capture.passes import passes
+from app.capture.loop_passes import passes
 from app.score.take import Cleaning, ControllerMapping, Take
 from app.score.tempo import TempoMap
 

@@ -8,7 +8,7 @@ from typing import Final, Literal, TypeAlias
 import msgspec
 import numpy as np
 
-from app.capture.learn import breath_value
+from app.capture.controller_recognition import breath_value
 from metadata.model import BreathSource
 
 EARLIEST_S: Final = -0.2

@@ -19,7 +19,7 @@ import numpy as np
 from app.arrays import FloatArray
 from app.choreography.body import FEET, SEGMENTS
 from app.choreography.body_check import ASKEW_DEG, SURE
-from app.choreography.captured import ARM, LEG, SIDES, Captured, X, Y, Z, angle_deg, unit
+from app.choreography.captured_joints import ARM, LEG, SIDES, Captured, X, Y, Z, angle_deg, unit
 from app.rig import quaternion
 
 MOST_TWIST_DEG: Final = 75.0

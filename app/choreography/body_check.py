@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.choreography.captured import ARM, LEG, SIDES, Captured, X, Y, Z, angle_deg, unit
+from app.choreography.captured_joints import ARM, LEG, SIDES, Captured, X, Y, Z, angle_deg, unit
 from app.errors import Message
 from app.rig import quaternion
 

@@ -17,7 +17,7 @@ from app.arrays import FloatArray
 from app.choreography.anatomy import t_pose
 from app.choreography.body import ENDS, FEET, SEGMENTS
 from app.choreography.body_check import Checked, checked, stands, unlike
-from app.choreography.captured import Captured
+from app.choreography.captured_joints import Captured
 from app.choreography.joints_by_lengths import joints_by_lengths
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
 from app.choreography.sides import exchanged, joints_by_side

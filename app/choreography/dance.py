@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from app.arrays import FloatArray
 from app.choreography.clip import MotionClip
-from app.choreography.feet import FootPlant
+from app.choreography.standing_feet import FootPlant
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,8 @@ class Manner:
     melody : float
         0..1: how much melody, bass and accents count beside percussion.
     weight : float
-        -1 to 1: how light or heavy it is danced; knees bend by `app.choreography.feet.DEEPER` of a leg more at 1.
+        -1 to 1: how light or heavy it is danced; knees bend by
+        `app.choreography.standing_feet.DEEPER` of a leg more at 1.
     """
 
     seed: int = 0

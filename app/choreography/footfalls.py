@@ -15,7 +15,7 @@ from scipy.interpolate import PchipInterpolator
 
 from app.arrays import FloatArray
 from app.choreography.accent_grid import AccentGrid
-from app.choreography.feet import SAME_M, FootPlant
+from app.choreography.standing_feet import SAME_M, FootPlant
 
 REACH_S: Final = 0.12
 """A footfall is moved no farther than this."""
@@ -64,7 +64,7 @@ def on_beats(
     Parameters
     ----------
     standing : sequence of FootPlant
-        By their starts, see `app.choreography.feet.stands`.
+        By their starts, see `app.choreography.standing_feet.stands`.
     frames : int
         Of the motion.
     first_s : float

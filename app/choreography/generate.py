@@ -28,21 +28,21 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
+from app.choreography.dance_flaws import usual_change_rad_s
 from app.choreography.features import height_m
-from app.choreography.feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
 from app.choreography.footfalls import Footfalls, on_beats
-from app.choreography.hands import out_of_body
-from app.choreography.heard import Hearing, hearing
+from app.choreography.hands_out_of_body import out_of_body
+from app.choreography.hit_log_odds import Hearing, hearing
 from app.choreography.joins import distances_m
-from app.choreography.judge import usual_change_rad_s
 from app.choreography.limbs import unbroken
 from app.choreography.model import ChoreographyModel
-from app.choreography.pairing import trust_in
+from app.choreography.music_motion_dependence import trust_in
 from app.choreography.phrases import returning_places
 from app.choreography.rhythm import Rhythm, felt_at
 from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.spins import hips_rad, without_haste
+from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from app.rig import quaternion
@@ -231,7 +231,7 @@ class Choreographer:
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
-        """See `app.choreography.judge.usual_change_rad_s`: of the model's capture."""
+        """See `app.choreography.dance_flaws.usual_change_rad_s`: of the model's capture."""
         if fps not in self._usual_rad_s:
             self._usual_rad_s[fps] = usual_change_rad_s(self.model.clips, fps)
         return self._usual_rad_s[fps]

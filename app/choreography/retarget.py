@@ -16,7 +16,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from app.arrays import FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
-from app.choreography.feet import SINK_S
+from app.choreography.standing_feet import SINK_S
 from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.ik import Side, leg, solve_limb

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.choreography.model import MotionSegment
-from app.choreography.moves import SegmentMeets
+from app.choreography.transition_scores import SegmentMeets
 
 STEPPED_S: Final = 0.12
 """A foot comes down with an arrival that is no farther from it than this."""

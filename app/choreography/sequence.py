@@ -5,7 +5,7 @@ them. Going from one to the next counts
 
 - the model: transition and emission probabilities, as logarithms of how much likelier than by chance they are, so that
   few long motions and many short ones are compared fairly; every hit counts in the segment during which it sounds, as
-  when it was learned (`app.choreography.heard`);
+  when it was learned (`app.choreography.hit_log_odds`);
 - how well the second fits on the first (`app.choreography.joins`); the segment that follows in the capture fits best;
 - how much faster or slower than captured both must be danced between their accents, within `SPEEDS`;
 - an accent off the beat;
@@ -28,8 +28,8 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
-from app.choreography.heard import HeardHits
-from app.choreography.moves import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
+from app.choreography.hit_log_odds import HeardHits
+from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
 MOST_BEATS: Final = 4
 """From one accent to the next there are at most so many beats."""

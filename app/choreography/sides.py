@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.choreography.captured import LEG, SIDES, Captured, unit
+from app.choreography.captured_joints import LEG, SIDES, Captured, unit
 from app.rig import quaternion
 
 CLEARLY: Final = 0.3

@@ -18,8 +18,8 @@ from scipy.interpolate import PchipInterpolator
 
 from app.arrays import FloatArray
 from app.choreography.accent_grid import AccentGrid
-from app.choreography.moves import SPEEDS
 from app.choreography.segment_arrivals import STEPPED_S
+from app.choreography.transition_scores import SPEEDS
 
 REST_S: Final = 0.4
 """A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Final, NoReturn
 
 from app.encoding import shown
-from app.features import FEATURES, SubCommand
+from app.optional_features import FEATURES, SubCommand
 
 _OWN: Final = {
     "edit": "open the editor (also without any command)",

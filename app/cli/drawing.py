@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.encoding import shown
 from app.errors import FileError, StopRequested, UsageError
-from app.project.cameras import CameraBookmark, View
+from app.project.camera_bookmarks import CameraBookmark, View
 from app.project.parameters import select_players
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Final
 
 from app.cli.options import picture_size, seconds
 from app.messages import LANGUAGES
-from app.project.cameras import VIEWS
+from app.project.camera_bookmarks import VIEWS
 
 THEMES: Final = ("dark", "light")
 LEAST_PX, MOST_PX = (960, 600), (7680, 4320)

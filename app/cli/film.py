@@ -29,7 +29,7 @@ from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
 from app.errors import AppError, Cancelled, FileError, Message, StopRequested, UsageError
 from app.messages import LANGUAGES, error_text, filled, text
-from app.project.cameras import VIEWS, CameraBookmark, View
+from app.project.camera_bookmarks import VIEWS, CameraBookmark, View
 from app.project.frame_rate import USUAL_FILM_RATE, exact_number, frame_rate_text
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import Final, TypeVar
 
 import msgspec
 
-from app.cli.assigning import assign_message, unassigned_parts, with_instruments, with_pitches
+from app.cli.part_instruments import assign_message, unassigned_parts, with_instruments, with_pitches
 from app.cli.terminal import warn
 from app.encoding import is_encoding, shown
 from app.errors import FileError, Message, UsageError

@@ -14,7 +14,7 @@ from typing import Final
 import platformdirs
 
 from app.capture.journal import JournalHeader, read_journal
-from app.capture.passes import passes
+from app.capture.loop_passes import passes
 from app.capture.port_names import matching
 from app.capture.protocol import (
     Back,

@@ -23,7 +23,6 @@ from app.formats.video import SUFFIXES
 from app.project import storage
 from app.project.autosave import Autosave, AutosaveResult, Writing
 from app.project.choreography_files import bundled_choreographies
-from app.project.document import Change
 from app.project.edit.dancers import add_dancer, change_dancers
 from app.project.edit.piece import new_piece, relocate, set_audio, set_video
 from app.project.importing import ImportRequest, import_project, usual_rows
@@ -31,6 +30,7 @@ from app.project.model import Project
 from app.project.names import file_stem
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
 from app.project.salvage import salvaged
+from app.project.undoable_document import Change
 from app.rig.characters.character_library import reload_characters
 from app.score.contents import PieceContents
 from app.score.read import read_contents

@@ -13,17 +13,17 @@ from time import monotonic, sleep
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.editor.calls import Reporter
 from app.editor.plan_worker import PlanWorker, Reports
 from app.editor.session import Session, Severity
 from app.editor.tasks import Tasks
+from app.editor.window_thread_calls import Reporter
 from app.errors import AppError, Message, Progress, StopRequested, raise_if_stopped
 from app.performance.ensemble import Performance
 from app.performance.excerpt import PerformanceExcerpt, is_worth_it
 from app.performance.live import LiveMotion
 from app.plan.model import Problem
-from app.project.document import Change
 from app.project.model import Project
+from app.project.undoable_document import Change
 from app.rig.characters.character_library import character_library
 from instrument_maps.library import library
 from metadata.library import metadata_library

@@ -7,7 +7,7 @@ from typing import Any, Final, Literal
 
 from PySide6.QtCore import Signal
 
-from app.audio.peaks import Peaks
+from app.audio.waveform_peaks import Peaks
 from app.editor.state import State
 
 Source = Literal["recording", "synthesiser", "both"]

@@ -11,8 +11,8 @@ from typing import Generic, Protocol, TypeVar
 
 from PySide6.QtCore import QObject
 
-from app.editor.calls import Reporter
-from app.editor.memory import give_back
+from app.editor.freed_memory import give_back
+from app.editor.window_thread_calls import Reporter
 from app.errors import AppError, Cancelled
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault

@@ -10,7 +10,7 @@ from app.editor.session import Session, Severity
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS
 from app.plan.model import Problem
-from app.project.cameras import View
+from app.project.camera_bookmarks import View
 from app.score.model import Note
 
 _VIEWS: Final[dict[str, View]] = {

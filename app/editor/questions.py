@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal, Protocol, TypeAlias
 
+from app.editor.design_tokens import Tokens
 from app.editor.tasks import Tasks
-from app.editor.tokens import Tokens
 from app.project.importing import ImportRequest
 from app.score.contents import PieceContents
 

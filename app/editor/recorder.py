@@ -38,13 +38,13 @@ from app.capture.protocol import (
     RequestRefused,
     Restarted,
 )
-from app.editor.calls import window_calls
 from app.editor.files import Files
 from app.editor.live_player import LivePlayer
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.sound import EditorSound
 from app.editor.translated import tr
+from app.editor.window_thread_calls import window_calls
 from app.encoding import stored
 from app.errors import AppError, Argument, Message
 from app.project.edit.takes import add_takes, comp

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal
 from PySide6.QtCore import QObject, Signal
 
 from app.contacts.breaks import by_time
+from app.editor.design_tokens import DARK
 from app.editor.listening import Listening
 from app.editor.live_players import LivePlayers
 from app.editor.problem_filter import ProblemFilter
@@ -22,18 +23,17 @@ from app.editor.state import State, Watched
 from app.editor.streaming import Streaming
 from app.editor.tasks import Tasks
 from app.editor.timeline_view import TimelineView
-from app.editor.tokens import DARK
 from app.editor.video_state import VideoState
 from app.editor.viewport_state import ViewportState
 from app.errors import AppError, Message, UsageError
 from app.messages.pitches import PitchNames
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan, Problem
-from app.project.document import Change, Document
-from app.project.grid import Grid
 from app.project.ignored_problems import split_by_ignored
 from app.project.model import Project
 from app.project.performers import Dancer, Player
+from app.project.snap_grid import Grid
+from app.project.undoable_document import Change, Document
 
 if TYPE_CHECKING:
     from app.audio.playback import Playback

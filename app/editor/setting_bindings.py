@@ -8,8 +8,8 @@ from typing import Any, Final
 
 from PySide6.QtCore import SignalInstance
 
+from app.editor.design_tokens import THEMES
 from app.editor.session import Session
-from app.editor.tokens import THEMES
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,9 @@ from app.audio.decode import AudioRecording, decode
 from app.audio.followed_recording import FollowOptions
 from app.audio.mix import recording_track
 from app.audio.offset import Estimate, estimate_offset
-from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.track import RATE_HZ, Mix, MixTrack
+from app.audio.waveform_peaks import Peaks
 from app.editor.generator import REPORTED_NOTES
 from app.editor.listening import RecordedTake
 from app.editor.recording_alignment import follow_in_background, take_estimate
@@ -26,10 +26,10 @@ from app.errors import AppError, Message, Progress, StopRequested
 from app.formats.other_computers import may_touch
 from app.plan.generate import frame_around
 from app.plan.model import TimeFrame
-from app.project.document import Change
 from app.project.edit.players import change as change_players
 from app.project.edit.takes import comp_whole
 from app.project.model import Project
+from app.project.undoable_document import Change
 
 _FRAME_MS = 16
 _TAKE_WAIT_MS = 1000

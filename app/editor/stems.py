@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.audio.mix import PERCUSSION, percussion_phrases, player_gains, player_phrases
 from app.audio.render_process import RenderProcess
-from app.audio.shelf import Shelved
+from app.audio.sound_cache import Shelved
 from app.audio.synth import RenderedPhrase, Synthesiser
 from app.audio.track import RATE_HZ, MixTrack
 from app.editor.tasks import Tasks

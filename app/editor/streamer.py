@@ -18,12 +18,12 @@ from typing import Final
 
 from PySide6.QtCore import QObject
 
-from app.editor.calls import Reporter
 from app.editor.live_poses import LivePoses
 from app.editor.poses import PoseSource
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.streaming import RATES_HZ, StreamState
+from app.editor.window_thread_calls import Reporter
 from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.cast import attempt
 from app.project.casting import StagePosition

@@ -16,7 +16,7 @@ from typing import Any, Protocol, TypeVar
 from PySide6.QtCore import QObject, Signal
 from shiboken6 import isValid
 
-from app.editor.calls import Ask, window_calls
+from app.editor.window_thread_calls import Ask, window_calls
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 
 T = TypeVar("T")

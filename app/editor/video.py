@@ -12,15 +12,15 @@ from PySide6.QtCore import QObject, QTimer
 from app.audio.decode import decode
 from app.audio.offset import Estimate, estimate_offset
 from app.audio.track import RATE_HZ
-from app.editor.calls import Reporter
 from app.editor.picture_reader import PictureReader
 from app.editor.recording_alignment import SURE
 from app.editor.session import Session, Severity
+from app.editor.window_thread_calls import Reporter
 from app.errors import AppError, Message, Progress, StopRequested
 from app.formats.other_computers import may_touch
 from app.formats.video import VideoFacts, video_facts
-from app.project.document import Change
 from app.project.edit.piece import set_video_offset
+from app.project.undoable_document import Change
 from app.score.beat_following import message_of_place
 
 MOST_PX: Final = (1280, 720)

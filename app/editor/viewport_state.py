@@ -7,7 +7,7 @@ from typing import Literal, Protocol, get_args
 from PySide6.QtCore import Signal
 
 from app.editor.state import State
-from app.project.cameras import CameraBookmark, View
+from app.project.camera_bookmarks import CameraBookmark, View
 
 Follows = Literal["never", "close_ups", "always"]
 FOLLOWS: tuple[Follows, ...] = get_args(Follows)

@@ -15,7 +15,7 @@ import msgspec
 from app.child import StartedChild, ended_on_request
 from app.errors import AppError, Cancelled, Message, StopRequested, shortened
 from app.evaluation.request import EvaluationRequest
-from app.formats.scratch import scratch_folder
+from app.formats.temporary_folders import scratch_folder
 from app.project.model import Project
 from app.project.storage import decode, encode
 

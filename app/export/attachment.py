@@ -11,8 +11,8 @@ from app.arrays import FloatArray
 from app.export.equipped_skeleton import socket_names
 from app.export.playback import METRES, ScenePlayback
 from app.export.target import TargetSkeleton, Trajectory, instrument_path, placed_trajectory, trajectory_at_origin
-from app.formats.names import numbered
 from app.formats.scene import Clip, NodePlace, Scene, SkinnedMesh
+from app.formats.unique_names import numbered
 from app.motion.model import Motion
 from app.rig import quaternion
 

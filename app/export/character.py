@@ -16,9 +16,9 @@ from app.export.eyes import eyes_of_file, with_turned_balls
 from app.export.morph_normals import with_morph_normals
 from app.export.own_skeleton import own_weights
 from app.export.target import BoneMotion, TargetSkeleton, Trajectory, bone_motion, matrices, normalised_target
-from app.formats.join import join_meshes
-from app.formats.names import numbered
+from app.formats.joined_meshes import join_meshes
 from app.formats.scene import Bone, Clip, MorphTarget, Scene, SkinnedMesh
+from app.formats.unique_names import numbered
 from app.identity_cache import IdentityCache
 from app.motion.model import Motion
 from app.rig import quaternion

@@ -13,11 +13,11 @@ from app.export.figures import dancer_scene
 from app.export.file_names import file_names
 from app.export.formats import requested
 from app.export.joint_playback import JointPlayback
-from app.export.keyed import key_count
 from app.export.playback import ScenePlayback
 from app.export.player import skeleton_report, write_options
 from app.export.report import DancerMeasures, DancerReport, stage_place
 from app.export.request import CastDancing, ExportRequest
+from app.export.scene_keys import key_count
 from app.export.target import TargetSkeleton
 from app.formats.scene import Scene
 from app.rig import quaternion

@@ -14,7 +14,7 @@ from app.export.own_skeleton import LIMBS, limb_twist
 from app.export.rig import Rig
 from app.export.rig_options import DEFAULT_RIG
 from app.export.target import TargetSkeleton, Twist
-from app.formats.names import numbered
+from app.formats.unique_names import numbered
 from app.rig import quaternion
 from app.rig.characters.bone_placements import local_placements, world_placements
 from app.rig.model import Character, Skeleton

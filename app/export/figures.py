@@ -8,8 +8,8 @@ from app.export.file_names import figure_stems
 from app.export.formats import FileFormat
 from app.export.humanoid import humanoid_scene
 from app.export.instrument import instrument_scene
-from app.export.keyed import keyed_character, keyed_instrument
 from app.export.request import CastDancing, CastMusician, ExportRequest
+from app.export.scene_keys import keyed_character, keyed_instrument
 from app.export.target import TargetSkeleton, instrument_path
 from app.formats.scene import Scene
 from app.motion.model import Motion

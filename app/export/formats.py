@@ -114,7 +114,7 @@ def _read_fbx(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
 
 
 def _write_bvh(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
-    from app.export.skeleton import scene_bvh
+    from app.export.bvh_clip import scene_bvh
     from app.formats.bvh.write import write_bvh
 
     (scene,) = scenes

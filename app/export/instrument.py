@@ -11,7 +11,7 @@ import numpy as np
 from app.export.bind_pose import CENTIMETRES
 from app.export.character import mesh_names, skinned_mesh
 from app.export.target import Trajectory, instrument_path
-from app.formats.join import join_meshes
+from app.formats.joined_meshes import join_meshes
 from app.formats.scene import Bone, Clip, Scene
 from app.motion.model import Motion
 from app.rig import quaternion

@@ -15,15 +15,15 @@ from app.contacts.reach import notes_out_of_reach
 from app.encoding import shown
 from app.errors import Progress
 from app.export.attachment import in_world, without_place
+from app.export.bvh_clip import profile_names
 from app.export.figures import held_scene, musician_scene
 from app.export.file_names import file_names, sound_name
 from app.export.formats import FileContent, FileFormat, Format, WriteOptions, files_of
 from app.export.humanoid import vrm_expressions
-from app.export.keyed import KeyCount, key_count
 from app.export.measure import PlayerJudge, PlayerMeasurement
 from app.export.report import DoubleReport, MutedSpan, PlayerReport, SkeletonReport, stage_place
 from app.export.request import CastMusician, ExportRequest
-from app.export.skeleton import profile_names
+from app.export.scene_keys import KeyCount, key_count
 from app.export.target import TargetSkeleton
 from app.export.targets import CheckedTarget
 from app.export.threads import in_threads

@@ -21,7 +21,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, SingleArray
-from app.export.marks import SkinnedMarks, rigid_links
+from app.export.key_reduction_landmarks import SkinnedMarks, rigid_links
 from app.export.playback import METRES
 from app.formats.continuous import continuous
 from app.formats.euler import matrices, quaternions

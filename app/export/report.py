@@ -9,9 +9,9 @@ import msgspec
 from app.contacts.bounds import Spread, allowed_mm
 from app.export.check_skeleton import SkeletonDifference
 from app.export.formats import Format
-from app.export.keyed import KeyCount
 from app.export.measure import PlayerMeasures
 from app.export.rig_options import DEFAULT_RIG, RigOptions
+from app.export.scene_keys import KeyCount
 from app.export.target import SkeletonChoice
 from app.formats.keys import KeyChoice
 from app.plan.model import MuteKind

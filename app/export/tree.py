@@ -23,7 +23,7 @@ from typing import Final
 from app.errors import FileError
 from app.formats.files import cannot_write, read_file
 from app.formats.locks import is_locked, lock
-from app.formats.scratch import abandoned_folders, scratch_folder
+from app.formats.temporary_folders import abandoned_folders, scratch_folder
 
 _SCRATCH: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
 MOST_BYTES = 2**24

@@ -21,7 +21,7 @@ from app.arrays import SingleArray
 from app.child_limits import limited_command
 from app.errors import FileError
 from app.export.tree import tree_into
-from app.formats.scratch import scratch_folder
+from app.formats.temporary_folders import scratch_folder
 
 SOUND_RATE_HZ = 48_000
 QUALITY_CRF = 18

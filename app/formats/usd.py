@@ -25,10 +25,10 @@ from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
 from app.formats.euler import matrices
-from app.formats.names import numbered
 from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, checked_scenes
-from app.formats.scratch import scratch_folder
 from app.formats.skin import influences
+from app.formats.temporary_folders import scratch_folder
+from app.formats.unique_names import numbered
 from app.formats.usd_package import open_libraries, refuse_without_usd
 
 METERS_PER_UNIT = 0.01

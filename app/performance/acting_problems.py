@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol, cast
 
 from app.errors import Message
-from app.features import modules
+from app.optional_features import modules
 from app.plan.model import TimeFrame
 from app.project.performers import Player
 from metadata.acting import names_in

@@ -1,4 +1,4 @@
-"""Dances, as far as a performance, its exports and its streams know them; `app.features` names who makes them.
+"""Dances, as far as a performance, its exports and its streams know them; `app.optional_features` names who makes them.
 
 Without a maker of dances, dancers are excluded and players who were to dance move as generated, both with the reason.
 """
@@ -10,10 +10,10 @@ from typing import Protocol, cast
 
 from app.arrays import BoolArray, FloatArray
 from app.errors import AppError
-from app.features import modules
 from app.motion.gestures.dance_layer import BodyLayer
 from app.motion.gestures.danced_feet import DancedFeet
 from app.motion.model import Motion
+from app.optional_features import modules
 from app.performance.ensemble import Performance
 from app.plan.model import Problem
 from app.project.performers import Dancer, Player

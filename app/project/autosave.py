@@ -23,7 +23,7 @@ from app.encoding import stored
 from app.errors import Argument, FileError, Message
 from app.formats.atomic import atomic_write
 from app.project.model import Project
-from app.project.presence import Presence, is_open_elsewhere, remove
+from app.project.running_editors import Presence, is_open_elsewhere, remove
 from app.project.salvage import salvaged
 from app.project.storage import AUTOSAVE, Autosaved, encode_autosave, load
 

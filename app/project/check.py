@@ -12,13 +12,19 @@ from itertools import pairwise
 
 from app.errors import UsageError
 from app.project import limits
-from app.project.cameras import camera_faults
+from app.project.camera_bookmarks import camera_faults
 from app.project.check_corrections import project_correction_faults
 from app.project.check_dancers import dancer_faults
 from app.project.check_imported import import_faults
 from app.project.check_score import controller_faults, metre_faults, note_faults, score_faults, tempo_faults
 from app.project.check_stored import stored_faults
-from app.project.fault import (
+from app.project.frame_rate import is_storable_rate
+from app.project.import_decisions import ReadTiming
+from app.project.model import PlayerTakes, Project
+from app.project.parameters import is_possible, range_text
+from app.project.performers import Player
+from app.project.recording import AudioTrack
+from app.project.value_checks import (
     COLOUR,
     Fault,
     about,
@@ -30,12 +36,6 @@ from app.project.fault import (
     text_faults,
     unique,
 )
-from app.project.frame_rate import is_storable_rate
-from app.project.import_decisions import ReadTiming
-from app.project.model import PlayerTakes, Project
-from app.project.parameters import is_possible, range_text
-from app.project.performers import Player
-from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
 from app.score.take import Take, is_message
 from metadata.model import ARKIT_MORPHS, Expression

@@ -15,8 +15,8 @@ from app.plan.by_hand.corrections import Correction
 from app.plan.by_hand.mark_corrections import OfMark, SetMark
 from app.plan.music.written_dynamics import DYNAMIC_TEXTS
 from app.project import limits
-from app.project.fault import Fault, about, faults_at_key, faults_of_bounds, id_faults, text_faults
 from app.project.model import Project
+from app.project.value_checks import Fault, about, faults_at_key, faults_of_bounds, id_faults, text_faults
 from app.score.marks import MARK_KINDS
 
 _POSSIBLE: Final = f"{', '.join(BODY_CHANNELS)}, {FACE}MORPH (an ARKit morph target)"

@@ -7,9 +7,18 @@ from collections.abc import Iterator
 from app.project import limits
 from app.project.choreography_files import SUFFIX, is_choreography
 from app.project.dance_corrections import DanceCorrection, ForbidState, PinState
-from app.project.fault import Fault, about, faults_of_bounds, id_faults, look_faults, path_faults, text_faults, unique
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
+from app.project.value_checks import (
+    Fault,
+    about,
+    faults_of_bounds,
+    id_faults,
+    look_faults,
+    path_faults,
+    text_faults,
+    unique,
+)
 
 
 def dancer_faults(project: Project) -> Iterator[Fault]:

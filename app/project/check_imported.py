@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from app.encoding import is_encoding
 from app.project import limits
-from app.project.fault import Fault, faults_of_bounds, id_faults, text_faults
 from app.project.import_decisions import MOST_ROWS, ImportDecisions, RowDecision, TrackMark
-from app.project.likeness import SKETCH, SKETCH_BITS
+from app.project.melody_likeness import SKETCH, SKETCH_BITS
+from app.project.value_checks import Fault, faults_of_bounds, id_faults, text_faults
 from app.score.model import MOST_VOICES
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from app.project import limits
-from app.project.fault import (
+from app.project.value_checks import (
     Fault,
     faults_at_key,
     faults_of_bounds,

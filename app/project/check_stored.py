@@ -18,10 +18,10 @@ from app.encoding import is_text, stored
 from app.errors import shortened
 from app.plan.by_hand.corrections import Correction
 from app.project.dance_corrections import DanceCorrection
-from app.project.fault import Fault
 from app.project.model import PlayerTakes, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
+from app.project.value_checks import Fault
 from app.project.video import VideoTrack
 from app.score.model import ControllerCurve, Note, Part, Score
 from metadata.model import Expression

@@ -11,13 +11,13 @@ import msgspec
 
 from app.project.ids import MADE_PART, is_made_here
 from app.project.import_decisions import ImportDecisions, Place, RowDecision, TrackMark, mark_of, melody_of
-from app.project.likeness import shares, sketch, turns
+from app.project.melody_likeness import shares, sketch, turns
 from app.project.model import Project
 from app.project.part_matching import turns_of
 from app.project.rereading import recognised_streams
 from app.score.assignments import PartAssignment, Split
-from app.score.choose import MapChoice
 from app.score.contents import PieceContents, assigned_score
+from app.score.instrument_choice import MapChoice
 from app.score.model import Note, Part
 from app.score.parts import stream_name
 from app.score.track_channel import TrackChannel

@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 
 import msgspec
 
-from app.project.likeness import sketch, turns
+from app.project.melody_likeness import sketch, turns
 from app.score.assignments import Split
 from app.score.limits import MOST_STREAMS
 from app.score.metre_map import Metre
@@ -35,7 +35,7 @@ class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     called : str
         The track's name when the file was read last.
     melody : tuple of int
-        Sketch of its notes (`app.project.likeness.sketch`).
+        Sketch of its notes (`app.project.melody_likeness.sketch`).
     """
 
     track: int

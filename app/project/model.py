@@ -15,7 +15,7 @@ from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
 from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
-from app.project.cameras import CameraBookmark
+from app.project.camera_bookmarks import CameraBookmark
 from app.project.casting import (
     ConductorPlace,
     amplitude,
@@ -38,7 +38,7 @@ from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.model import Character
-from app.score.choose import MapChoice
+from app.score.instrument_choice import MapChoice
 from app.score.metre_map import MetreMap
 from app.score.model import ControllerCurve, Note, Part, Score
 from app.score.take import Take

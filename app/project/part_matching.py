@@ -8,7 +8,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.project.import_decisions import Place
-from app.project.likeness import ALIKE, shares, turns
+from app.project.melody_likeness import ALIKE, shares, turns
 from app.score.model import Part, Score
 
 _NAMED = 0.4
@@ -45,7 +45,7 @@ def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list
 
 
 def turns_of(part: Part, quarter: int) -> FloatArray:
-    """The turns of a part's melody (`app.project.likeness.turns`)."""
+    """The turns of a part's melody (`app.project.melody_likeness.turns`)."""
     return turns([note.onset_tick for note in part.notes], [note.pitch for note in part.notes], quarter)
 
 

@@ -24,9 +24,9 @@ from app.project import limits
 from app.project.check import expression_faults, require_sound
 from app.project.check_corrections import correction_faults
 from app.project.edit.players import set_parameters
-from app.project.fault import Fault, faults_of_bounds, text_faults, unique
 from app.project.model import Project
 from app.project.parameters import is_possible, range_text
+from app.project.value_checks import Fault, faults_of_bounds, text_faults, unique
 from app.score.marks import MARK
 from metadata.acting import AMOUNTS
 from metadata.model import Expression

@@ -18,7 +18,7 @@ from app.errors import FileError
 from app.formats.atomic import sweep
 from app.project.autosave import autosave_path
 from app.project.model import Project
-from app.project.presence import NOTE, editors, forget, note_of, remove
+from app.project.running_editors import NOTE, editors, forget, note_of, remove
 from app.project.storage import AUTOSAVE, SUFFIX, Autosaved, autosave_facts, content_hash, decode, file_hash, load, read
 
 

@@ -24,10 +24,10 @@ from app.project.import_decisions import (
     melody_of,
 )
 from app.project.importing import ImportRow, decision_of, usual_rows
-from app.project.likeness import ALIKE, sketched_shares
+from app.project.melody_likeness import ALIKE, sketched_shares
 from app.score.assignments import PERCUSSION, PartAssignment
-from app.score.choose import How, MapCandidates, MapChoice, candidates, refusal
 from app.score.contents import PieceContents
+from app.score.instrument_choice import How, MapCandidates, MapChoice, candidates, refusal
 from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap

@@ -9,8 +9,8 @@ from itertools import islice
 from typing import Any, Final, NamedTuple, TypeVar
 
 from app.project.check import faults
-from app.project.fault import Fault
 from app.project.model import Project
+from app.project.value_checks import Fault
 
 T = TypeVar("T")
 

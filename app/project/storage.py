@@ -54,7 +54,7 @@ class Autosaved(msgspec.Struct, frozen=True):
     generation : int
         Ascends within a work: the highest is the newest.
     editor : str
-        Token of the editor that wrote it (`app.project.presence`).
+        Token of the editor that wrote it (`app.project.running_editors`).
     document : str
         Absolute path of the project's file (`app.encoding.stored`); empty for a project that was never saved.
     base : str

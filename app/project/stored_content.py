@@ -13,7 +13,7 @@ import msgspec
 from app.errors import FileError, Message, shortened
 from app.messages import text
 from app.plan.by_hand.corrections import Correction
-from app.project.cameras import CameraBookmark
+from app.project.camera_bookmarks import CameraBookmark
 from app.project.casting import ConductorPlace
 from app.project.check import faults
 from app.project.dance_corrections import DanceCorrection

@@ -7,8 +7,8 @@ from typing import Final, Literal, TypeAlias
 
 import msgspec
 
-from app.score.choose import LEAST_OUTSIDE, How, MapChoice, candidates, refusal
-from app.score.regions import groups
+from app.score.instrument_choice import LEAST_OUTSIDE, How, MapChoice, candidates, refusal
+from app.score.sequencer_regions import groups
 from app.score.track_channel import TrackChannel
 from instrument_maps.instrument_names import vocabulary
 

@@ -8,7 +8,7 @@ import msgspec
 
 from app.errors import Message, StopRequested
 from app.score.assignments import PartAssignment
-from app.score.choose import MapChoice
+from app.score.instrument_choice import MapChoice
 from app.score.metre_map import Metre
 from app.score.model import MOST_VOICES, Marker, Part, PercussionHit, Score, UnplayedPart
 from app.score.parts import assigned_parts, rhythm_parts, stream_name

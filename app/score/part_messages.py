@@ -9,8 +9,8 @@ import msgspec
 
 from app.errors import Argument, Message
 from app.score.assignments import PartAssignment, fits_as_written
-from app.score.choose import How, MapCandidates, MapChoice, plays
 from app.score.clean import Fault
+from app.score.instrument_choice import How, MapCandidates, MapChoice, plays
 from app.score.model import Note, Part, Score, UnplayedPart, transposed
 from instrument_maps.instruments import Instrument
 

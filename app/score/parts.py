@@ -12,15 +12,15 @@ import msgspec
 
 from app.errors import Message, StopRequested, raise_if_stopped
 from app.score.assignments import PERCUSSION, PartAssignment, usual_assignments
-from app.score.choose import How, MapCandidates, MapChoice, candidates, refusal, require_map
 from app.score.clean import Fault
+from app.score.instrument_choice import How, MapCandidates, MapChoice, candidates, refusal, require_map
+from app.score.key_switches import without_key_switches
 from app.score.limits import MOST_PARTS, most_parts
 from app.score.marks import Mark, marks_of_player
 from app.score.model import MOST_VOICES, Note, Part, Score, UnplayedPart, sounding_spans, transposed
 from app.score.part_messages import about_notes, cleaned_take, instrument_warnings, silent_notes
-from app.score.regions import are_one_line, is_spread, joined
+from app.score.sequencer_regions import are_one_line, is_spread, joined
 from app.score.solos import solo_notes, with_solos
-from app.score.switches import without_key_switches
 from app.score.take_tracks import without_faults
 from app.score.tempo import TempoMap
 from app.score.track_channel import TrackChannel

@@ -34,10 +34,10 @@ from typing import Final
 from app.encoding import shown
 from app.errors import FileError, Message
 from app.score.channels import settle_bends
-from app.score.choose import MapChoice
 from app.score.chunks import Container, read_container
 from app.score.contents import PieceContents, score_of
 from app.score.ensembles import named_by_ensemble
+from app.score.instrument_choice import MapChoice
 from app.score.limits import MOST_NAME, MOST_STREAMS, too_long
 from app.score.model import Marker, Score
 from app.score.musicxml.container import is_musicxml

@@ -14,10 +14,10 @@ from app.score.channel_sound import ChannelSound, Use
 from app.score.channels import curves_of, leading_channel, players_channels, sounding_channels
 from app.score.doublings import doubled_instruments
 from app.score.limits import MOST_NAME
+from app.score.lines_spread_over_tracks import spread_lines
 from app.score.mutes import mutes_of
 from app.score.solos import words_of_players
 from app.score.sound_module import FIRST_PORT, Port
-from app.score.spread import spread_lines
 from app.score.take_tracks import RECORDED
 from app.score.texts import TextDecoder
 from app.score.track_channel import TrackChannel

@@ -18,7 +18,7 @@ from typing import Final
 
 import msgspec
 
-from app.score.frequent import ACCENTED, CENTRAL, CYRILLIC, GREEK, HANGUL, KANJI, SIMPLIFIED, TRADITIONAL
+from app.score.frequent_characters import ACCENTED, CENTRAL, CYRILLIC, GREEK, HANGUL, KANJI, SIMPLIFIED, TRADITIONAL
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.name_words import is_wide
 

@@ -51,7 +51,8 @@ class TrackChannel(msgspec.Struct, frozen=True):
     struck : list of int
         Of a rhythm part: the sounds of its notes as General MIDI numbers them; empty where they are its pitches.
     line : int
-        The first of the tracks over which its line is spread (`app.score.spread`); -1: it has the line to itself.
+        The first of the tracks over which its line is spread (`app.score.lines_spread_over_tracks`); -1: it has the
+        line to itself.
     marks, source
         As those of a `Part`; marks are of the ids that `notes` gives.
     """

@@ -40,7 +40,7 @@ from app.errors import AppError, Message
 from app.formats.atomic import atomic_write
 from app.score.bend_range import range_controls, range_for, wheel
 from app.score.channel_sound import DRUM_CHANNEL
-from app.score.choose import MapChoice, plays
+from app.score.instrument_choice import MapChoice, plays
 from app.score.model import ControllerCurve, CurveKind, Note, Part, Score
 from app.score.tempo import TempoChange
 from app.score.tracks import CONTROLLERS, LEAST_TEMPO

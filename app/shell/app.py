@@ -16,9 +16,9 @@ from PySide6.QtWidgets import QApplication
 
 from app.audio.playback import Playback
 from app.editor.files import Files
+from app.editor.freed_memory import share_memory
 from app.editor.generator import Generator
 from app.editor.library_watch import watch_characters, watch_instruments, watch_metadata
-from app.editor.memory import share_memory
 from app.editor.problems import follow_selection, forget_problems
 from app.editor.questions import Questions
 from app.editor.recorder import Recorder
@@ -30,24 +30,24 @@ from app.editor.tasks import Tasks, ThreadTasks
 from app.editor.video import ReferenceVideo
 from app.errors import AppError, FileError, Message
 from app.formats.atomic import atomic_write
-from app.formats.scratch import scratch_folder
+from app.formats.temporary_folders import scratch_folder
 from app.project.autosave import Autosave
-from app.project.cameras import VIEWS
+from app.project.camera_bookmarks import VIEWS
 from app.project.edit.piece import new_piece
-from app.project.presence import Presence
 from app.project.recovery import recovery_folder
+from app.project.running_editors import Presence
 from app.rig.characters.character_library import begin_characters
+from app.shell.action_rows import rows
 from app.shell.actions import ActionTable
+from app.shell.camera_and_view_per_piece import PieceViews
 from app.shell.commands import characters, record
 from app.shell.commands.help import help_about
 from app.shell.crash_handler import CrashHandler, log_path
 from app.shell.editor import Editor
-from app.shell.garbage import Garbage
+from app.shell.garbage_collection import Garbage
 from app.shell.keyboard_buttons import KeyboardButtons
 from app.shell.language import Language
-from app.shell.piece_views import PieceViews
 from app.shell.questions import DialogQuestions
-from app.shell.rows import rows
 from app.shell.selection_camera import SelectionCamera
 from app.shell.theme import apply_theme, unstyled
 from app.shell.window import Window

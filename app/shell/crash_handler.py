@@ -17,8 +17,8 @@ from typing import Final
 
 import platformdirs
 
-from app.editor.calls import window_calls
 from app.editor.session import Session, Severity
+from app.editor.window_thread_calls import window_calls
 from app.errors import AppError, Message
 
 MOST_BYTES: Final = 1_000_000

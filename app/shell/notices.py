@@ -9,8 +9,8 @@ from pathlib import Path
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QFrame, QWidget
 
+from app.editor.design_tokens import Tokens
 from app.editor.session import Session, Severity
-from app.editor.tokens import Tokens
 from app.errors import Message
 from app.formats.other_computers import may_touch
 from widgets.common.controls import Button, IconButton, selectable, small, wrapped

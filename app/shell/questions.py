@@ -8,9 +8,9 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
+from app.editor.design_tokens import Tokens
 from app.editor.questions import Answer, ReadAgain
 from app.editor.tasks import Tasks
-from app.editor.tokens import Tokens
 from app.editor.translated import tr
 from app.encoding import shown
 from app.project.importing import ImportRequest

@@ -11,10 +11,10 @@ from app.editor.problems import view_of_event
 from app.editor.selection import EventKey
 from app.editor.session import Session
 from app.plan.by_hand.corrections import Correction
-from app.project.cameras import View
-from app.project.document import Change
+from app.project.camera_bookmarks import View
 from app.project.edit.found_events import events_of
 from app.project.model import Project
+from app.project.undoable_document import Change
 
 _SOON_MS: Final = 40
 """After a selection or an edit: a press may become a drag, and more may be selected with the same key."""

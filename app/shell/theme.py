@@ -14,8 +14,8 @@ import msgspec
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QStyleFactory
 
-from app.editor.tokens import LEAST_TARGET_PX, SPLITTER_PX, Tokens
-from app.formats.scratch import scratch_folder
+from app.editor.design_tokens import LEAST_TARGET_PX, SPLITTER_PX, Tokens
+from app.formats.temporary_folders import scratch_folder
 from widgets.common.icons import source
 
 FAINT = 0.6

@@ -13,8 +13,8 @@ from typing import Final, Literal
 from PySide6.QtCore import QByteArray, QObject, Qt, Signal
 from PySide6.QtWidgets import QLayout, QMainWindow, QToolButton, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.settings import Settings
-from app.editor.tokens import LEAST_TARGET_PX
 from app.shell.actions import ActionTable
 from app.shell.docks import Dock
 from widgets.common.controls import Retranslated, named

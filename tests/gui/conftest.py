@@ -13,9 +13,9 @@ from PySide6.QtCore import QCoreApplication, QEvent, Qt
 from PySide6.QtWidgets import QApplication
 
 from app.choreography.model_file import write_model
+from app.editor.design_tokens import DARK
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
-from app.editor.tokens import DARK
 from app.errors import AppError
 from app.performance.ensemble import Performance
 from app.project.model import Project, map_choices, project_from_score

@@ -17,7 +17,7 @@ import pytest
 from PySide6.QtCore import QEvent, QObject, QRunnable, QThreadPool, QTimer
 from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 
-from app.editor.calls import window_calls
+from app.editor.window_thread_calls import window_calls
 from app.shell.crash_handler import CrashHandler
 
 

@@ -39,7 +39,7 @@ from app.cli import main, parser
 from app.cli.options import open_project
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.project.document import Document
+from app.project.undoable_document import Document
 from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.storage import load, save
@@ -90,7 +90,7 @@ from app.cli import main, parser
 from app.cli.options import open_project
 from app.errors import Message
 from app.performance.ensemble import Performance
-from app.project.document import Document
+from app.project.undoable_document import Document
 from app.project.edit import breaths_and_cues
 from app.project.edit import events as edit
 from app.project.storage import load, save

@@ -31,7 +31,7 @@ from app.choreography.dance import Dance, Manner
 from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.features import facing, height_m, points_m
 from app.choreography.generate import Choreographer
-from app.choreography.hands import depths_m
+from app.choreography.hands_out_of_body import depths_m
 from app.choreography.learn import learn
 from app.choreography.model import ChoreographyModel
 from app.choreography.read_motion import read_motion

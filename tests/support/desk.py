@@ -16,15 +16,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QLineEdit
 
+from app.editor.design_tokens import DARK
 from app.editor.selection import EventKey, Selection
-from app.editor.tokens import DARK
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.piece import set_audio, set_video
 from app.project.edit.takes import add_takes, comp_whole
-from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.snap_grid import Grid
 from app.score.model import Note, PercussionHit
 from app.shell.app import Program
 from tests.gui.conftest import QUARTET

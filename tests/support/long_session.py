@@ -25,11 +25,11 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.project.autosave import Autosave
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.project.storage import save
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
-from app.shell.garbage import Garbage
+from app.shell.garbage_collection import Garbage
 from tests.bench.performance.large import large_project
 from tests.support.windows import LOOK_AGAIN_MS, child, pause
 from widgets.common.actions import actions

@@ -40,17 +40,17 @@ from PySide6.QtWidgets import (
 
 import app.shell
 import widgets.dialogs
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Severity
 from app.editor.settings import Settings
-from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.autosave import Autosave
 from app.project.edit.takes import add_takes, comp_whole
 from app.project.importing import import_project, usual_rows
-from app.project.presence import Presence
 from app.project.recovery import Recoverable
+from app.project.running_editors import Presence
 from app.score.read import read_contents
 from app.shell.app import Program, make_application
 from app.shell.commands.record import latency as show_latency

@@ -20,9 +20,9 @@ from typing import Any, Final, NamedTuple
 from app.score.musicxml.bars import measure_lengths
 from app.score.musicxml.container import read_document
 from app.score.musicxml.notes import read_measures, ticks_per_quarter
-from app.score.musicxml.order import playing_order
 from app.score.musicxml.parts import written_parts
 from app.score.musicxml.played import played_part
+from app.score.musicxml.repeats_and_jumps import playing_order
 from app.score.musicxml.written import Bar, Place
 
 ROOT: Final = Path(__file__).parents[2]

@@ -38,7 +38,6 @@ from app.errors import AppError, Message
 from app.plan.by_hand.corrections import AddExpression
 from app.project import storage
 from app.project.autosave import Autosave
-from app.project.document import Change
 from app.project.edit.corrections import with_corrections
 from app.project.edit.dance_corrections import pin_state
 from app.project.edit.dancers import add_dancer, remove_dancers
@@ -47,8 +46,9 @@ from app.project.edit.notes import move
 from app.project.edit.piece import set_title
 from app.project.edit.players import rename, set_parameters
 from app.project.model import Project
-from app.project.presence import Presence
 from app.project.recovery import Recoverable
+from app.project.running_editors import Presence
+from app.project.undoable_document import Change
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
 from tests.fuzz.harness import seeds

@@ -25,8 +25,8 @@ from app.editor.settings import Settings
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.autosave import Autosave
-from app.project.presence import Presence
 from app.project.recovery import Recoverable
+from app.project.running_editors import Presence
 from app.shell.app import Program, make_application
 from tests.gui.shell.conftest import Answers
 from tests.gui.timeline.hand import Hand

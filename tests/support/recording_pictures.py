@@ -30,7 +30,7 @@ from app.capture.recorder import SYSTEM_VARIABLE
 from app.editor.recorder import Recorder
 from app.editor.settings import Settings
 from app.project.autosave import Autosave
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.shell.app import Program, make_application
 from tests.gui.timeline.lane_hands import drag
 from tests.support.jack import QUICK_FRAMES, jack_server

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import QComboBox, QPushButton, QSpinBox
 
 from app.editor.settings import Settings
 from app.project.autosave import Autosave
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import export_files
 from tests.support.windows import child

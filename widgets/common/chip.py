@@ -6,8 +6,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QKeySequence, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 
 _PAD_PX = 9.0
 _GAP_PX = 6.0

@@ -9,7 +9,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QStandardItemModel, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.design_tokens import LEAST_TARGET_PX
 from widgets.common.numbers import MIXED
 from widgets.common.plain import ComboBox
 

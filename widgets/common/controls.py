@@ -21,8 +21,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.translated import tr
 from widgets.common.clicks import on_click
 from widgets.common.combo import Combo, Option

@@ -20,8 +20,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from app.editor.design_tokens import Tokens
 from app.editor.session import Session
-from app.editor.tokens import Tokens
 from app.editor.translated import tr
 from instrument_maps.fingering_label import says_words
 from instrument_maps.fingering_words import key_name, pressed_names

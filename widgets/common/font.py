@@ -7,7 +7,7 @@ import sys
 from PySide6.QtGui import QFont, QFontDatabase
 from PySide6.QtWidgets import QApplication
 
-from app.editor.tokens import LEAST_TEXT_PT
+from app.editor.design_tokens import LEAST_TEXT_PT
 
 FONT_SIZE_PT = 9.5
 JAPANESE_FAMILIES = (

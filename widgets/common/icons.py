@@ -13,7 +13,7 @@ from PySide6.QtCore import QByteArray, QPointF, QRect, QRectF, QSizeF, Qt
 from PySide6.QtGui import QIcon, QPainter, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 
 SIZES_PX = (16, 20, 24, 32, 48)
 """Drawn sizes in pixels of the screen; other sizes are scaled down from the next one."""

@@ -15,8 +15,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX, Tokens
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX, Tokens
 from widgets.common.numbers import MIXED, number_text
 
 _PAD_PX = 7.0

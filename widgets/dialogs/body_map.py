@@ -11,8 +11,8 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from app.editor.design_tokens import Tokens
 from app.editor.session import Session
-from app.editor.tokens import Tokens
 from metadata.load import load_skeleton
 from widgets.dialogs.character_draft import State
 

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session, Severity
-from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
 from app.export.formats import refuse_attachment, requested
@@ -37,7 +37,7 @@ from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import BeatsBox, RangeChooser
 from widgets.dialogs.export_rig import RigChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
-from widgets.dialogs.working import WorkingDialog, stopping
+from widgets.dialogs.progress_dialog import WorkingDialog, stopping
 
 SHOW_MS = 50
 """Progress is shown this often."""

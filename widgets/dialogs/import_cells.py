@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QCheckBox, QWidget
 
-from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.design_tokens import LEAST_TARGET_PX
 from widgets.common.controls import named
 from widgets.common.layouts import in_column, in_row, panel
 from widgets.common.plain import ComboBox, Label

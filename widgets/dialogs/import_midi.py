@@ -17,9 +17,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.editor.design_tokens import Tokens
 from app.editor.questions import ReadAgain
 from app.editor.tasks import Tasks
-from app.editor.tokens import Tokens
 from app.errors import AppError, Message, Progress, StopRequested
 from app.project.choreography_files import bundled_choreographies
 from app.project.importing import (

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QTableWidget,
 )
 
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 from app.messages.pitches import pitch_name
 from app.project.importing import (
     ImportPreview,

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QDialog, QGroupBox, QPushButton, QTreeWidgetItem, 
 from app.audio.click import BEEP_S, beep_track
 from app.audio.playback import Playback
 from app.audio.track import Mix
-from app.capture.learn import Learned, learned_bite, recognised_controller
+from app.capture.controller_recognition import Learned, learned_bite, recognised_controller
 from app.capture.protocol import Events
 from app.editor.session import Session
 from metadata.load import load_controllers

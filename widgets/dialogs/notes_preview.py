@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QWidget
 
 from app.arrays import IntArray
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 from app.score.track_channel import TrackChannel
 
 ROW_PX = 40

@@ -21,7 +21,7 @@ from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from app.export.video import SOUND_RATE_HZ, video_into
 from app.performance.span import FrameSpan, cut_span, led_into_s, whole_span
-from app.project.cameras import VIEWS, CameraBookmark, View
+from app.project.camera_bookmarks import VIEWS, CameraBookmark, View
 from app.project.frame_rate import USUAL_FILM_RATE, USUAL_RATES, frame_rate_text
 from widgets.common.controls import Button, Check, named, selectable, wrapped
 from widgets.common.layouts import in_column, in_form, in_row
@@ -29,7 +29,7 @@ from widgets.common.paths import PathEdit, ask_where_to_save, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
 from widgets.dialogs.export_range import BeatsBox
-from widgets.dialogs.working import WorkingDialog, stopping
+from widgets.dialogs.progress_dialog import WorkingDialog, stopping
 
 Pictures = npt.NDArray[np.uint8]
 Draw = Callable[[float], Pictures]

@@ -9,8 +9,8 @@ from functools import partial
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QAbstractItemView, QDialog, QListWidget, QListWidgetItem, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.translated import tr
 from app.errors import Message
 from app.plan.by_hand.corrections import Correction

@@ -12,10 +12,10 @@ from PySide6.QtWidgets import QGridLayout, QLineEdit, QToolButton, QWidget
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.project import presets
-from app.project.document import Change
 from app.project.edit import piece as edit
 from app.project.edit.players import free_name
 from app.project.model import Project
+from app.project.undoable_document import Change
 from metadata.load import load_expressions
 from metadata.model import ARKIT_MORPHS, Expression
 from widgets.common.clicks import on_click, on_switch

@@ -13,7 +13,7 @@ from app.editor.session import Session
 from app.errors import FileError
 from app.formats.json_data import decode_json
 from app.plan.event_id import EventId
-from app.project.document import Change
+from app.project.undoable_document import Change
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import STRETCH, in_column, panel
 from widgets.common.plain import Label

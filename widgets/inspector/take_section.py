@@ -11,9 +11,9 @@ import msgspec
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QLineEdit, QToolButton, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.grids import GRIDS
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.project.edit.placed_takes import take_cleaned
 from app.project.edit.takes import colour_take, rename_take, set_cleaning

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.edit_names import edit_of_players
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.translated import tr
 from app.plan.parameters import Parameter
 from app.project.edit.players import show_layer

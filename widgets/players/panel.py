@@ -14,11 +14,11 @@ from app.editor.edit_names import edit_of_parameter
 from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.errors import Message
-from app.features import modules
-from app.project.document import Change
+from app.optional_features import modules
 from app.project.edit import players as edit
 from app.project.edit.generation import vary_players
 from app.project.player_sections import are_worth_grouping, sections
+from app.project.undoable_document import Change
 from instrument_maps.library import all_maps, library
 from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, IconButton, PictureButton, Retranslated, named, wrapped
@@ -29,14 +29,14 @@ from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import Label, verbatim
 from widgets.common.section import Section
 from widgets.common.text import sentence
-from widgets.players.newcomers import (
+from widgets.players.parameters import ParameterSections
+from widgets.players.performer_edits import (
     add_player,
     duplicate_players,
     randomise_players,
     remove_players,
     reset_players,
 )
-from widgets.players.parameters import ParameterSections
 from widgets.players.player_list import PlayerList
 from widgets.players.player_rows import PlayerRow, Row, SectionRow
 from widgets.players.preset_section import PresetSection

@@ -8,9 +8,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontMetrics, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QProgressBar, QSizePolicy, QToolButton, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.recording import Connection
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.project.performers import Player
 from instrument_maps.library import all_maps
 from widgets.common.actions import actions

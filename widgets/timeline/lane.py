@@ -12,11 +12,11 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QWidget
 
 from app.editor.selection import Selection
 from app.editor.session import Session
-from app.project.document import Change
+from app.project.undoable_document import Change
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated
 from widgets.timeline.lane_header import GUTTER_PX, LaneHeader
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot.mouse import mouse_at
 from widgets.timeline.plot.plot import Background, LaneItem, Plot

@@ -6,7 +6,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 from app.editor.translated import tr
 from widgets.common.controls import named
 from widgets.common.layouts import STRETCH, in_column, in_row

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from app.editor.timeline_view import Ghosts
 from app.errors import FileError
 from app.formats.json_data import decode_json
-from app.project.document import Change
+from app.project.undoable_document import Change
 from widgets.common.clicks import on_click
 from widgets.common.menus import add_actions, passing_menu
 from widgets.timeline.lane import Lane

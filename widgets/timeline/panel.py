@@ -12,12 +12,11 @@ from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
 from app.errors import Message
-from app.project.document import Change
+from app.project.undoable_document import Change
 from widgets.common.controls import IconButton, Retranslated, named
 from widgets.common.icons import icon
 from widgets.common.layouts import in_column, in_row
 from widgets.common.text import sentence
-from widgets.timeline.extent import scroll_limits, selected_span
 from widgets.timeline.front_lanes import FrontLanes, KeyboardNote
 from widgets.timeline.lane import GUTTER_PX, Lane
 from widgets.timeline.lane_layout import LaneLayout, LaneState, lane_state, lane_text
@@ -31,6 +30,7 @@ from widgets.timeline.roll.piano_roll import ZOOM_A_KEY, PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
+from widgets.timeline.scroll_limits import scroll_limits, selected_span
 from widgets.timeline.stack import LaneStack
 from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
 from widgets.timeline.tool_bar import BUTTON_PX, ToolBar

@@ -14,7 +14,7 @@ from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts
 from app.messages import filled
-from app.project.document import Change
+from app.project.undoable_document import Change
 from instrument_maps.library import all_maps
 from widgets.common.clicks import on_switch
 from widgets.common.controls import Retranslated, named

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QMenu, QSizePolicy, QTo
 
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
-from app.project.document import Change
+from app.project.undoable_document import Change
 from widgets.common.actions import with_keys
 from widgets.common.controls import Retranslated, named
 from widgets.common.icons import icon

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QScrollBar, QWidget
 
 from app.arrays import FloatArray
-from app.project.grid import Grid
+from app.project.snap_grid import Grid
 from app.score.model import Score
 from widgets.timeline.model.lines import LineCache, Lines
 from widgets.timeline.model.visible_time import TimeView

@@ -8,12 +8,12 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QLayout, QMenu, QSizePolicy, QToolButton, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.grids import GRIDS
 from app.editor.listening import LEAST_SPEED, MOST_SPEED, SOURCES
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
-from app.project.document import Change
-from app.project.grid import Grid
+from app.project.snap_grid import Grid
+from app.project.undoable_document import Change
 from widgets.common.actions import actions, with_keys
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.arrays import FloatArray
-from app.project.cameras import View
+from app.project.camera_bookmarks import View
 from widgets.viewport import camera as moves
 from widgets.viewport.camera import Camera
 

@@ -15,7 +15,7 @@ from PySide6.QtOpenGL import QOpenGLFramebufferObject, QOpenGLFramebufferObjectF
 from vispy import app as vispy_app
 
 from widgets.viewport.camera import Camera
-from widgets.viewport.look import Emphasis, ViewportLook
+from widgets.viewport.colours_and_lights import Emphasis, ViewportLook
 from widgets.viewport.renderer import Renderer
 
 SAMPLES = 4

@@ -10,12 +10,12 @@ from itertools import product
 import numpy as np
 
 from app.arrays import FloatArray
-from app.project.cameras import View
+from app.project.camera_bookmarks import View
 from app.rig.grip.body_size import face_size
 from widgets.viewport.camera import Camera, frame, frame_around
 from widgets.viewport.cast import Stage
 from widgets.viewport.finger_visibility import clearest, directions, fingers_seen
-from widgets.viewport.limbs import model_bounds
+from widgets.viewport.limb_capsules import model_bounds
 
 # Turn from the player's front towards their left, height of the eye, both in degrees; of the hands: the usual ones.
 _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {

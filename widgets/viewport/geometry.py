@@ -16,9 +16,9 @@ import numpy.typing as npt
 from app.arrays import FloatArray, IntArray, SingleArray
 from app.rig.mesh import Mesh
 from app.rig.model import Character, InstrumentModel
+from widgets.viewport.normals_across_seams import SplitMesh, Weld, row_keys, split_mesh
 from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
-from widgets.viewport.weld import SplitMesh, Weld, row_keys, split_mesh
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""

@@ -9,12 +9,12 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QButtonGroup, QLineEdit, QMenu, QSizePolicy, QToolButton, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.viewport_state import SHOWN, Shown
 from app.errors import Message
-from app.project.cameras import VIEWS, CameraBookmark, View
-from app.project.edit.cameras import rename_camera
+from app.project.camera_bookmarks import VIEWS, CameraBookmark, View
+from app.project.edit.camera_bookmarks import rename_camera
 from widgets.common.actions import actions, with_keys
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.controls import Retranslated, named

@@ -10,15 +10,15 @@ from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QImage, QPainter, QTransform
 from PySide6.QtWidgets import QApplication
 
+from app.editor.design_tokens import THEMES, Tokens
 from app.editor.session import Session
-from app.editor.tokens import THEMES, Tokens
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested, raise_if_stopped
 from app.export.pictures import Picture
 from app.performance.cast import LeftOut
 from app.performance.chunks import Pose, Posed
 from app.performance.ensemble import Performance
 from app.performance.live import LiveMotion, PlayerFault
-from app.project.cameras import CameraBookmark, View
+from app.project.camera_bookmarks import CameraBookmark, View
 from app.project.performers import Player
 from widgets.common.font import apply_font
 from widgets.viewport.camera import Camera

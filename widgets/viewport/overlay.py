@@ -10,7 +10,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from app.arrays import FloatArray
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 from app.plan.by_hand.events import PoseTarget
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage

@@ -18,18 +18,20 @@ from app.editor.poses import PoseSource
 from app.editor.session import Session
 from app.editor.viewport_state import SHOWN
 from app.errors import AppError
-from app.project.cameras import VIEWS, CameraBookmark, View
-from app.project.document import Change
+from app.project.camera_bookmarks import VIEWS, CameraBookmark, View
+from app.project.undoable_document import Change
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.layouts import in_column
 from widgets.common.menus import offer_actions
 from widgets.common.plain import Label
-from widgets.viewport.bookmarks import BookmarkedCamera, shot_of
 from widgets.viewport.camera import Camera, dolly, frame, from_other_side
+from widgets.viewport.camera_bookmarks import BookmarkedCamera, shot_of
 from widgets.viewport.camera_moves import Eye
 from widgets.viewport.canvas import Canvas, Picture, pixels, why_no_gl
 from widgets.viewport.cast import Stage
+from widgets.viewport.colours_and_lights import Emphasis, look_of
 from widgets.viewport.figures import DrawableFigures, cast_key
+from widgets.viewport.film_camera import Shot, times_looked_at
 from widgets.viewport.framing import (
     bounds,
     in_the_way,
@@ -40,14 +42,12 @@ from widgets.viewport.framing import (
     view_camera,
 )
 from widgets.viewport.header import ViewportHeader
-from widgets.viewport.layer import Layer
-from widgets.viewport.look import Emphasis, look_of
 from widgets.viewport.overlay import paint
+from widgets.viewport.painted_sheet import Layer
 from widgets.viewport.pointer import Pointer
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.renderer import Renderer
 from widgets.viewport.scene import ViewportScene
-from widgets.viewport.shot import Shot, times_looked_at
 from widgets.viewport.video import BesideVideo, VideoStrip
 
 Draw = Callable[[float], npt.NDArray[np.uint8]]

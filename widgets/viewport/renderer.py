@@ -18,13 +18,13 @@ from app.arrays import FloatArray, IndexArray, SingleArray
 from app.formats.video import Picture
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
+from widgets.viewport.colours_and_lights import Emphasis, ViewportLook
 from widgets.viewport.geometry import (
     LEVELS,
     Crowd,
     crowd_edges,
 )
-from widgets.viewport.limbs import HELD, LIMBS, SHADING, LimbCapsules
-from widgets.viewport.look import Emphasis, ViewportLook
+from widgets.viewport.limb_capsules import HELD, LIMBS, SHADING, LimbCapsules
 from widgets.viewport.shape_model import Geometry
 from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
 

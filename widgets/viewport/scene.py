@@ -21,11 +21,11 @@ from app.project.performers import Dancer, Player
 from widgets.common.text import message_text
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Member, Stage
+from widgets.viewport.colours_and_lights import Color, rgb
 from widgets.viewport.contacts import touches
 from widgets.viewport.figures import DrawableFigures, cast_key, is_part_of, load, moved, only, same_figures
 from widgets.viewport.handles import TARGETS, Handle, handles
-from widgets.viewport.limbs import LimbCapsules, hit
-from widgets.viewport.look import Color, rgb
+from widgets.viewport.limb_capsules import LimbCapsules, hit
 from widgets.viewport.overlay import NameTag, OverlayMarks, over_heads_m
 from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.shapes import Shapes

@@ -9,14 +9,14 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import QButtonGroup, QSizePolicy, QSplitter, QToolButton, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.errors import Message
 from app.formats.video import Picture
-from app.project.document import Change
 from app.project.edit.piece import set_video_offset
 from app.project.limits import OFFSET_S
+from app.project.undoable_document import Change
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.controls import Retranslated, named

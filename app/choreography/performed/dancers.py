@@ -21,9 +21,9 @@ from app.arrays import BoolArray, FloatArray
 from app.chance import chance, performed_seed
 from app.choreography.accent_grid import AccentGrid, grid_of
 from app.choreography.dance import Dance, Manner, SegmentStep
+from app.choreography.dance_flaws import jerking_seams, jolts, sliding_stands
 from app.choreography.derived_rhythm import audible_rhythm
 from app.choreography.generate import Choreographer
-from app.choreography.judge import jerking_seams, jolts, sliding_stands
 from app.choreography.performed.choreographers import choreographer_of, too_long_to_dance
 from app.choreography.retarget import retarget
 from app.choreography.rhythm import Rhythm, are_alike, delayed
@@ -307,7 +307,7 @@ def not_held(
 
 
 def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
-    """Problems of a dance that show (`app.choreography.judge`): joins, jolts, and standing feet that slide."""
+    """Problems of a dance that show (`app.choreography.dance_flaws`): joins, jolts, and standing feet that slide."""
     fps = float(dance.clip.fps)
     found = []
     for seam in jerking_seams(dance.clip, dance.seams, usual_rad_s):

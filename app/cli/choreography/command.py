@@ -145,7 +145,7 @@ def learn(arguments: argparse.Namespace) -> None:
     """Learn from the pairs, write the file and print what it holds."""
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
-    from app.choreography.pairing import report
+    from app.choreography.music_motion_dependence import report
     from app.choreography.read_pair import read_pair, to_check
     from app.project.choreography_files import SUFFIX
 

@@ -42,7 +42,7 @@ from app.evaluation.request import (
     variants_of,
 )
 from app.messages import error_text, filled, text
-from app.project.cameras import VIEWS
+from app.project.camera_bookmarks import VIEWS
 
 if TYPE_CHECKING:
     from app.evaluation.make import Made

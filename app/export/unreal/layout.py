@@ -10,7 +10,7 @@ from typing import Final
 
 from app.export.formats import FILE_FORMATS
 from app.export.unreal.names import asset_name
-from app.formats.names import numbered
+from app.formats.unique_names import numbered
 from app.project.model import Project
 from app.project.performers import Dancer, Player
 

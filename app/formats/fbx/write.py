@@ -21,7 +21,7 @@ from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.curves import EULER_ORDER, FbxLayerCurves
 from app.formats.fbx.encode import Element, element_pieces
 from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
-from app.formats.fbx.packed import PackedMesh, packed_mesh
+from app.formats.fbx.packed_meshes import PackedMesh, packed_mesh
 from app.formats.fbx.sections import (
     definitions,
     documents,

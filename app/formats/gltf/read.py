@@ -29,7 +29,7 @@ from app.formats.gltf.model import (
     GltfPrimitive,
     GltfSkin,
 )
-from app.formats.gltf.whole import read_whole
+from app.formats.gltf.self_contained import read_whole
 
 MOST_NODES = 20_000
 DEEPEST = 500

@@ -27,6 +27,7 @@ from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.event_id import EventId
 from app.plan.kinds import GestureKind
 from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan
+from app.project.edit.breath_preparations import lowered_with, moved_along, preparation_with, preparations_of
 from app.project.edit.breaths_and_cues import add_breath, breath_at, breath_of, cue_at, notes_of, removals_of
 from app.project.edit.corrections import Edited, take_back, with_corrections
 from app.project.edit.found_events import OWN as OWN
@@ -37,7 +38,6 @@ from app.project.edit.found_events import is_there as is_there
 from app.project.edit.found_events import placed_events as placed_events
 from app.project.edit.found_events import player_marks as player_marks
 from app.project.edit.marks import corrections_at, remove_marks
-from app.project.edit.preparations import lowered_with, moved_along, preparation_with, preparations_of
 from app.project.model import Project
 
 AMOUNTS: Final[Mapping[type[Event], tuple[str, float]]] = {

@@ -21,10 +21,10 @@ from app.plan.event_id import EventId
 from app.project.anchors import notes_of
 from app.project.edit.length import with_score
 from app.project.edit.mark_ends import carried_on, drawn_in
-from app.project.grid import Grid
 from app.project.ids import new_note_ids
 from app.project.limits import LAST_TICK, TICKS_PER_QUARTER
 from app.project.model import Project
+from app.project.snap_grid import Grid
 from app.score.model import Note, Part
 
 LOW_PITCH, HIGH_PITCH = 0, 127

@@ -13,10 +13,10 @@ from app.arrays import FloatArray
 from app.errors import AppError
 from app.identity_cache import IdentityCache
 from app.project.alignment import AlignmentPart, align
-from app.project.grid import Grid
 from app.project.ids import MOST_TAKE_NOTES, take_note_id
 from app.project.limits import LAST_TICK
 from app.project.model import PlayerTakes, Project
+from app.project.snap_grid import Grid
 from app.score.clean import Cleaned, cleaned
 from app.score.metre_map import MetreMap
 from app.score.model import ControllerCurve, Note

@@ -29,7 +29,7 @@ from app.project.model import Project, characters_for
 from app.project.names import clean_name
 from app.project.performers import Dancer, Player
 from app.score.channel_sound import DRUM_CHANNEL
-from app.score.choose import require_map
+from app.score.instrument_choice import require_map
 from app.score.marks import renamed_marks
 from app.score.model import Part
 from instrument_maps.library import all_maps, find_map

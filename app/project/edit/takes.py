@@ -25,7 +25,7 @@ from app.project.ids import fresh_take_ids
 from app.project.limits import LAST_TICK
 from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.names import clean_name
-from app.score.beats import find_beats, tempo_of_beats
+from app.score.beats_of_free_playing import find_beats, tempo_of_beats
 from app.score.clean import cleaned
 from app.score.model import ControllerCurve, Note
 from app.score.take import Cleaning, Take

@@ -23,7 +23,7 @@ from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write, open_file
-from app.formats.gltf.whole import read_whole
+from app.formats.gltf.self_contained import read_whole
 from app.formats.toml import read_toml, shaped, toml
 from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
 from app.rig.characters.figure_build import PLAUSIBLE_M

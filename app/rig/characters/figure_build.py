@@ -13,7 +13,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.errors import FileError, Message
-from app.formats.names import numbered
+from app.formats.unique_names import numbered
 from app.rig import quaternion
 from app.rig.characters.bone_placements import local_placements
 from app.rig.figure import Figure, Origin

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Final
 
-from app.score.musicxml.desks import EVERYONE, Desk, seat
 from app.score.musicxml.in_force import restored
+from app.score.musicxml.players_by_voice import EVERYONE, Desk, seat
 from app.score.musicxml.written import Chord, Direction, Measure, Time, Tone
 
 _MOST_OPEN: Final = 32

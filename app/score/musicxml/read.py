@@ -1,7 +1,7 @@
 """Reads a score in MusicXML into what a MIDI file is read into: notes as they are played, tempo, metres and markers.
 
 Each part is a track, its instruments streams of it. Pitches sound as the part's transposition says; repeats, endings
-and jumps are played (`app.score.musicxml.order`); grace notes, trills, turns, mordents and tremolos are written out
+and jumps are played (`repeats_and_jumps`); grace notes, trills, turns, mordents and tremolos are written out
 (`ornaments`), tempo, rit., accel. and fermatas are in the tempo map (`tempos`), dynamics and accents in velocities
 (`loudness`). What is written over the notes is kept as marks (`app.score.marks`). Lyrics, chord names, figured bass and
 layout are passed over, and so are cue notes, which their player does not play.
@@ -25,10 +25,10 @@ from app.score.musicxml.abbreviations import slashed
 from app.score.musicxml.bars import measure_lengths, metres_of
 from app.score.musicxml.container import read_document
 from app.score.musicxml.notes import read_measures, ticks_per_quarter
-from app.score.musicxml.order import playing_order
 from app.score.musicxml.ornaments import place_graces, write_out
 from app.score.musicxml.parts import written_parts
 from app.score.musicxml.played import PlayedPart, played_part
+from app.score.musicxml.repeats_and_jumps import playing_order
 from app.score.musicxml.streams import part_streams
 from app.score.musicxml.tempos import Held, TempoEvent, said_of_tempo, tempo_map
 from app.score.musicxml.written import Bar, Measure, Place, Time

@@ -12,13 +12,13 @@ from app.project.choreography_files import bundled_choreographies
 from app.project.edit.dancers import set_choreography
 from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction
-from widgets.players import newcomers
+from widgets.players import performer_edits
 from widgets.players.choreography.dancers import DancersSection
 
 
 def add(session: Session) -> None:
     """Add a dancer of the first choreography that comes with the program."""
-    newcomers.add_dancer(session, bundled_choreographies()[0], tr("action.dancer"))
+    performer_edits.add_dancer(session, bundled_choreographies()[0], tr("action.dancer"))
 
 
 def rename(editor: Editor) -> None:
@@ -52,7 +52,7 @@ def _dance(session: Session, path: Path) -> None:
     """Let the selected dancer dance a choreography, or a new one where there is none."""
     dancer, choreography = session.dancer, os.fspath(path.absolute())
     if dancer is None:
-        newcomers.add_dancer(session, choreography, tr("action.dancer"))
+        performer_edits.add_dancer(session, choreography, tr("action.dancer"))
         return
     session.attempt(
         Message("edit.dancer_choreography", {"dancer": dancer.name}),
@@ -77,7 +77,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "dancers.duplicate",
-        newcomers.duplicate_dancer,
+        performer_edits.duplicate_dancer,
         "edit/players",
         "Ctrl+D",
         "dancers",
@@ -85,7 +85,13 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
         icon="duplicate",
     ),
     Action(
-        "dancers.remove", newcomers.remove_dancer, "edit/players", "Del", "dancers", enabled=_has_dancer, icon="delete"
+        "dancers.remove",
+        performer_edits.remove_dancer,
+        "edit/players",
+        "Del",
+        "dancers",
+        enabled=_has_dancer,
+        icon="delete",
     ),
     EditorAction(
         "dancers.choreography",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import get_args
 
+from app.editor.design_tokens import THEMES
 from app.editor.session import PitchDisplay
-from app.editor.tokens import THEMES
 from app.messages.pitches import PitchNames
 from app.shell.action import Action
 from app.shell.editor import Editor, EditorAction, is_open

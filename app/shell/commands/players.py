@@ -15,7 +15,7 @@ from app.project.player_sections import are_worth_grouping, in_sections_of, sect
 from app.shell.action import Action
 from app.shell.editor import EditorAction
 from instrument_maps.library import library
-from widgets.players import newcomers
+from widgets.players import performer_edits
 
 
 def _chosen(session: Session) -> list[Player]:
@@ -29,7 +29,7 @@ def add(session: Session) -> None:
     instrument_id = (
         front.instrument_id if front is not None and front.instrument_id in known.maps else known.in_score_order[0].id
     )
-    newcomers.add_player(session, instrument_id)
+    performer_edits.add_player(session, instrument_id)
 
 
 def join(session: Session) -> None:
@@ -173,7 +173,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "players.duplicate",
-        newcomers.duplicate_players,
+        performer_edits.duplicate_players,
         "edit/players",
         "Ctrl+D",
         "players",
@@ -189,7 +189,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     ),
     Action(
         "players.remove",
-        newcomers.remove_players,
+        performer_edits.remove_players,
         "edit/players",
         "Del",
         "players",
@@ -210,11 +210,11 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     Action("players.next", partial(step, by=1), "edit/players", "Ctrl+PgDown", enabled=_has_several),
     Action("players.previous", partial(step, by=-1), "edit/players", "Ctrl+PgUp", enabled=_has_several),
     Action("players.posture", toggle_posture, "edit/players", enabled=_may_sit_or_stand, icon="seated"),
-    Action("players.randomise", newcomers.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
+    Action("players.randomise", performer_edits.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
     Action("players.arrange", arrange, "edit/players", enabled=_has_players, icon="stage"),
     Action("players.select_section", select_section, "edit/players", "Shift+A", "players", enabled=_has_players),
     Action("players.select_all", select_all, "edit/players", "Ctrl+Shift+A", enabled=_has_several),
-    Action("players.reset", newcomers.reset_players, "edit/players", enabled=_has_players, icon="reset"),
+    Action("players.reset", performer_edits.reset_players, "edit/players", enabled=_has_players, icon="reset"),
     Action(
         "players.grouped",
         lambda session, on: session.set_groups_players(on),

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from app.editor.session import Session
 from app.editor.viewport_state import FOLLOWS, Follows, Shown
-from app.project.cameras import View
+from app.project.camera_bookmarks import View
 from app.shell.action import Action
 from app.shell.commands.command_targets import has_everyone
 

@@ -11,7 +11,7 @@ from PySide6.QtCore import QEvent, QMargins, QObject, QPoint, QRect, Qt, QTimer
 from PySide6.QtWidgets import QScrollArea, QWidget
 
 from app.editor.files import EXAMPLE
-from app.project.document import Change
+from app.project.undoable_document import Change
 from app.shell.editor import Editor
 from app.shell.first_steps.bubble import Bubble, Spotlight, place_beside
 from app.shell.first_steps.progress import STOPS, TourFacts, TourProgress, facts_of

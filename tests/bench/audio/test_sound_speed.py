@@ -14,11 +14,11 @@ from pytestqt.qtbot import QtBot
 
 from app.audio.mix import player_phrases
 from app.audio.offset import estimate_offset
-from app.audio.peaks import Peaks
 from app.audio.playback import Playback
 from app.audio.reader import Reader
 from app.audio.synth import Synthesiser
 from app.audio.track import RATE_HZ, AudioSegment, Mix, MixTrack
+from app.audio.waveform_peaks import Peaks
 from app.editor.session import Session
 from app.editor.sound import EditorSound
 from app.errors import Message

@@ -20,19 +20,19 @@ from typing import Any, Final
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QApplication, QDialog, QDialogButtonBox
 
+from app.editor.design_tokens import Tokens
 from app.editor.questions import ReadAgain
 from app.editor.session import Severity
 from app.editor.settings import Settings
 from app.editor.tasks import Tasks, ThreadTasks
-from app.editor.tokens import Tokens
 from app.errors import AppError, Message
 from app.project.autosave import Autosave
 from app.project.importing import ImportRequest
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.score.contents import PieceContents
 from app.shell.app import Program, make_application
 from app.shell.commands.exchange import reimport_from
-from app.shell.garbage import Garbage
+from app.shell.garbage_collection import Garbage
 from app.shell.questions import DialogQuestions
 from tests.fuzz.harness.child import forget_peak, status_kb
 from tests.fuzz.harness.readers import KINDS

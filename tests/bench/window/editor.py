@@ -19,14 +19,14 @@ from PySide6.QtCore import QCoreApplication, QEventLoop
 from PySide6.QtWidgets import QApplication
 from vispy.gloo.gl import use_gl
 
-from app.editor.memory import share_memory
+from app.editor.freed_memory import share_memory
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
 from app.project import storage
 from app.project.autosave import Autosave
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.shell.app import Program
-from app.shell.garbage import Garbage
+from app.shell.garbage_collection import Garbage
 from tests.bench.performance.large import large_project
 from tests.gui.shell.conftest import Answers
 from tests.support.live import ready_spans

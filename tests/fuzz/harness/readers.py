@@ -193,8 +193,8 @@ def autosave(path: Path, folder: Path) -> None:
 
 def presence(path: Path, folder: Path) -> None:
     """Traces of dead editors are looked through, whatever is in them."""
-    from app.project.presence import LOCK, NOTE
     from app.project.recovery import recoverable
+    from app.project.running_editors import LOCK, NOTE
 
     token = "0123456789abcdef"
     (folder / "work.suisou").write_bytes(seeds.project()[-1])
@@ -208,7 +208,7 @@ def journal(path: Path, folder: Path) -> None:
     """A journal becomes takes, which are cleaned, brought into the part and saved."""
     from app.capture.journal import read_journal
     from app.capture.journal_to_takes import takes_of
-    from app.capture.passes import passes
+    from app.capture.loop_passes import passes
     from app.project.edit.takes import add_takes, comp_whole
     from app.score.take import ControllerMapping
 

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from app.editor.tokens import DARK
+from app.editor.design_tokens import DARK
 from tests.gui.conftest import delete_now
 from tests.support.canary import WATCHES, Canary, canary
 from tests.support.windows import show

@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from app.editor.tokens import DARK, LEAST_TARGET_PX
+from app.editor.design_tokens import DARK, LEAST_TARGET_PX
 from app.project import importing
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project, map_choices, project_from_score

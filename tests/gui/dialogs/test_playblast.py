@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
 from app.errors import AppError
-from app.project.cameras import View
+from app.project.camera_bookmarks import View
 from tests.gui.conftest import quartet_project
 from tests.gui.timeline.hand import SHIFT, Hand
 from tests.support.windows import child, pause

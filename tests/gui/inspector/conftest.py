@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.session import Session
 from app.performance.ensemble import Performance
 from app.project import presets
-from app.project.document import Change
+from app.project.undoable_document import Change
 from tests.support.windows import show_in_front
 from widgets.inspector.panel import InspectorPanel
 

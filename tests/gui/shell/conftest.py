@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.audio.playback import Playback
+from app.editor.design_tokens import Tokens
 from app.editor.files import Files
 from app.editor.questions import Answer, ReadAgain
 from app.editor.recorder import Recorder
@@ -17,10 +18,9 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.sound import EditorSound
 from app.editor.tasks import Tasks
-from app.editor.tokens import Tokens
 from app.project.autosave import Autosave
 from app.project.importing import ImportRequest, usual_rows
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.score.contents import PieceContents
 from app.shell.app import Program
 from app.shell.questions import with_suffix

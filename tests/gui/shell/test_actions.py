@@ -13,11 +13,11 @@ from app.errors import Message
 from app.messages import LANGUAGES
 from app.project.edit.piece import set_title
 from app.shell.action import without_dots, without_key
+from app.shell.action_rows import rows
 from app.shell.actions import CONTEXTS, ActionTable, sequences
 from app.shell.app import Program
 from app.shell.language import TEXTS
 from app.shell.menus import menu_with_keys
-from app.shell.rows import rows
 from app.shell.window import Window
 from tests.gui.shell.conftest import trigger
 from tests.support.windows import show_in_front

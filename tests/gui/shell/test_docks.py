@@ -12,7 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QSplitter, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.editor.tokens import THEMES
+from app.editor.design_tokens import THEMES
 from app.shell.app import Program
 from app.shell.docks import Dock, on_screen
 from tests.gui.conftest import QUARTET

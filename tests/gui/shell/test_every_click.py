@@ -14,8 +14,8 @@ from PySide6.QtCore import QByteArray, QUrl
 from PySide6.QtGui import QColor, QDesktopServices
 from PySide6.QtWidgets import QApplication, QColorDialog, QComboBox, QFileDialog, QMenu, QTabWidget, QToolButton
 
+from app.editor.design_tokens import LIGHT
 from app.editor.selection import Selection
-from app.editor.tokens import LIGHT
 from app.editor.viewport_state import SHOWN
 from app.errors import Message
 from app.performance.ensemble import Performance

@@ -27,9 +27,9 @@ from app.project import autosave as autosave_module
 from app.project.autosave import Autosave, autosave_path
 from app.project.edit.piece import new_piece, set_title
 from app.project.model import Project
-from app.project.presence import Presence
 from app.project.recording import AudioTrack
 from app.project.recovery import Recoverable, load_work, recoverable
+from app.project.running_editors import Presence
 from app.project.storage import encode_autosave, load, save
 from tests.gui.shell.conftest import Answers
 from tests.support.tasks import ImmediateTasks
@@ -263,7 +263,7 @@ from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.edit.piece import new_piece, set_title
 from app.project.model import Project
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.editor.files import Files
 from app.editor.settings import Settings
 from app.editor.tasks import ThreadTasks
@@ -320,7 +320,7 @@ def test_what_cannot_be_saved_is_named_and_the_rest_is_autosaved(
     desk.files.unsaveable.connect(said.append)
     desk.edit("One")
     with monkeypatch.context() as unchecked:
-        unchecked.setattr("app.project.document.require_sound", lambda *projects: None)
+        unchecked.setattr("app.project.undoable_document.require_sound", lambda *projects: None)
         assert desk.session.attempt(Message("edit.set_audio"), broken)
     for title in ("Two", "Three"):
         desk.edit(title)

@@ -20,8 +20,8 @@ from app.errors import Message
 from app.project import storage
 from app.project.autosave import Autosave
 from app.project.edit.piece import set_title
-from app.project.presence import Presence
 from app.project.recovery import Recoverable
+from app.project.running_editors import Presence
 from app.rig.characters import character_library
 from app.rig.characters.load_character import read_character
 from app.score.read import read_contents

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QLabel
 
 from app.editor.settings import Settings
 from app.project.autosave import Autosave
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.shell.app import Program
 from tests.gui.conftest import delete_now
 from tests.gui.shell.conftest import end

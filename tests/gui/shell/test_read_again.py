@@ -11,9 +11,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialogButtonBox, QListWidget, QTreeWidget
 
+from app.editor.design_tokens import Tokens
 from app.editor.questions import ReadAgain
 from app.editor.tasks import Tasks
-from app.editor.tokens import Tokens
 from app.plan.by_hand.corrections import Correction, PinFingering, SetBreath, SetCue
 from app.project.edit.corrections import with_corrections
 from app.project.importing import ImportRequest, ImportRow

@@ -16,8 +16,8 @@ from app.editor.session import Severity
 from app.errors import Message
 from app.project.autosave import DELAY_S
 from app.project.edit.piece import set_title
-from app.project.presence import Presence
 from app.project.recovery import Recoverable
+from app.project.running_editors import Presence
 from app.project.storage import load, save
 from app.shell.app import Program
 from app.shell.crash_handler import CrashHandler

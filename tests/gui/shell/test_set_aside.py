@@ -14,8 +14,8 @@ from app.editor.settings import Settings, settings_path
 from app.encoding import shown
 from app.errors import Message
 from app.project.autosave import Autosave
-from app.project.presence import Presence
 from app.project.presets import expression_folder, preset_folder
+from app.project.running_editors import Presence
 from app.rig.characters import character_library
 from app.rig.characters.character_library import bundled_characters, character_named
 from app.shell.app import Program

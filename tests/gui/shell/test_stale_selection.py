@@ -10,8 +10,8 @@ from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.notes import erase
 from app.project.edit.takes import add_takes
+from app.shell.action_rows import rows
 from app.shell.app import Program
-from app.shell.rows import rows
 from tests.gui.shell.conftest import trigger
 from tests.support.takes import take_of
 from widgets.common.actions import actions

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtGui import QColor
 
-from app.editor.tokens import THEMES, Tokens
+from app.editor.design_tokens import THEMES, Tokens
 from app.shell.theme import faint, palette
 
 READABLE, VISIBLE = 4.5, 3.0

@@ -47,7 +47,7 @@ def test_the_banner_names_it_and_removes_it(program: Program, monkeypatch: pytes
     program.editor.language.set(language)
     with monkeypatch.context() as unchecked:
         # No edit makes such a value; a fault of ours would.
-        unchecked.setattr("app.project.document.require_sound", lambda *projects: None)
+        unchecked.setattr("app.project.undoable_document.require_sound", lambda *projects: None)
         assert program.session.attempt(Message("edit.set_audio"), lambda project: corrected(project, CURVE))
     program.editor.files.write_soon()
     assert SAID[language] in banner_text(program)

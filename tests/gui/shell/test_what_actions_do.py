@@ -30,9 +30,9 @@ from app.score.marks import MARK_KINDS, WRITABLE, WRITABLE_DYNAMICS
 from app.score.model import Note
 from app.score.read import read_midi
 from app.score.take import Cleaning
+from app.shell.action_rows import rows
 from app.shell.commands.timeline import LANES
 from app.shell.first_steps.tour import FirstSteps
-from app.shell.rows import rows
 from instrument_maps.load import bundled_maps
 from metadata.library import FOLDERS
 from tests.gui.conftest import QUARTET

@@ -15,9 +15,9 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
-from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.snap_grid import Grid
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from app.shell.actions import ActionTable

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.editor.session import Session
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan
-from app.project.document import Change
+from app.project.undoable_document import Change
 from tests.support.windows import show
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.regions import RegionLane

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMenu
 
-from app.audio.peaks import Peaks
+from app.audio.waveform_peaks import Peaks
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit.pins import pin_beat, recording_second

@@ -26,7 +26,7 @@ from tests.support.windows import child, show_in_front
 from widgets.common.fingering_chip import FingeringChip
 from widgets.timeline.lanes.fingering.charts import FingeringCharts
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.panel import TimelinePanel
 
 LOW_E, D_4, C_5, B_FLAT_5 = 50, 60, 70, 80

@@ -22,9 +22,9 @@ from app.errors import Message
 from app.project.casting import StagePosition
 from app.project.dance_corrections import ForbidState, PinState, UseSegment
 from app.project.edit.dancers import set_choreography
-from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Dancer
+from app.project.snap_grid import Grid
 from app.score.model import Note
 from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import LEFT, SHIFT, click, double_click, planned

@@ -11,7 +11,7 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
-from app.audio.peaks import Peaks
+from app.audio.waveform_peaks import Peaks
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.timeline_view import Tool
@@ -30,7 +30,7 @@ from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.lanes.problems import ProblemsLane
 from widgets.timeline.lanes.recording.waveform import WaveformLane
 from widgets.timeline.model.fingerings import slide_places
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.panel import TimelinePanel
 
 

@@ -18,7 +18,7 @@ from app.editor.settings import Settings
 from app.errors import Message
 from app.project.edit.placed_takes import BEFORE
 from app.project.edit.takes import add_takes, set_cleaning
-from app.project.grid import Grid
+from app.project.snap_grid import Grid
 from app.score.take import Cleaning
 from app.shell.actions import ActionTable
 from app.shell.commands import edit, notes, takes, timeline

@@ -13,8 +13,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 from app.editor.additions import toggle_mark
+from app.editor.design_tokens import LIGHT
 from app.editor.selection import EventKey
-from app.editor.tokens import LIGHT
 from app.errors import Message
 from app.messages import text
 from app.plan.music.written_dynamics import DYNAMIC_TEXTS

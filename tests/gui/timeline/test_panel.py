@@ -13,10 +13,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.design_tokens import LIGHT
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
-from app.editor.tokens import LIGHT
 from app.errors import Message
 from app.plan.model import Problem
 from app.project.model import Project

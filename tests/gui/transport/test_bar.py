@@ -12,11 +12,11 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.editor.design_tokens import LIGHT
 from app.editor.grids import GRIDS
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.sound import EditorSound
-from app.editor.tokens import LIGHT
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_fps
 from app.project.edit.tempo import set_metre, set_tempo

@@ -20,14 +20,14 @@ from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.choreography.model_file import write_model
+from app.editor.design_tokens import LIGHT
 from app.editor.edit_names import edit_of_parameter
 from app.editor.session import Session
-from app.editor.tokens import LIGHT
 from app.errors import AppError, Message
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
-from app.project.cameras import VIEWS
+from app.project.camera_bookmarks import VIEWS
 from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers
 from app.project.edit.piece import new_piece

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.capture.journal import Journal, JournalHeader, JournalWriter, SyncPoint, read_journal
-from app.capture.passes import passes
+from app.capture.loop_passes import passes
 from app.errors import FileError
 
 HEADER = JournalHeader("ピアノ.suisou", "p", "EWI", "generic", 0.0, "")

@@ -16,9 +16,9 @@ from app.encoding import restored, stored
 from app.project.autosave import Autosave
 from app.project.casting import StagePosition
 from app.project.performers import Dancer
-from app.project.presence import Presence, note_of
 from app.project.recording import AudioTrack
 from app.project.recovery import load_work, recoverable
+from app.project.running_editors import Presence, note_of
 from app.project.storage import decode, encode, load, save
 from tests.support.odd_names import NAME, byte_names, odd, on_bytes
 from tests.unit.project.pieces import small_project

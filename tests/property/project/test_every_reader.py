@@ -20,7 +20,6 @@ from app.formats.toml import toml
 from app.messages import LANGUAGES, text
 from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey
 from app.project import presets
-from app.project.document import Document
 from app.project.edit.additive import paste_keys
 from app.project.edit.notes import copied, paste, read_clip
 from app.project.edit.piece import put_expression, set_audio
@@ -32,6 +31,7 @@ from app.project.parameters import parameter_names, parse_settings
 from app.project.piece_metadata import load_metadata, metadata_of, with_metadata
 from app.project.reimport import reimported
 from app.project.storage import decode, encode
+from app.project.undoable_document import Document
 from app.score.read import read_contents
 from app.score.take import ControllerMapping
 from instrument_maps.library import all_maps

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 
 from app.capture.journal import Journal, JournalHeader, JournalWriter, SyncPoint, is_whole, read_journal
-from app.capture.passes import Pass, passes
+from app.capture.loop_passes import Pass, passes
 from app.errors import FileError
 from app.formats.locks import is_locked
 

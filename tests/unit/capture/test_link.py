@@ -17,7 +17,7 @@ import pytest
 
 from app.capture.journal import Journal, JournalHeader, read_journal
 from app.capture.link import RecorderLink
-from app.capture.passes import passes
+from app.capture.loop_passes import passes
 from app.capture.protocol import (
     Back,
     EventsSaved,

@@ -9,8 +9,8 @@ import pytest
 
 from app.choreography.accent_grid import grid_of
 from app.choreography.contacts import tips_m
-from app.choreography.feet import FootPlant, planted
 from app.choreography.footfalls import REACH_S, on_beats
+from app.choreography.standing_feet import FootPlant, planted
 from tests.support.dances import beaten, stepping
 
 FPS = 60.0

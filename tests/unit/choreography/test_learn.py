@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from app.choreography.cuts import segment
-from app.choreography.heard import hearing
 from app.choreography.hidden_markov import count
+from app.choreography.hit_log_odds import hearing
 from app.choreography.learn import FPS, SMOOTHING, Pair, learn
 from app.choreography.model_file import encode_model
 from app.choreography.resample import resampled

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from app.choreography.features import height_m, points_m
-from app.choreography.heard import learned_symbols
 from app.choreography.hidden_markov import count
+from app.choreography.hit_log_odds import learned_symbols
 from app.choreography.overview import basic_motions
 from tests.support.dances import SHAPE, model
 

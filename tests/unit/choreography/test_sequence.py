@@ -10,10 +10,10 @@ import pytest
 from hmmlearn.base import BaseHMM
 
 from app.choreography.accent_grid import AccentGrid, grid_of
-from app.choreography.heard import HeardHits, Hearing, SoundOdds
-from app.choreography.moves import MOST_STARTS, NEAR_S, SegmentMeets
+from app.choreography.hit_log_odds import HeardHits, Hearing, SoundOdds
 from app.choreography.rhythm import Rhythm
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
+from app.choreography.transition_scores import MOST_STARTS, NEAR_S, SegmentMeets
 from tests.support.dances import beaten
 
 
@@ -154,7 +154,7 @@ def test_ways_by_starts_that_fit_badly_are_hardly_ever_the_best(monkeypatch: pyt
     grid = grid_of(rhythm)
     heard = struck(rhythm.hits_s, 0.5 * np.random.default_rng(9).normal(size=(len(rhythm.hits_s), len(own.states))))
     few = [choose(grid, own, heard, seed=seed) for seed in range(4)]
-    monkeypatch.setattr("app.choreography.moves.MOST_STARTS", len(own.states))
+    monkeypatch.setattr("app.choreography.transition_scores.MOST_STARTS", len(own.states))
     assert few == [choose(grid, own, heard, seed=seed) for seed in range(4)]
 
 

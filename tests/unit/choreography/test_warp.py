@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.choreography.accent_grid import AccentGrid, grid_of
-from app.choreography.moves import SPEEDS
+from app.choreography.transition_scores import SPEEDS
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from tests.support.dances import beaten
 

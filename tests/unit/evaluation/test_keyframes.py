@@ -13,9 +13,9 @@ import pytest
 from app.errors import FileError
 from app.evaluation.excerpts import Excerpt
 from app.evaluation.keyframes import holds_motion, read_keyframes
+from app.export.bvh_clip import scene_bvh
 from app.export.character import character_scene
 from app.export.humanoid import humanoid_scene, humanoid_target
-from app.export.skeleton import scene_bvh
 from app.export.target import normalised_target
 from app.formats.bvh.read import read_bvh
 from app.formats.bvh.write import write_bvh

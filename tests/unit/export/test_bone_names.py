@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.export.bvh_clip import joint_names, profile_names, scene_bvh
 from app.export.character import character_scene
 from app.export.joints import world_transforms
 from app.export.playback import ScenePlayback
-from app.export.skeleton import joint_names, profile_names, scene_bvh
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import target_skeleton
 from app.formats.bvh.clip import BvhClip

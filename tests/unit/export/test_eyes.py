@@ -10,13 +10,13 @@ import msgspec
 import numpy as np
 import pytest
 
+from app.export.bvh_clip import scene_bvh
 from app.export.character import character_scene
 from app.export.equipped_skeleton import equipped
 from app.export.mannequin import mannequin_target
 from app.export.playback import ScenePlayback, Surface
 from app.export.rig import Rig
 from app.export.rig_options import EyeTurn, RigOptions
-from app.export.skeleton import scene_bvh
 from app.export.target import TargetSkeleton, normalised_target
 from app.formats.fbx.read import read_scene as read_fbx
 from app.formats.fbx.write import write_scene

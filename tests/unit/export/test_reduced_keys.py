@@ -13,10 +13,10 @@ import pytest
 
 from app.cli import main
 from app.export.joint_playback import JointPlayback
-from app.export.keyed import keyed_character, keyed_instrument
-from app.export.marks import SkinnedMarks, part_marks
+from app.export.key_reduction_landmarks import SkinnedMarks, part_marks
 from app.export.playback import ScenePlayback, Surface
 from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, ROTATION_DEG, WEIGHT, reduced
+from app.export.scene_keys import keyed_character, keyed_instrument
 from app.export.target import TargetSkeleton
 from app.export.targets import target_skeleton
 from app.formats.fbx.decode import read_elements
@@ -331,7 +331,7 @@ def test_marks_are_where_skinning_takes_the_landmarks(
     every: dict[str, Scene], character: Character, target: TargetSkeleton
 ) -> None:
     """The places that are bounded against a vertex-by-vertex mean: morphs, several bones and all."""
-    from app.export.marks import character_marks
+    from app.export.key_reduction_landmarks import character_marks
     from app.export.reduced_keys import _Motion
 
     scene = every["character"]

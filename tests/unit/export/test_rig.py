@@ -15,10 +15,10 @@ from app.export.character import character_scene
 from app.export.equipped_skeleton import equipped, socket_names
 from app.export.instrument import instrument_scene
 from app.export.joint_playback import JointPlayback
-from app.export.keyed import key_count, keyed_character, keyed_instrument
 from app.export.playback import ScenePlayback, Surface
 from app.export.rig import floor_place, rig_of
 from app.export.rig_options import Attachment, RigOptions
+from app.export.scene_keys import key_count, keyed_character, keyed_instrument
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import target_skeleton
 from app.formats.fbx.read import read_scene

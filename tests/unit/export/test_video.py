@@ -17,7 +17,7 @@ from app.export import video
 from app.export.tree import clean_up
 from app.export.video import video_into
 from app.formats.cache import CACHE_VARIABLE
-from app.formats.scratch import scratch_places
+from app.formats.temporary_folders import scratch_places
 
 SIZE = (64, 48)
 

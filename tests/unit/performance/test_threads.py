@@ -9,7 +9,7 @@ SCRIPT = """
 import sys, threading
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body, load_expression, names
-from app.project.presence import PresenceNote
+from app.project.running_editors import PresenceNote
 sys.setswitchinterval(1e-6)
 barrier = threading.Barrier(4)
 def work():

@@ -22,8 +22,8 @@ from app.formats import atomic
 from app.messages import error_text, text
 from app.project.autosave import PATIENCE_S, Autosave, AutosaveResult, Writing, autosave_path
 from app.project.model import Project
-from app.project.presence import Presence, editors, is_open_elsewhere
 from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
+from app.project.running_editors import Presence, editors, is_open_elsewhere
 from app.project.storage import encode, file_hash, load, save
 from tests.unit.project.pieces import full_project, small_project
 
@@ -440,7 +440,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from app.project.autosave import Autosave
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.project.storage import file_hash, load
 from tests.unit.project.pieces import small_project
 folder, document = Path(sys.argv[1]), Path(sys.argv[2]) if sys.argv[2] else None

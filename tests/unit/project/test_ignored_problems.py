@@ -14,7 +14,6 @@ from app.errors import Message
 from app.performance.ensemble import Performance
 from app.performance.span import whole_span
 from app.plan.model import Problem
-from app.project.document import Document
 from app.project.edit.corrections import ignore, unignore
 from app.project.edit.dancers import add_dancer, remove_dancers
 from app.project.edit.notes import move
@@ -23,6 +22,7 @@ from app.project.ignored_problems import split_by_ignored
 from app.project.model import Project
 from app.project.reimport import reimport
 from app.project.storage import save
+from app.project.undoable_document import Document
 from instrument_maps.load import bundled_maps
 from tests.support.bodies import playing
 from tests.support.live import performance_of

@@ -15,9 +15,9 @@ from app.plan.by_hand.corrections import PinFingering, RemoveEvent, SetBreath
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.edit import notes as edit
-from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.snap_grid import Grid
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 

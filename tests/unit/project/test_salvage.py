@@ -15,7 +15,7 @@ from app.project.autosave import Autosave, autosave_path
 from app.project.check import faults
 from app.project.edit.piece import set_title
 from app.project.model import Project
-from app.project.presence import Presence
+from app.project.running_editors import Presence
 from app.project.salvage import salvaged
 from app.project.storage import file_hash, load, save
 from tests.unit.project.pieces import full_project

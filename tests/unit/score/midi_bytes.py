@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from app.score.choose import MapChoice
+from app.score.instrument_choice import MapChoice
 from app.score.model import Score
 from app.score.read import read_midi
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.score.choose import MapChoice
+from app.score.instrument_choice import MapChoice
 from app.score.model import Score
 from tests.unit.score.midi_bytes import END, MAPS, TROMBONE, TRUMPET, chunk, header, ids, meta, note, score_of
 

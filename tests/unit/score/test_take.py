@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import AppError
-from app.score.beats import find_beats, tempo_of_beats
+from app.score.beats_of_free_playing import find_beats, tempo_of_beats
 from app.score.clean import cleaned, highest
 from app.score.take import Cleaning, Controlled, ControllerMapping, is_message
 from tests.support.takes import PlayedNote, take_of

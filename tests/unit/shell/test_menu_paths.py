@@ -10,9 +10,9 @@ import pytest
 
 from app.messages import LANGUAGES
 from app.shell.action import without_dots, without_key
+from app.shell.action_rows import rows
 from app.shell.language import TEXTS
 from app.shell.menus import BAR
-from app.shell.rows import rows
 from metadata.library import bundled_gestures, metadata_library
 
 ROOT = Path(__file__).parents[3]

@@ -15,8 +15,8 @@ from app.messages import LANGUAGES, WORDINGS
 from app.plan.by_hand.corrections import REMOVABLE
 from app.plan.by_hand.events import PoseTarget
 from app.plan.kinds import COMMAND_TEXTS, EVENT_TEXTS
+from app.shell.action_rows import rows
 from app.shell.language import TEXTS
-from app.shell.rows import rows
 from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]

@@ -15,15 +15,15 @@ from app.errors import Message
 from app.performance.ensemble import Performance
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
-from app.project.document import Document
 from app.project.edit import notes
-from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.snap_grid import Grid
+from app.project.undoable_document import Document
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import Band, LiveEdit, either, moved_edge
-from widgets.timeline.model.hand import LaneMouse, PixelRect, spanned
+from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect, spanned
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import RegionTable, region_box
 from widgets.timeline.model.roll.shown_notes import edge_of, zoomed_pitches

@@ -11,7 +11,7 @@ from app.project.edit.marks import Origin
 from app.score.marks import MARKINGS, Mark
 from app.score.model import Note, Part
 from app.score.tempo import TempoMap
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.model.marks.mark_looks import LOOKS
 from widgets.timeline.model.marks.mark_table import MarkList, MarkTable
 from widgets.timeline.model.marks.placed_marks import MarkRoom, PlacedMarks, placed_marks

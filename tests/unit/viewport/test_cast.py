@@ -17,7 +17,7 @@ from tests.support.deformed import deform
 from tests.unit.viewport.poses import pose, posed_stage, quartet
 from widgets.viewport.cast import Stage, kit_of, member_of, placed
 from widgets.viewport.contacts import touches
-from widgets.viewport.limbs import LIMBS, LimbCapsules, hit
+from widgets.viewport.limb_capsules import LIMBS, LimbCapsules, hit
 
 
 @pytest.mark.parametrize("row", range(4))

@@ -10,7 +10,7 @@ from app.project.model import Project
 from tests.support.doubled import flutist
 from widgets.viewport.cast import Stage
 from widgets.viewport.figures import DrawableFigures, cast_key, load, moved, same_figures
-from widgets.viewport.limbs import HELD, LimbCapsules
+from widgets.viewport.limb_capsules import HELD, LimbCapsules
 from widgets.viewport.shapes import crowd_of
 
 

@@ -19,8 +19,8 @@ from widgets.viewport.geometry import (
     joined,
     stool,
 )
+from widgets.viewport.normals_across_seams import row_keys
 from widgets.viewport.shape_model import Geometry
-from widgets.viewport.weld import row_keys
 
 CHARACTERS = tuple(bundled_characters())
 

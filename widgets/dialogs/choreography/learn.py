@@ -43,7 +43,7 @@ from widgets.dialogs.choreography.learn_rows import (
     take_contents,
 )
 from widgets.dialogs.choreography.learn_work import LearnedChoreography, learning, reading
-from widgets.dialogs.working import WorkingDialog
+from widgets.dialogs.progress_dialog import WorkingDialog
 
 MOST_STATES: Final = 1000
 MOST_SEED: Final = 2**31 - 1

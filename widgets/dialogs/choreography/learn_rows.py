@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QTreeWidgetItem
 
 from app.choreography.learn import Pair
 from app.choreography.music_offset import CONFIDENT
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 from app.editor.translated import tr
 from app.encoding import shown
 from widgets.common.controls import ColumnList

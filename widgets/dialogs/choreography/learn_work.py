@@ -10,14 +10,14 @@ from pathlib import Path
 from app.choreography.learn import analyse, learn
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import write_model
-from app.choreography.pairing import report
+from app.choreography.music_motion_dependence import report
 from app.choreography.raw_skeleton import BodyError
 from app.choreography.read_pair import read_pair
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
 from widgets.dialogs.choreography.learn_rows import PairRead, PairRow, training_pair
-from widgets.dialogs.working import stopping
+from widgets.dialogs.progress_dialog import stopping
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,8 +19,8 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 from PySide6.QtWidgets import QAbstractItemView, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
+from app.editor.design_tokens import LEAST_TEXT_PT
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TEXT_PT
 from widgets.common.choreography.figures import draw_figures, placed
 
 if TYPE_CHECKING:

@@ -20,8 +20,8 @@ from PySide6.QtWidgets import (
 )
 
 from app.arrays import FloatArray
+from app.editor.design_tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX, LEAST_TEXT_PT, Tokens
 from widgets.common.choreography.figures import draw_figures, placed
 
 AnyIndex = QModelIndex | QPersistentModelIndex

@@ -16,8 +16,8 @@ from app.arrays import FloatArray
 from app.editor.session import Session
 from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.ensemble import Performance
-from app.project.document import Change
 from app.project.performers import Dancer
+from app.project.undoable_document import Change
 from widgets.common.controls import Button, Retranslated, named, wrapped
 from widgets.common.help import HelpButton
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
@@ -286,7 +286,7 @@ class ChoreographyDialog(Retranslated, QDialog):
 
 def _finder(performance: Performance, dancer: Dancer) -> Callable[[Progress, StopRequested], ChoreographyView]:
     def work(progress: Progress, stop_requested: StopRequested) -> ChoreographyView:
-        from app.choreography.heard import learned_symbols
+        from app.choreography.hit_log_odds import learned_symbols
         from app.choreography.model_file import read_model
         from app.choreography.overview import basic_motions
         from app.choreography.performed.dance_steps import dance_of

@@ -27,7 +27,7 @@ from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_fo
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
 from widgets.dialogs.export_range import TEXT_MARGIN_PX, RangeChooser
-from widgets.dialogs.working import WorkingDialog, stopping
+from widgets.dialogs.progress_dialog import WorkingDialog, stopping
 
 Make: TypeAlias = Callable[[Project, EvaluationRequest, Report, StopRequested], EvaluationFinished]
 """Makes an evaluation beside the window; see `app.evaluation.process.made_by_process`."""

@@ -8,8 +8,8 @@ from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPoint, QRect, QSiz
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QStyle, QStyleOptionViewItem, QWidget
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.project.performers import Dancer
 from widgets.common.controls import named
 from widgets.players.ordered_list import ID_ROLE, AnyIndex, OrderedList, RowDelegate

@@ -14,15 +14,15 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from app.chance import next_seed
 from app.choreography.model_file import read_model
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.choreography_files import SUFFIX, bundled_choreographies, choreography_path
-from app.project.document import Change
 from app.project.edit import dancers as edit
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
+from app.project.undoable_document import Change
 from app.rig.characters.character_library import characters
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click, on_switch
@@ -35,8 +35,8 @@ from widgets.common.paths import ask_for_file
 from widgets.common.plain import verbatim
 from widgets.common.section import Section
 from widgets.players.choreography.dancer_list import DancerList
-from widgets.players.newcomers import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.parameter_rows import ParameterSlider, rows_of
+from widgets.players.performer_edits import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.place_numbers import place_sliders, shown_number, with_number
 
 MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")

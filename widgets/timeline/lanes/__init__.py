@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.features import extended
+from app.optional_features import extended
 from widgets.timeline.lane import Lane
 from widgets.timeline.lanes.acting.acting_lane import ActingLane
 from widgets.timeline.lanes.additive.additive_lane import AdditiveLane

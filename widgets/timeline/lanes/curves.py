@@ -17,7 +17,7 @@ from app.editor.session import Session, Severity
 from app.editor.timeline_view import Tool
 from app.errors import Message
 from app.plan.model import EmbouchureEvent, PlayerPlan
-from app.project.document import Change
+from app.project.undoable_document import Change
 from app.score.model import CurveKind, Part
 from widgets.common.clicks import on_click
 from widgets.common.controls import named

@@ -8,7 +8,7 @@ from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QLineEdit
 
-from app.editor.tokens import LEAST_TARGET_PX
+from app.editor.design_tokens import LEAST_TARGET_PX
 from widgets.common.numbers import number_from, number_text
 from widgets.timeline.lane import Lane
 

@@ -17,15 +17,15 @@ from app.editor.session import Session, Severity
 from app.errors import Message
 from app.plan.by_hand.corrections import RemoveEvent
 from app.plan.model import PlayerPlan
-from app.project.document import Change
 from app.project.edit.events import set_amounts
 from app.project.model import Project
+from app.project.undoable_document import Change
 from widgets.common.menus import add_actions
 from widgets.common.text import message_text
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.lanes.number_field import NumberField
 from widgets.timeline.model.gestures import snapped
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.model.regions.region_drag import RegionDrag
 from widgets.timeline.model.regions.shown_event import Region
 from widgets.timeline.model.regions.shown_regions import (

@@ -16,8 +16,8 @@ from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.by_hand.mark_corrections import SetMark
-from app.project.document import Change
 from app.project.edit.marks import replace_mark, set_marks
+from app.project.undoable_document import Change
 from app.score.marks import Mark
 from widgets.common.clicks import on_click
 from widgets.common.menus import add_actions

@@ -10,7 +10,7 @@ from typing import Final, NamedTuple, TypeAlias
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QImage, QPainter, QPainterPath
 
-from app.editor.tokens import Tokens
+from app.editor.design_tokens import Tokens
 from widgets.timeline.marks.glyphs import glyph_path, wave_path
 from widgets.timeline.model.marks.mark_looks import LOOKS
 from widgets.timeline.model.marks.placed_marks import STEEPNESS, PlacedMarks

@@ -13,7 +13,7 @@ from widgets.common.event_names import mark_name
 from widgets.common.menus import add_actions
 from widgets.timeline.marks.glyph_sheet import MarkColours, paint_marks
 from widgets.timeline.model.gestures import MouseGesture
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.marks.mark_drag import MarkDrag, Zone
 from widgets.timeline.model.marks.mark_table import MarkList, MarkTable
 from widgets.timeline.model.marks.placed_marks import MarkRoom, PlacedMarks, placed_marks

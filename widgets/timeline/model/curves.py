@@ -17,7 +17,7 @@ from app.project.model import Project
 from app.score.model import CurveKind, Part
 from widgets.timeline.model.geometry import StepCurve, TimeSpans
 from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveEdit, across
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 
 LIPS = ("tension", "effort", "air")
 FINE = 0.2

@@ -9,11 +9,11 @@ from typing import Protocol
 from app.editor.selection import Selection
 from app.errors import AppError, Message
 from app.performance.ensemble import Performance
-from app.project.document import Document
-from app.project.grid import Grid
 from app.project.model import Project
+from app.project.snap_grid import Grid
+from app.project.undoable_document import Document
 from app.score.model import Score
-from widgets.timeline.model.hand import LaneMouse, PixelRect, spanned
+from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect, spanned
 from widgets.timeline.model.visible_time import Scale
 
 DRAG_PX = 3.0

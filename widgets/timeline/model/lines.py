@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 
 from app.arrays import FloatArray
-from app.project.grid import Grid
+from app.project.snap_grid import Grid
 from app.score.model import Score
 
 LEAST_BAR_PX = 56.0

@@ -12,8 +12,8 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygon
 from shiboken6 import wrapInstance
 
 from app.arrays import AnyIntArray, FloatArray
-from app.editor.tokens import LEAST_TEXT_PT, Tokens
-from widgets.timeline.model.hand import PixelRect
+from app.editor.design_tokens import LEAST_TEXT_PT, Tokens
+from widgets.timeline.model.lane_mouse import PixelRect
 
 # As numbers: joining flags of Qt takes Python as long as drawing a word.
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 
 from app.editor.session import Session
 from widgets.timeline.model.gestures import snapped
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 

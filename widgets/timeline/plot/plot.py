@@ -20,7 +20,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.editor.session import Session
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot.cached_picture import Pictured
 from widgets.timeline.plot.drawing import draw_lines

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF
 
 from app.editor.translated import tr
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.roll.entries import End, EntryArrow, EntryDrag, end_at, entry_arrows
 from widgets.timeline.plot.drawing import shade
 from widgets.timeline.plot.plot import LaneItem

@@ -12,15 +12,15 @@ from PySide6.QtGui import QCursor, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolTip, QWidget
 
 from app.arrays import FloatArray, IntArray
+from app.editor.design_tokens import LEAST_TEXT_PT
 from app.editor.edit_names import edit_of_notes
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.editor.timeline_view import Ghosts, Tool
-from app.editor.tokens import LEAST_TEXT_PT
 from app.errors import AppError
 from app.plan.model import PlayerPlan
-from app.project.document import Change
 from app.project.edit import notes
+from app.project.undoable_document import Change
 from app.score.marks import Mark
 from app.score.model import Note
 from instrument_maps.model import InstrumentMap

@@ -6,8 +6,8 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
+from app.editor.design_tokens import LEAST_TEXT_PT
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TEXT_PT
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.plot.cached_picture import Pictured
 from widgets.timeline.zoom_and_scroll import TimeAxis

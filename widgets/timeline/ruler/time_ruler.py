@@ -31,7 +31,7 @@ from widgets.common.controls import Retranslated
 from widgets.common.menus import add_actions
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.model.gestures import MouseGesture, along, snapped
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.ruler.ruler_gestures import HoldEdge, HoldMark, Scrub, SelectSpan
 from widgets.timeline.model.ruler.ruler_marks import (

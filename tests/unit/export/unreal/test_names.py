@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.export.unreal.names import LONGEST, asset_name
-from app.formats.names import numbered
+from app.formats.unique_names import numbered
 
 # Invalid in asset names (send2ue's validations, Unreal's own list), or in Windows' file names.
 FORBIDDEN = set("'\".,/:|&!~@#(){}[]=;^%$`*? <>\\\t\n")

@@ -16,7 +16,7 @@ from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element, Property
 from app.formats.fbx.read import decode_scene, read_scene
 from app.formats.fbx.write import scene_elements, write_scene
-from app.formats.join import join_meshes
+from app.formats.joined_meshes import join_meshes
 from app.formats.scene import Material, MorphTarget, Scene, SkinnedMesh
 from tests.support.encoded import encode_elements, encode_scene
 from tests.unit.formats import scenes

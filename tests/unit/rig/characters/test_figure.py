@@ -274,7 +274,7 @@ def test_what_no_character_has_is_refused(ours: Character, tmp_path: Path, monke
             patched.setattr(figure_build, limit, 10)
             with pytest.raises(FileError, match="too_large"):
                 read_figure(path)
-    monkeypatch.setattr("app.formats.gltf.whole.MOST_BYTES", 10)
+    monkeypatch.setattr("app.formats.gltf.self_contained.MOST_BYTES", 10)
     with pytest.raises(FileError, match="too_large"):
         read_figure(path)
 

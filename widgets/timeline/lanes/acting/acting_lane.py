@@ -29,7 +29,7 @@ from widgets.timeline.lanes.acting.acting_drawing import ActingPainter
 from widgets.timeline.lanes.acting.acting_menus import add_givers, add_styles_menus, add_takers
 from widgets.timeline.lanes.regions import RegionLane
 from widgets.timeline.lanes.row_names import RowNames
-from widgets.timeline.model.hand import LaneMouse, PixelRect
+from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect
 from widgets.timeline.model.regions.acting_regions import (
     BASE,
     CURVES,

@@ -12,7 +12,7 @@ from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.errors import Message
-from app.project.edit.givers import set_giver, set_takers
+from app.project.edit.cue_givers import set_giver, set_takers
 from app.project.model import Project
 from widgets.common.clicks import on_click
 from widgets.common.event_names import style_name

@@ -12,7 +12,7 @@ from app.arrays import FloatArray
 from app.plan.by_hand.additive_curve import Interpolation
 from widgets.common.channel_names import value_text
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.plot.drawing import MARK_PX, draw_path, draw_text, polygon, shade, small_font
 from widgets.timeline.plot.plot import LaneItem, LaneView
 

@@ -16,8 +16,8 @@ from app.performance.motion import generated_anew, generated_channel
 from app.plan.by_hand.additive_events import channel_limits
 from app.plan.model import PlayerPlan
 from app.plan.parameters import PlayerParameters
-from app.project.document import Change
 from app.project.edit import additive as edit
+from app.project.undoable_document import Change
 from metadata.load import load_body
 from widgets.common.channel_names import channel_name, value_text
 from widgets.common.controls import named
@@ -31,7 +31,7 @@ from widgets.timeline.model.additive import additive_curves as model
 from widgets.timeline.model.additive.additive_curves import Hit, KeyRef
 from widgets.timeline.model.additive.additive_gestures import DragBlend, DragHandle, DragKeys
 from widgets.timeline.model.gestures import Band, MouseGesture, either
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 REACH_PX = 6.0

@@ -14,10 +14,10 @@ from app.errors import Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.project import limits
 from app.project.dance_corrections import DanceCorrection
-from app.project.document import Change
 from app.project.edit import dance_corrections as edit
 from app.project.model import Project
 from app.project.performers import Dancer
+from app.project.undoable_document import Change
 from widgets.common.text import sentence
 from widgets.timeline.lane import LaneMouse
 from widgets.timeline.lanes.choreography.dance_drawing import DancesItem

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import DRAG_PX, MouseGesture, along
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.visible_time import Scale
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QSize, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication, QFrame, QMenu, QPushButton
 
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session
-from app.editor.tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings

@@ -12,8 +12,8 @@ from app.editor.selection import Selection
 from app.editor.session import Session, Severity
 from app.errors import AppError, Message
 from app.plan.model import FingeringEvent, MuteEvent, PlayerPlan
-from app.project.document import Change
 from app.project.performers import Player
+from app.project.undoable_document import Change
 from instrument_maps.fingering_label import says_words
 from instrument_maps.model import Control, InstrumentMap
 from widgets.common.menus import add_actions

@@ -10,12 +10,12 @@ from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.arrays import FloatArray
-from app.audio.peaks import Peaks
+from app.audio.waveform_peaks import Peaks
 from app.editor.session import Session, Severity
 from app.errors import Message
-from app.project.document import Change
 from app.project.edit.piece import set_offset
 from app.project.model import Project
+from app.project.undoable_document import Change
 from widgets.common.clicks import on_click
 from widgets.common.menus import add_actions
 from widgets.common.numbers import number_text

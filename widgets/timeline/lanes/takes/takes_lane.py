@@ -9,9 +9,9 @@ from PySide6.QtWidgets import QMenu, QWidget
 from app.editor.selection import Selection
 from app.editor.session import Session
 from app.errors import Message
-from app.project.document import Change
 from app.project.edit.placed_takes import BEFORE
 from app.project.model import CompSpan
+from app.project.undoable_document import Change
 from app.score.clean import Fault
 from instrument_maps.library import all_maps
 from widgets.common.actions import actions

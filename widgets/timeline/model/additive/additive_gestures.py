@@ -14,7 +14,7 @@ from app.project.model import Project
 from app.score.tempo import TempoMap
 from widgets.timeline.model.additive.additive_curves import KeyRef, ShownCurve, by_curve, rounded
 from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveEdit, either, snapped
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 
 FINE: Final = 0.2
 """Factor with Shift from the mouse's way to that of keys, which are then free of the grid."""

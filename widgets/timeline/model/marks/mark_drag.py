@@ -12,7 +12,7 @@ from app.project.edit.marks import replace_mark
 from app.project.model import Project
 from app.score.marks import MARK_KINDS, Mark
 from widgets.timeline.model.gestures import MouseGesture, along, moved_edge, snapped
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.marks.shown_marks import MarkSession, ShownMarks
 from widgets.timeline.model.roll.note_table import NoteTable
 

@@ -13,7 +13,7 @@ from app.plan.music.written_dynamics import holding_row
 from app.score.marks import MARK_KINDS, SFORZANDI
 from app.score.tempo import TempoMap
 from widgets.timeline.model.geometry import TimeSpans
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.model.marks.mark_drag import Zone
 from widgets.timeline.model.marks.mark_table import MarkList
 from widgets.timeline.model.visible_time import Scale

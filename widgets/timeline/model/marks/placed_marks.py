@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.model.marks.mark_looks import LOOKS
 from widgets.timeline.model.marks.mark_table import MarkTable
 from widgets.timeline.model.roll.shown_notes import boxes

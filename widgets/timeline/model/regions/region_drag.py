@@ -17,7 +17,7 @@ from app.project.edit.corrections import Edited
 from app.project.edit.events import corrections_of, move, resize, set_amounts, set_fades
 from app.project.model import Project
 from widgets.timeline.model.gestures import DRAG_PX, Band, Editing, LiveEdit, MouseGesture, Plane, either, moved_edge
-from widgets.timeline.model.hand import LaneMouse, PixelRect
+from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect
 from widgets.timeline.model.regions.shown_event import Region
 
 MOST_FADE_S = 30.0

@@ -13,7 +13,7 @@ from app.plan.by_hand.corrections import RemoveEvent
 from app.plan.event_id import EventId
 from app.plan.model import PlayerPlan
 from app.project.model import Project
-from widgets.timeline.model.hand import LaneMouse, PixelRect
+from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect
 from widgets.timeline.model.regions.shown_event import Region, place_of, spans_of
 from widgets.timeline.model.visible_time import Scale
 

@@ -11,11 +11,11 @@ from app.editor.selection import EventKey, Selection
 from app.errors import Message
 from app.plan.model import PlayerPlan
 from app.project.edit.corrections import Edited
-from app.project.edit.givers import hand_over, set_giver
+from app.project.edit.cue_givers import hand_over, set_giver
 from app.project.model import Project
 from app.project.performers import Player
 from widgets.timeline.model.gestures import MouseGesture, Plane, either, snapped
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.roll.note_table import NoteTable
 from widgets.timeline.model.roll.shown_notes import RollModel, RollSession
 

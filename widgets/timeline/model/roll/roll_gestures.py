@@ -10,7 +10,7 @@ from app.project.edit import notes
 from app.project.model import Project
 from app.score.model import Note
 from widgets.timeline.model.gestures import Band, Far, LiveEdit, MouseGesture, Plane, snapped, together
-from widgets.timeline.model.hand import LaneMouse, PixelRect
+from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect
 from widgets.timeline.model.roll.shown_notes import RollModel, RollSession, cell
 
 VELOCITY_A_PX = 0.5

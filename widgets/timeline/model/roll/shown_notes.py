@@ -8,16 +8,16 @@ from typing import Protocol
 import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
+from app.editor.design_tokens import Tokens
 from app.editor.selection import Selection
 from app.editor.timeline_view import Ghosts
-from app.editor.tokens import Tokens
 from app.plan.model import Problem
-from app.project.grid import Grid
 from app.project.model import Project
 from app.project.performers import Player
+from app.project.snap_grid import Grid
 from app.score.model import Note, Score
 from widgets.timeline.model.gestures import Editing
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
 from widgets.timeline.model.visible_time import Scale
 

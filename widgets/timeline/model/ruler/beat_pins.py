@@ -13,7 +13,7 @@ from app.project.edit.pins import pin_beat, recording_second
 from app.project.model import Project
 from app.project.recording import BeatPin, Doubt
 from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveEdit, along
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.visible_time import Scale
 

@@ -9,7 +9,7 @@ from app.editor.selection import Selection
 from app.errors import Message
 from app.project.edit import tempo as tempo_edit
 from widgets.timeline.model.gestures import Editing, Far, LiveEdit, MouseGesture, snapped
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 
 Place = TypeVar("Place", int, float)
 

@@ -13,7 +13,7 @@ from app.errors import Message
 from app.project.edit import tempo as tempo_edit
 from app.project.model import Project
 from app.score.model import Score
-from widgets.timeline.model.hand import PixelRect
+from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.visible_time import Scale, VisibleSpan
 

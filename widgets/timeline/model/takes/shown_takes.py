@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from app.editor.design_tokens import Tokens
 from app.editor.selection import Selection
-from app.editor.tokens import Tokens
 from app.errors import Message
 from app.project.edit.placed_takes import BEFORE
 from app.project.edit.takes import comp, comp_whole, comp_with, move_take, rename_take
@@ -15,7 +15,7 @@ from app.score.metre_map import Metre
 from app.score.take import Take
 from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import DRAG_PX, Editing, MouseGesture, along
-from widgets.timeline.model.hand import LaneMouse
+from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.takes.take_rows import TakeRow, comp_of, edges, pitch_range, rows_of, span_at
 from widgets.timeline.model.visible_time import Limited
 

@@ -1,0 +1,82 @@
+"""Visible flaws of a dance: joins that jerk, jolts anywhere else, and standing feet that slide.
+
+Judged on the captured body, before the dance is put onto a character.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import tips_m
+from app.choreography.damage import Damage, damage
+from app.choreography.resample import resampled
+from app.choreography.standing_feet import FootPlant
+from app.rig import quaternion
+
+JERKS: Final = 1.25
+"""A join shows whose largest change of angular velocity is this many times what is usual in the capture."""
+USUAL_PERCENTILE: Final = 99.9
+AROUND: Final = (-1, 2)
+"""First and last frame about a seam that are looked at; a change is seen in the frame before and the one after."""
+NEAR_S: Final = 0.1
+"""A jolt no farther from a seam than this is that of the seam."""
+TOLERANCE: Final = 2.0
+"""A dance is danced faster than captured, by up to 1.75 for a moment: it may be so much farther from even motion."""
+SLIDES_M_S: Final = 0.005
+"""A standing foot whose tip goes faster than this slides."""
+
+
+def usual_change_rad_s(clips: Sequence[MotionClip], fps: Fraction) -> float:
+    """Return how much the angular velocity of a segment changes from frame to frame at a frame rate, at the most but
+    for one frame in a thousand; 0 without motion."""
+    changes = [_changes(resampled(clip, fps).rotations[None], fps).ravel() for clip in clips]
+    every = np.concatenate(changes) if changes else np.zeros(0)
+    return float(np.percentile(every, USUAL_PERCENTILE)) if len(every) else 0.0
+
+
+def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) -> tuple[int, ...]:
+    """Those seams (frames) of a dance that show.
+
+    Parameters
+    ----------
+    usual_rad_s : float
+        See `usual_change_rad_s`.
+    """
+    if not seams or len(clip) < 3:
+        return ()
+    frames = np.array(seams)[:, None] + np.arange(AROUND[0] - 1, AROUND[1] + 2)
+    changes = _changes(clip.rotations[np.clip(frames, 0, len(clip) - 1)], clip.fps)
+    worst = changes.reshape(len(seams), -1).max(axis=1)
+    return tuple(seam for seam, change in zip(seams, worst.tolist(), strict=True) if change > JERKS * usual_rad_s)
+
+
+def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
+    """Places anywhere in a dance, but at its seams, where a body moves as none does."""
+    apart = round(NEAR_S * float(clip.fps))
+    return tuple(
+        one
+        for one in damage(clip, TOLERANCE)
+        if all(seam < one.start - apart or one.stop + apart < seam for seam in seams)
+    )
+
+
+def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:
+    """Those stands of a dance during which the foot slides over the floor."""
+    tips = tips_m(clip)[..., [0, 2]]
+    speeds = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * float(clip.fps)
+    return tuple(
+        stand for stand in standing if speeds[stand.start : stand.stop - 1, stand.foot].max(initial=0.0) > SLIDES_M_S
+    )
+
+
+def _changes(rotations: FloatArray, fps: Fraction) -> FloatArray:
+    """(N, F - 2, 16) change of angular velocity of motions (N, F, 16, 4) from frame to frame, rad/s."""
+    steps = quaternion.multiply(quaternion.conjugate(rotations[:, :-1]), rotations[:, 1:])
+    velocity = quaternion.to_rotation_vector(steps) * float(fps)
+    return np.asarray(np.linalg.norm(np.diff(velocity, axis=1), axis=-1))

@@ -1,0 +1,154 @@
+"""Music as the segments of a choreography hear it: log odds of every hit in each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray, IntArray
+from app.choreography.hidden_markov import count
+from app.choreography.model import ChoreographyModel
+from app.choreography.rhythm import SYMBOLS, Rhythm
+
+OF_ALL: Final = 2.0
+"""Weight of what a basic motion sounded to with all dancers, in sounds of its own with one."""
+SAME_S: Final = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class HeardHits:
+    """Hits of a piece as log odds of each segment.
+
+    Attributes
+    ----------
+    times_s : (H,) float64
+        Ascending.
+    summed : (H + 1, S) float64
+        Log odds of all hits before each one, if they sounded during the segment.
+    """
+
+    times_s: FloatArray
+    summed: FloatArray
+
+    def before(self, at_s: FloatArray | float) -> IntArray:
+        """Numbers of hits before some times; a hit at a time, but for rounding, is not before it."""
+        return np.asarray(np.searchsorted(self.times_s, np.asarray(at_s) - SAME_S))
+
+    def between(self, start_s: FloatArray | float, stop_s: FloatArray | float) -> FloatArray:
+        """(S,) log odds of the hits in a span of each segment, or in one span."""
+        first, stop = self.before(start_s), self.before(stop_s)
+        segments = np.arange(self.summed.shape[1])
+        return np.asarray(self.summed[stop, segments] - self.summed[first, segments])
+
+
+@dataclass(frozen=True, eq=False)
+class SoundOdds:
+    """Log odds of a sound during each segment of a model, in two parts that add up.
+
+    Attributes
+    ----------
+    of_dancers : (S, 47) float64
+        The mean of the segments of each clip: what its dancer was heard to dance to.
+    of_motions : (S, 47) float64
+        What each motion sounded to beyond that.
+    """
+
+    of_dancers: FloatArray
+    of_motions: FloatArray
+
+    def both(self, *, any_dancer: bool) -> FloatArray:
+        """(S, 47) log odds where a dancer is to be found by the sounds, or is found already."""
+        return self.of_dancers + self.of_motions if any_dancer else self.of_motions
+
+
+@dataclass(frozen=True, eq=False)
+class Hearing:
+    """Log odds of a sound during each segment of a model, against how often it sounds at all.
+
+    Attributes
+    ----------
+    percussion, melody : SoundOdds
+        Melody, bass and accents stand for drums (`app.choreography.derived_rhythm`): those of a piece without
+        percussion count as percussion, those beside percussion as ``melody``.
+    """
+
+    percussion: SoundOdds
+    melody: SoundOdds
+
+    def hits(self, rhythm: Rhythm, melody: float, *, any_dancer: bool = True) -> HeardHits:
+        """The hits of a piece, each counted by its strength wherever in a segment it is, as when they are learned.
+
+        Parameters
+        ----------
+        melody : float
+            How much melody, bass and accents count beside percussion.
+        any_dancer : bool
+            The sounds say whose motions are danced, not only which of one dancer's.
+        """
+        struck = self.percussion.both(any_dancer=any_dancer)
+        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * struck[:, rhythm.symbols].T
+        tune = rhythm.melody
+        if tune is not None and melody:
+            struck = self.melody.both(any_dancer=any_dancer)
+            beside = melody * tune.strengths[:, None] * struck[:, tune.symbols].T
+            order = np.argsort(np.concatenate([times_s, tune.hits_s]), kind="stable")
+            times_s = np.concatenate([times_s, tune.hits_s])[order]
+            scores = np.concatenate([scores, beside])[order]
+        return HeardHits(times_s, np.concatenate([np.zeros((1, scores.shape[1])), np.cumsum(scores, axis=0)]))
+
+
+def hearing(model: ChoreographyModel, trust: float = 1.0) -> Hearing:
+    """Learn how segments sound; a model without melodies hears them as the percussion that they stand for.
+
+    Parameters
+    ----------
+    trust : float
+        Weight of what a motion sounded to beyond what its dancer did
+        (`app.choreography.music_motion_dependence.trust_in`).
+    """
+    percussion = _odds(model, [one.sounds for one in model.segments], model.emission, learned_symbols(model), trust)
+    melodies = [one.melody for one in model.segments]
+    known = tuple(set().union(*melodies))
+    if not known:
+        return Hearing(percussion, percussion)
+    states = np.array([one.state for one in model.segments], np.int64)
+    symbols = [np.array(own, np.int64) for own in melodies]
+    _, emission, _ = count([states], [symbols], model.states, smoothing=1.0)
+    return Hearing(percussion, _odds(model, melodies, emission, known, trust))
+
+
+def _odds(
+    model: ChoreographyModel,
+    symbols: Sequence[Sequence[int]],
+    emission: FloatArray,
+    known: Sequence[int],
+    trust: float,
+) -> SoundOdds:
+    """Log odds of each symbol during each segment.
+
+    A basic motion of several dancers sounded to the drums of each: those of its own dancer count most. A symbol that
+    was never heard tells nothing; smoothing alone would have it of the motions that heard least.
+    """
+    states = np.array([one.state for one in model.segments], np.int64)
+    clips = np.array([one.clip for one in model.segments], np.int64)
+    counts = np.zeros((model.states, len(model.clips), len(SYMBOLS)))
+    for one, sounding in zip(model.segments, symbols, strict=True):
+        np.add.at(counts[one.state, one.clip], list(sounding), 1.0)
+    own = counts + OF_ALL * emission[:, None, :]
+    shares = (own / own.sum(axis=-1, keepdims=True))[states, clips]
+    log_odds = np.zeros(shares.shape)
+    log_odds[:, list(known)] = np.log(shares / shares.mean(axis=0))[:, list(known)]
+    of_dancers = np.zeros(log_odds.shape)
+    for clip in np.unique(clips):
+        of_dancers[clips == clip] = log_odds[clips == clip].mean(axis=0)
+    return SoundOdds(of_dancers, trust * (log_odds - of_dancers))
+
+
+def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:
+    """Percussion symbols that were counted with some state: those that are more probable in it than by smoothing alone,
+    which is what the least probable symbol of a state has."""
+    least = model.emission.min(axis=1, keepdims=True)
+    return tuple(np.flatnonzero((model.emission > least * (1.0 + 1e-9)).any(axis=0)).tolist())

@@ -1,0 +1,145 @@
+"""Parts of a MIDI file that have no instrument, and the options that give parts their instruments and pitches."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shlex
+import subprocess
+from collections.abc import Mapping, Sequence
+from typing import Final, NamedTuple
+
+import msgspec
+
+from app.encoding import shown
+from app.errors import Message, UsageError
+from app.project.importing import ImportRow, score_of_rows
+from app.project.names import unique_names
+from app.project.parameters import select_players
+from app.score.assignments import PERCUSSION
+from app.score.contents import PieceContents
+from app.score.instrument_choice import How, MapCandidates, MapChoice, candidates, require_map
+from app.score.parts import stream_name
+from app.score.track_channel import TrackChannel
+from app.score.track_instrument import use_of
+from instrument_maps.model import InstrumentMap
+
+_SPECIAL: Final = re.compile(r'["$`\\!]')
+"""Characters that mean something between double quotes."""
+
+
+class Unassigned(NamedTuple):
+    """A part whose instrument is unknown: not played, or played by what its range fits.
+
+    Attributes
+    ----------
+    part : str
+        What ``--assign`` calls it.
+    map_id : str
+        The instrument whose range it fits best.
+    """
+
+    part: str
+    map_id: str
+
+
+def unassigned_parts(
+    channels: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice], of_others: bool = False
+) -> tuple[Unassigned, ...]:
+    """The parts that neither the file nor the user gives an instrument, in the order of the file; ``of_others``: those
+    of instruments that no map plays, as of a piano."""
+    found = []
+    for row, name in zip(rows, part_names(channels, rows), strict=True):
+        played = [channels[index] for index in row.assignment.channels]
+        if row.assignment.map_id is None and all(use_of(channel) == "melodic" for channel in played):
+            possible = candidates(played, maps)
+            if of_others and not possible.maps:
+                possible = MapCandidates(How.RANGE, None, tuple(maps))
+            elif of_others or possible.how is not How.RANGE or not possible.maps:
+                continue
+            pitches = [pitch for channel in played for pitch in channel.pitches]
+            found.append(Unassigned(name, possible.best(pitches).map_id))
+    return tuple(found)
+
+
+def part_names(channels: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
+    """Names of the parts for ``--assign``: a row is called like its first stream."""
+    return unique_names(stream_name(channels[row.assignment.channels[0]]) for row in rows)
+
+
+def with_pitches(
+    contents: PieceContents,
+    rows: Sequence[ImportRow],
+    names: Sequence[str],
+    written: bool,
+    maps: Mapping[str, InstrumentMap],
+) -> Sequence[ImportRow]:
+    """The rows with the pitches of the players of these names taken for written or for sounding ones."""
+    parts = score_of_rows(contents, rows, maps).parts
+    places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
+    return [
+        msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, written=written))
+        if contents.channels[row.assignment.channels[0]].place in places
+        else row
+        for row in rows
+    ]
+
+
+def with_instruments(
+    channels: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
+) -> Sequence[ImportRow]:
+    """The rows with the instruments that are assigned to parts as ``PART=INSTRUMENT``; a row is called like its first
+    stream.
+
+    Raises
+    ------
+    UsageError
+        ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
+    """
+    names = part_names(channels, rows) if texts else ()
+    assigned = list(rows)
+    for text in texts:
+        part, equals, map_id = (piece.strip() for piece in text.rpartition("="))
+        if not (part and equals and map_id):
+            raise UsageError("assign.malformed", assignment=text)
+        require_map(map_id, [*maps, PERCUSSION])
+        for index in select_players([part], names):
+            asked = msgspec.structs.replace(rows[index].assignment, map_id=map_id)
+            assigned[index] = msgspec.structs.replace(rows[index], assignment=asked, requested=True)
+    return assigned
+
+
+def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], id: str = "assign.parts") -> Message:
+    """Message (file, parts, command) of which parts, and the command that was given with instruments for them.
+
+    Parameters
+    ----------
+    id : str
+        ``assign.parts``, or ``assign.others`` of parts for instruments that no map plays.
+    arguments : Namespace
+        With ``file``, and ``given``, the command line.
+    """
+    added = [word for one in parts for word in _option(f"{one.part}={one.map_id}")]
+    words = list(arguments.given)
+    if getattr(arguments, "piece", None) is not None:
+        # One of a folder, whose other pieces have other parts.
+        words = ["export", os.fspath(arguments.piece), "--to", os.fspath(arguments.to)]
+    named = ", ".join(one.part for one in parts)
+    command = shown(_joined(["suisou", *words, *added]))
+    return Message(id, {"file": shown(arguments.file), "parts": named, "command": command})
+
+
+def _option(value: str) -> tuple[str, ...]:
+    """``--assign`` with a value, which would be an option itself if it began a word with a hyphen."""
+    return (f"--assign={value}",) if value.startswith("-") else ("--assign", value)
+
+
+def _joined(words: Sequence[str]) -> str:
+    """Words as the shell of this system splits them again."""
+    return subprocess.list2cmdline(words) if os.name == "nt" else " ".join(map(_quoted, words))
+
+
+def _quoted(word: str) -> str:
+    """A word in the quotes that are easiest to read."""
+    return f'"{word}"' if "'" in word and not _SPECIAL.search(word) else shlex.quote(word)

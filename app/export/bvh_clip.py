@@ -1,0 +1,165 @@
+"""A character's scene as a BVH clip: the joints from the one that moves on, in centimetres; and the names that
+other programs give its bones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.export.joints import world_transforms
+from app.export.target import TargetSkeleton
+from app.formats.bvh.clip import BvhClip
+from app.formats.scene import Clip, Scene
+from app.formats.unique_names import numbered
+from app.rig import quaternion
+from app.rig.model import Skeleton
+from metadata.known_names import BoneNames
+from metadata.load import load_bone_names
+
+OWN_VERTEX = 0.5
+"""A vertex belongs to the joint that holds more than this share of it."""
+_SHORTEST_CM = 1.0
+
+
+def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> BvhClip:
+    """The skeleton from the bone that is moved (the hips) on, with the motion of all bones above it in its own.
+
+    BVH moves its root only, so that what another bone is moved by is left out, and a bone that is but moved, such as a
+    socket, altogether.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a clip.
+    names : mapping of int to str
+        By bone, for those that are to have another name than in the scene.
+    """
+    clip = scene.clip
+    if clip is None:
+        raise ValueError("a scene without a clip has no motion")
+    first = _first(scene, clip)
+    chosen = _without_props(scene, clip, _below(scene, first), first)
+    place = {bone: index for index, bone in enumerate(chosen)}
+    translation_cm, rotation = _world(scene, clip, first)
+    rotations = np.take(clip.rotations_xyzw, chosen, axis=1)
+    for bone, turns in clip.whole_turns.items():
+        rotations[:, place[bone]] = turns
+    rotations[:, 0] = rotation
+    offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
+    offsets_cm[0] = 0.0
+    return BvhClip(
+        # BVH takes no blanks in names.
+        names=numbered("_".join(names.get(bone, scene.bones[bone].name).split()) or "bone" for bone in chosen),
+        parents=tuple(-1 if bone == first else place[scene.bones[bone].parent] for bone in chosen),
+        offsets_cm=offsets_cm,
+        end_sites_cm={place[bone]: end for bone, end in _end_sites_cm(scene, chosen).items()},
+        fps=clip.fps,
+        root_translation_cm=translation_cm,
+        rotations_xyzw=rotations,
+    )
+
+
+def _first(scene: Scene, clip: Clip) -> int:
+    """The lowest bone that is moved and has most of the skeleton below it: what moves a hand or a prop is none."""
+    below = {bone: len(_below(scene, bone)) for bone in clip.translations_cm}
+    trunk = [bone for bone, count in below.items() if 2 * count > len(scene.bones)]
+    return max(trunk, default=0)
+
+
+def _below(scene: Scene, first: int) -> list[int]:
+    """A bone and all that hang on it, parents first."""
+    chosen = {first}
+    for index, bone in enumerate(scene.bones):
+        if bone.parent in chosen:
+            chosen.add(index)
+    return sorted(chosen)
+
+
+def _without_props(scene: Scene, clip: Clip, bones: list[int], first: int) -> list[int]:
+    """Bones without those that nothing hangs on and that leave their place."""
+    parents = {bone.parent for bone in scene.bones}
+    return [bone for bone in bones if bone == first or bone in parents or bone not in clip.translations_cm]
+
+
+def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]:
+    """Place (F, 3) and rotation (F, 4) of a bone in the world."""
+    place, rotation = np.zeros((clip.frames, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (clip.frames, 1))
+    while bone >= 0:
+        own = np.asarray(clip.rotations_xyzw[:, bone], np.float64)
+        moved = np.asarray(clip.translations_cm.get(bone, scene.bones[bone].translation_cm), np.float64)
+        place = quaternion.rotate(own, place) + moved
+        rotation = quaternion.multiply(own, rotation)
+        bone = scene.bones[bone].parent
+    return place, rotation
+
+
+def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
+    """Return where the bones without a child end, in the bone's frame: as far along the way to the bone as the surface
+    that it carries goes."""
+    parents = [bone.parent for bone in scene.bones]
+    world_from_rest = world_transforms(
+        tuple(parents),
+        np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones])[None],
+        np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in scene.bones])[None],
+    )[0]
+    last = sorted(set(chosen) - set(parents))
+    points_cm = _own_points_cm(scene, last)
+    ends = {}
+    for bone in last:
+        rest = world_from_rest[bone]
+        way = rest[:3, :3].T @ (rest[:3, 3] - world_from_rest[parents[bone], :3, 3])
+        length = np.linalg.norm(way)
+        direction = way / length if length > 0 else np.array([0.0, 1.0, 0.0])
+        lengths = [float(np.max(points @ direction)) for points in points_cm[bone]]
+        ends[bone] = direction * max([*lengths, _SHORTEST_CM])
+    return ends
+
+
+def _own_points_cm(scene: Scene, bones: Sequence[int]) -> dict[int, list[FloatArray]]:
+    """Vertices that each of some bones carries, in its frame, of every mesh that has some."""
+    found: dict[int, list[FloatArray]] = {bone: [] for bone in bones}
+    requested = np.zeros(len(scene.bones), bool)
+    requested[list(bones)] = True
+    for mesh in scene.meshes:
+        vertices, slots = np.nonzero(requested[mesh.joint_indices])
+        joints, weights = mesh.joint_indices[vertices, slots], mesh.weights[vertices, slots]
+        for bone in bones:
+            here = joints == bone
+            shares = np.bincount(vertices[here], weights[here])
+            own = np.flatnonzero(shares > OWN_VERTEX)
+            if own.size:
+                bind = np.asarray(mesh.world_from_bone_bind[bone], np.float64)
+                found[bone].append((mesh.vertices_cm[own] - bind[:3, 3]) @ bind[:3, :3])
+    return found
+
+
+SPINE = ("spine", "chest", "upperChest")
+
+
+def joint_names(table: BoneNames) -> dict[str, str]:
+    """The name of every joint that a table knows: of several the first. Of the bones between hips and neck the lowest
+    are ours."""
+    result = {joint: names[0] for joint, names in table.middle.items()}
+    result |= {joint: names[0] for joint, names in zip(SPINE, table.spine, strict=False)}
+    for side, words in (("left", table.left), ("right", table.right)):
+        result |= {side + joint: names[0].replace("{side}", words[0]) for joint, names in table.sides.items()}
+    return result
+
+
+def profile_names(profile: str, target: TargetSkeleton, skeleton: Skeleton) -> dict[int, str]:
+    """Names by bone for a skeleton that is written on; a bone that is no joint of the profile keeps its own.
+
+    Parameters
+    ----------
+    profile : str
+        Name of a table of bone names.
+    target : TargetSkeleton
+    skeleton : Skeleton
+        The character's, whose joints the target's bones are.
+    """
+    names = joint_names(load_bone_names()[profile])
+    joints = {joint: names[name] for joint, name in enumerate(skeleton.names) if name in names}
+    return {bone: joints[joint] for joint, bone in target.bone_of_joint.items() if joint in joints}

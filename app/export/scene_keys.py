@@ -1,0 +1,83 @@
+"""The scenes of an export with the keys that were asked for, and how many these are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import msgspec
+
+from app.export.formats import Format, requested
+from app.export.joint_playback import JointPlayback
+from app.export.key_reduction_landmarks import character_marks, part_marks
+from app.export.playback import ScenePlayback
+from app.export.reduced_keys import INSTRUMENT_MM, PLACE_MM, reduced
+from app.export.target import TargetSkeleton
+from app.formats.keys import KeyChoice
+from app.formats.scene import Scene
+from app.rig.model import Character, InstrumentModel
+
+
+class KeyCount(msgspec.Struct, frozen=True):
+    """Keys of a performer's files, each of one bone's rotation or place or one morph's weight at one frame, and how
+    many there are with keys on every frame."""
+
+    written: int
+    every: int
+
+
+def keyed_character(
+    scene: Scene,
+    keys: KeyChoice,
+    formats: frozenset[Format],
+    character: Character,
+    target: TargetSkeleton,
+    models: Sequence[InstrumentModel] = (),
+) -> Scene:
+    """A character's scene with its keys.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of `app.export.character.character_scene`.
+    keys : KeyChoice
+    formats : frozenset of str
+        Those that it is written to.
+    character : Character
+    target : TargetSkeleton
+        What the scene is on.
+    models : sequence of InstrumentModel
+        The musician's instruments: those that hang on sockets stay where they are too.
+    """
+    if keys == "every" or scene.clip is None:
+        return scene
+    joints = JointPlayback(ScenePlayback(scene, scene.clip), target, character)
+    hanging = {bone: models[number].meshes for bone, number in target.sockets.items()}
+    return reduced(scene, character_marks(joints, character, hanging), PLACE_MM, _by_pose(formats))
+
+
+def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:
+    """An instrument's scene with its keys."""
+    if keys == "every" or scene.clip is None:
+        return scene
+    return reduced(scene, part_marks(ScenePlayback(scene, scene.clip)), INSTRUMENT_MM, _by_pose(formats))
+
+
+def _by_pose(formats: frozenset[Format]) -> bool:
+    return any(kind.keys_by_pose for kind in requested(formats))
+
+
+def key_count(*scenes: Scene) -> KeyCount:
+    """The keys of some scenes together."""
+    written = every = 0
+    for scene in scenes:
+        clip = scene.clip
+        if clip is None:
+            continue
+        everything = [*range(len(scene.bones)), *clip.translations_cm]
+        every += clip.frames * (len(everything) + len(clip.morph_weights))
+        if clip.keys is None:
+            written += clip.frames * (len(everything) + len(clip.morph_weights))
+        else:
+            written += sum(len(clip.keys.bones[bone]) for bone in everything)
+            written += sum(map(len, clip.keys.morphs.values()))
+    return KeyCount(written, every)

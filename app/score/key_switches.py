@@ -1,0 +1,92 @@
+"""Key switches: notes far from an instrument's range by which a sequencer selects the articulation of a sampler.
+
+They are silent, and are not played: short notes before a phrase, or held below it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import msgspec
+import numpy as np
+
+from app.arrays import BoolArray, IntArray
+from app.score.instrument_choice import How, MapCandidates, MapChoice, candidates
+from app.score.tempo import TempoMap
+from app.score.track_channel import TrackChannel
+
+_AWAY: Final = 5
+"""Semitones beyond the instrument's range, at least: a wrong note or a pedal note lies nearer."""
+_APART: Final = 7
+"""Semitones between them and the music, at least: samplers leave half an octave free."""
+_MOST_PITCHES: Final = 24
+"""Two octaves of articulations."""
+_MOST_SHARE: Final = 0.4
+"""Largest share of the notes: several follow one switch."""
+_SHORT_S: Final = 0.25
+"""A note that lasts no longer may be a key switch; a longer one is, if it is held while the music sounds."""
+_BEFORE_S: Final = 2.0
+"""Most seconds before the next note of the music."""
+_MOST_ODD: Final = 0.2
+"""Share of them that may be neither short nor held."""
+
+
+def without_key_switches(
+    channel: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
+) -> tuple[TrackChannel, tuple[int, ...]]:
+    """A stream without its key switches, and their places among its notes; the same stream where it has none.
+
+    Parameters
+    ----------
+    found : MapCandidates
+        The maps it may go to.
+    maps : sequence of MapChoice
+        All there are.
+    """
+    pitches = np.array(channel.pitches)
+    for away in _far(pitches):
+        rest = _kept(channel, ~away)
+        # Where nothing but the range chose them, what was found fits the switches too.
+        own = found if found.how is not How.RANGE else candidates([rest], maps)
+        choice = own.best(rest.pitches)
+        low, high = choice.usual_range
+        low, high = low - _AWAY, high + _AWAY
+        if ((pitches[away] <= low) | (pitches[away] >= high)).all() and _switch(channel, away, tempo_map):
+            return rest, tuple(np.flatnonzero(away).tolist())
+    return channel, ()
+
+
+def _far(pitches: IntArray) -> list[BoolArray]:
+    """The few notes below and above the widest gap of a stream's pitches."""
+    used = np.unique(pitches)
+    gaps = np.diff(used)
+    if not len(gaps) or gaps.max() < _APART:
+        return []
+    at = used[int(gaps.argmax())]
+    parts = (pitches <= at, pitches > at)
+    few = [part for part in parts if np.count_nonzero(part) <= _MOST_SHARE * len(pitches)]
+    return [part for part in few if len(np.unique(pitches[part])) <= _MOST_PITCHES]
+
+
+def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
+    """Return whether notes are played as key switches are: short, before the music, or held while it sounds."""
+    onsets = tempo_map.seconds(np.array(channel.onset_ticks))
+    ends = tempo_map.seconds(np.array(channel.end_ticks))
+    music_onsets, music_ends = onsets[~away], np.maximum.accumulate(ends[~away])
+    following = np.append(music_onsets, np.inf)[np.searchsorted(music_onsets, onsets[away])]
+    sounding_until = np.append(-np.inf, music_ends)[np.searchsorted(music_onsets, onsets[away], side="right")]
+    begun = (following - onsets[away] <= _BEFORE_S) | (sounding_until > onsets[away])
+    held = (following < ends[away]) | (sounding_until > onsets[away])
+    short = ends[away] - onsets[away] <= _SHORT_S
+    odd = ~(begun & (short | held))
+    return bool(np.count_nonzero(odd) <= _MOST_ODD * len(odd))
+
+
+def _kept(channel: TrackChannel, kept: BoolArray) -> TrackChannel:
+    """Some notes of a stream."""
+    places = np.flatnonzero(kept).tolist()
+    columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")
+    return msgspec.structs.replace(
+        channel, **{name: [getattr(channel, name)[place] for place in places] for name in columns}
+    )

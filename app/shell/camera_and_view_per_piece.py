@@ -1,0 +1,117 @@
+"""Views of pieces: camera, player in front, playhead, timeline and lanes come back when a piece is opened again.
+
+They are kept with the editor's settings on this machine, by the piece's file. A look at a piece is no change of it: it
+is remembered without saving, also of a MIDI file, and is in no one else's way when the project is shared. Cameras to
+share are bookmarks (`app.project.camera_bookmarks`), which are part of the project.
+"""
+
+from __future__ import annotations
+
+from importlib.resources import files as resource_files
+from pathlib import Path
+from typing import Annotated, Final
+
+import msgspec
+from PySide6.QtCore import QObject
+
+from app.editor.files import Files
+from app.editor.session import Session
+from app.editor.settings import Settings
+from app.errors import FileError
+from app.formats.json_data import decode_json
+from app.project.camera_bookmarks import CameraBookmark
+from app.shell.workspaces import Workspaces
+from widgets.timeline.panel import TimelinePanel, VisibleRange
+
+_MOST_PLAYERS: Final = 100
+"""Selected players that are remembered."""
+
+
+class PieceView(msgspec.Struct, frozen=True):
+    """View of a piece.
+
+    Attributes
+    ----------
+    camera : CameraBookmark or None
+        None: none could be drawn.
+    is_moved : bool
+        The user moved the camera; else it is that of its view.
+    players : tuple of str
+        The selected ones, the one in front first.
+    lanes : str
+        As of `TimelinePanel.save_state`, in ``workspace``.
+    """
+
+    camera: CameraBookmark | None
+    is_moved: bool
+    players: tuple[str, ...]
+    playhead_s: Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
+    seen: VisibleRange
+    workspace: str
+    lanes: str
+
+
+class PieceViews(QObject):
+    """Remembers views of pieces, and brings them back.
+
+    Parameters
+    ----------
+    files : Files
+        Signals when a piece is closed and opened.
+    """
+
+    def __init__(
+        self, session: Session, files: Files, settings: Settings, timeline: TimelinePanel, workspaces: Workspaces
+    ) -> None:
+        super().__init__(session)
+        self._session, self._files, self._settings = session, files, settings
+        self._timeline, self._workspaces = timeline, workspaces
+        files.left.connect(self._keep)
+        files.opened.connect(self._restore)
+
+    def _piece(self) -> str:
+        """The file of the open piece; empty: none, or one that is always shown from the beginning."""
+        path = self._files.path or Path(self._session.project.source)
+        bundled = Path(str(resource_files("resources")))
+        return "" if path == Path() or not self._files.is_open or path.is_relative_to(bundled) else str(path)
+
+    def _keep(self) -> None:
+        piece, session, viewport = self._piece(), self._session, self._session.viewport
+        if not piece:
+            return
+        view = PieceView(
+            None if viewport.camera is None else viewport.camera.bookmark("-"),
+            viewport.camera is not None and viewport.camera.is_moved,
+            session.players[:_MOST_PLAYERS],
+            session.playhead_s,
+            self._timeline.seen,
+            self._workspaces.current,
+            self._timeline.save_state(),
+        )
+        self._settings.set_piece_view(piece, msgspec.json.encode(view).decode())
+
+    def _restore(self) -> None:
+        view = _view(self._settings.piece_view(self._piece()))
+        session = self._session
+        if view is None:
+            # Players of the piece before may have the same ids.
+            session.set_players(tuple(player.id for player in session.project.players[:1]))
+            return
+        known = {player.id for player in session.project.players}
+        players = tuple(id for id in view.players if id in known)
+        if players:
+            session.set_players(players)
+        if view.workspace == self._workspaces.current:
+            self._timeline.restore_state(view.lanes)
+        session.set_playhead(view.playhead_s)
+        self._timeline.show_range(view.seen)
+        if view.camera is not None and session.viewport.camera is not None:
+            session.viewport.camera.restore(view.camera, view.is_moved)
+
+
+def _view(text: str) -> PieceView | None:
+    try:
+        return decode_json(text.encode("utf-8", "replace"), PieceView, "") if text else None
+    except FileError:
+        # A view by another version is no loss: the piece opens framed.
+        return None

@@ -1,0 +1,76 @@
+"""Music that tells of the motion is found to do so, and any other is not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.choreography.model import ChoreographyModel
+from app.choreography.music_motion_dependence import Pairing, pairing_of, report, trust_in
+from tests.support.dances import model
+
+
+def sounding(seed: int, certain: float, states: int = 4) -> ChoreographyModel:
+    """A model each of whose motions has the sound of its state as often as that is certain, else one by chance."""
+    random = np.random.default_rng(seed)
+    made = model(beats=60, states=states, seed=seed)
+    sounds = ((one.state if random.uniform() < certain else int(random.integers(states)), 40) for one in made.segments)
+    segments = (replace(one, sounds=own) for one, own in zip(made.segments, sounds, strict=True))
+    return replace(made, segments=tuple(segments))
+
+
+def judged(made: ChoreographyModel) -> Pairing:
+    found = pairing_of(made)
+    assert found is not None
+    return found
+
+
+def test_a_sound_for_each_kind_of_motion_tells_which_it_is() -> None:
+    found = judged(sounding(1, 1.0))
+    # Four kinds, danced equally often, are two bits.
+    assert found.bits == pytest.approx(2.0, abs=0.35)
+    assert found.tells
+    half = judged(sounding(1, 0.6))
+    assert 0.1 < half.bits < found.bits
+    assert half.tells
+    assert report(sounding(1, 1.0)).id == "learn.pairing_tells"
+
+
+def test_music_by_chance_tells_nothing() -> None:
+    found = [judged(sounding(seed, 0.0)) for seed in range(100, 108)]
+    assert np.mean([one.bits for one in found]) < 0.05
+    assert sum(one.tells for one in found) <= 1
+    assert np.mean([one.chance for one in found]) == pytest.approx(0.5, abs=0.25)
+
+
+def test_drums_that_only_name_the_source_tell_nothing_of_its_motions() -> None:
+    made = sounding(3, 0.0)
+    segments = tuple(replace(one, sounds=(20 + one.clip,) * 4) for one in made.segments)
+    found = judged(replace(made, segments=segments))
+    assert found.bits == pytest.approx(0.0, abs=0.02)
+    assert not found.tells
+
+
+def test_what_cannot_be_judged_is_said() -> None:
+    silent = model()
+    assert pairing_of(silent) is None
+    few = sounding(1, 1.0)
+    short = replace(few, segments=few.segments[:12])
+    assert pairing_of(short) is None
+    assert report(short).id == "learn.pairing_unknown"
+
+
+def test_a_dance_follows_sounds_as_far_as_they_tell() -> None:
+    assert trust_in(sounding(1, 1.0)) == 1.0
+    assert [trust_in(sounding(seed, 0.0)) for seed in range(100, 108)].count(0.0) >= 7
+    barely = sounding(1, 0.5)
+    assert 0.0 < judged(barely).bits < 0.5
+    assert 0.0 < trust_in(barely) < 1.0
+    # Of a few motions nothing can be said against what sounded.
+    assert trust_in(replace(barely, segments=barely.segments[:12])) == 1.0
+
+
+def test_the_same_model_is_judged_the_same() -> None:
+    assert judged(sounding(5, 0.3)) == judged(sounding(5, 0.3))

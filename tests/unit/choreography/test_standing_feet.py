@@ -1,0 +1,117 @@
+"""A foot takes time to go from one place to the next."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.arrays import BoolArray
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.limbs import STRETCHED_RAD, unbroken
+from app.choreography.standing_feet import DEEPER, HIGHER, STEP_S, FootPlant, planted, stands
+from app.rig import quaternion
+from tests.support.dance_measures import angular_jumps
+from tests.support.dances import SHANK_M, THIGH_M, stepping, still
+
+
+def carried(way_m: float) -> tuple[MotionClip, BoolArray]:
+    """A body that stands, and is carried sideways within a moment in which its feet leave the floor, as by a join."""
+    clip = still(120)
+    share = np.clip((np.arange(120) - 57) / 6.0, 0.0, 1.0)
+    hips = clip.hips_m + way_m * share[:, None] * (1.0, 0.0, 0.0) - np.array((0.0, 0.03, 0.0))
+    contacts = np.ones((120, 2), bool)
+    contacts[58:63] = False
+    return replace(clip, hips_m=hips), contacts
+
+
+def test_a_foot_that_comes_down_elsewhere_takes_a_step() -> None:
+    clip, contacts = carried(0.15)
+    standing = stands(clip, contacts)
+    for foot in range(2):
+        before, after = (stand for stand in standing if stand.foot == foot)
+        assert after.start - before.stop >= STEP_S * 60
+        assert before.place_m[0] == pytest.approx(tips_m(clip)[0, foot, 0])
+        assert after.place_m[0] == pytest.approx(before.place_m[0] + 0.15, abs=1e-6)
+    # The hips alone move the hip joints by 1.5 m/s at once: 3 rad/s for a leg whose foot stays.
+    assert angular_jumps(planted(clip, standing)).max() < 4.0
+
+
+def test_a_foot_that_comes_down_where_it_was_goes_on_standing() -> None:
+    clip, contacts = carried(0.02)
+    standing = stands(clip, contacts)
+    assert [(stand.foot, stand.start, stand.stop) for stand in standing] == [(0, 0, 120), (1, 0, 120)]
+    tips = tips_m(planted(clip, standing))
+    assert np.ptp(tips[..., [0, 2]], axis=0).max() < 1e-6
+
+
+def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
+    clip = still(60)
+    turns = clip.rotations.copy()
+    back = 0.05 * np.sin(np.arange(60) / 8.0)
+    for name, part in (("leftUpperLeg", -0.5), ("leftLowerLeg", 1.0)):
+        turns[:, SEGMENTS.index(name)] = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), part * back)
+    # Below where the leg is straight the foot, which stands, has no room.
+    sunk = replace(clip, rotations=turns, hips_m=clip.hips_m - np.array((0.0, 0.04, 0.0)))
+    found = planted(sunk, (FootPlant(0, 0, 60, (0.1, 0.0, 0.2)),))
+    places_m = found.world().positions_m
+    hip, knee, ankle = (places_m[:, 1 + SEGMENTS.index(f"left{name}")] for name in ("UpperLeg", "LowerLeg", "Foot"))
+    assert (knee[:, 2] - 0.5 * (hip + ankle)[:, 2]).min() > 0.05
+    assert angular_jumps(found).max() < 0.5
+
+
+def test_a_leg_that_kicks_while_its_foot_still_stands_does_not_flip() -> None:
+    # A straight leg goes up to 120 degrees; its thigh faces along the line from hip to floor on the way.
+    clip = still(60)
+    turns = clip.rotations.copy()
+    angles = np.linspace(0.0, -2.1, 60)
+    across = np.array((1.0, 0.0, 0.02)) / np.hypot(1.0, 0.02)
+    turns[:, SEGMENTS.index("leftUpperLeg")] = quaternion.from_axis_angle(across, angles)
+    sunk = replace(clip, rotations=turns, hips_m=clip.hips_m - np.array((0.0, 0.1, 0.0)))
+    found = planted(sunk, (FootPlant(0, 0, 60, (0.1, 0.0, 0.2)),))
+    for name in ("leftUpperLeg", "leftLowerLeg"):
+        at = SEGMENTS.index(name)
+        steps = quaternion.multiply(quaternion.conjugate(found.rotations[:-1, at]), found.rotations[1:, at])
+        assert np.linalg.norm(quaternion.to_rotation_vector(steps), axis=-1).max() < 0.2
+
+
+@pytest.mark.parametrize("weight", [-1.0, 0.5, 1.0])
+def test_the_heavy_bend_their_knees_and_step_where_they_stepped(weight: float) -> None:
+    clip = stepping(12)
+    standing = stands(clip, foot_contacts(clip))
+    plain, weighed = planted(clip, standing), planted(clip, standing, weight)
+    lower_m = plain.hips_m[:, 1] - weighed.hips_m[:, 1]
+    leg_m = THIGH_M + SHANK_M
+    if weight > 0.0:
+        # Straight legs come down a little to reach their places anyway.
+        assert np.allclose(lower_m, weight * DEEPER * leg_m, atol=0.015)
+        assert np.abs(tips_m(weighed) - tips_m(plain)).max() < 1e-6
+    else:
+        # Straight legs reach no higher.
+        assert -HIGHER * leg_m - 1e-9 <= lower_m.min()
+    for stand in standing:
+        here = slice(stand.start, stand.stop)
+        assert np.abs(tips_m(weighed)[here, stand.foot] - stand.place_m).max() < 1e-3
+    assert np.allclose(weighed.hips_m[:, [0, 2]], plain.hips_m[:, [0, 2]])
+    assert angular_jumps(weighed).max() < 2.0 * angular_jumps(plain).max() + 1.0
+
+
+def test_knees_do_not_bend_backwards() -> None:
+    """A knee that goes through straight to behind comes to rest a little behind it; one that bends ahead is kept."""
+    clip = still(60)
+    bends_rad = np.linspace(1.0, -1.0, 60)
+    turns = quaternion.from_rotation_vector(bends_rad[:, None] * np.array((1.0, 0.0, 0.0)))
+    clip.rotations[:, SEGMENTS.index("leftLowerLeg")] = turns
+    found = quaternion.twist_angle(unbroken(clip).rotations[:, SEGMENTS.index("leftLowerLeg")], (1.0, 0.0, 0.0))
+    ahead = bends_rad >= 0.0
+    assert found[ahead] == pytest.approx(bends_rad[ahead], abs=1e-12)
+    assert found.min() >= -STRETCHED_RAD
+    # It neither stops at once nor turns back.
+    assert (np.diff(found) < 0.0).all()
+    assert np.abs(np.diff(found, 2)).max() < 0.3 * np.abs(np.diff(bends_rad)).max()
+    # The foot goes along, and nothing else turns.
+    others = [at for at, name in enumerate(SEGMENTS) if name != "leftLowerLeg"]
+    assert unbroken(clip).rotations[:, others] == pytest.approx(clip.rotations[:, others])

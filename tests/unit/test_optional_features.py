@@ -1,0 +1,71 @@
+"""Each row of `app.optional_features`, with the folders that are called like it, can be left out."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.optional_features import FEATURES
+from tests.unit.test_imports import modules
+
+ROOT = Path(__file__).parents[2]
+QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
+
+LEFT_OUT = """
+import importlib.abc, sys
+from app import optional_features
+left_out, statements = sys.argv[1], sys.argv[2]
+class Gone(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if left_out in name.split("."):
+            raise ModuleNotFoundError(name)
+sys.meta_path.insert(0, Gone())
+optional_features.FEATURES = tuple(row for row in optional_features.FEATURES if row.id != left_out)
+exec(statements)
+"""
+
+
+def run_without(feature: str, statements: str, cwd: Path) -> str:
+    """What a program prints that lacks a feature's row and folders."""
+    command = [sys.executable, "-c", LEFT_OUT, feature, statements]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "QT_QPA_PLATFORM": "offscreen"}
+    done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment, timeout=300)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return done.stdout
+
+
+@pytest.mark.parametrize("feature", [row.id for row in FEATURES])
+def test_nothing_but_the_table_names_its_modules(feature: str) -> None:
+    own = rf"(?:app|widgets|instrument_maps|metadata|resources)\.(?:\w+\.)*{feature}\b"
+    imports = re.compile(rf"^\s*(?:from {own}|import {own}|from [\w.]+ import (?:.*\W)?{feature}\b)", re.MULTILINE)
+    found = [
+        name
+        for name, path in modules().items()
+        if {feature, f"build_{feature}"}.isdisjoint(name.split(".")) and imports.search(path.read_text("utf-8"))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize("feature", [row.id for row in FEATURES])
+def test_every_other_module_loads_without_it(feature: str, tmp_path: Path) -> None:
+    others = [name for name in modules() if name.startswith(("app.", "widgets.")) and feature not in name.split(".")]
+    names = run_without(
+        feature,
+        f"import importlib\nfor name in {others}: importlib.import_module(name)\n"
+        "from app.shell.action_rows import rows\nprint(*(row.id for row in rows()))",
+        tmp_path,
+    )
+    row = next(row for row in FEATURES if row.id == feature)
+    assert row.actions_after in names.split()
+
+
+@pytest.mark.parametrize("feature", [row.id for row in FEATURES])
+def test_the_quartet_is_exported_without_it(feature: str, tmp_path: Path) -> None:
+    arguments = ["export", str(QUARTET), "--to", "out", "--format", "bvh", "--to-bar", "1", "--jobs", "1"]
+    run_without(feature, f"from app.cli import main\nassert main({arguments}) == 0", tmp_path)
+    assert len(list((tmp_path / "out").glob("*.bvh"))) >= 4

@@ -1,0 +1,115 @@
+"""Colours and lights of the picture, from the design tokens."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from app.editor.design_tokens import Tokens
+from app.formats.video import Picture
+
+Color = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class ViewportLook:
+    """Colours 0..1 in display values (backdrop, floor, lines), and lights in linear units."""
+
+    top: Color
+    horizon: Color
+    floor: Color
+    lines: Color
+    sky: Color
+    ground: Color
+    rim: Color
+    key_light: Color
+    fill_light: Color
+    shadow: float
+    key: Color
+    wire: Color
+
+
+@dataclass(frozen=True)
+class Emphasis:
+    """Highlights: rings by row, rows that are seen through, how figures are drawn, and the
+    podium."""
+
+    rings: Mapping[int, Color] = field(default_factory=dict)
+    podium: tuple[float, float, Color] | None = None
+    """The conductor's place: x, z, and the colour of the rings that mark it."""
+    in_the_way: frozenset[int] = frozenset()
+    wireframe: bool = False
+    video: Picture | None = None
+    """Seen behind the players ..."""
+    video_opacity: float = 1.0
+    """... so much of it."""
+    in_motion: bool = False
+    """True if the next picture follows immediately: drawing without a graphics card may then be less exact."""
+
+
+def direction(x: float, y: float, z: float) -> Color:
+    """A unit vector."""
+    length = float(np.linalg.norm((x, y, z)))
+    return x / length, y / length, z / length
+
+
+KEY = direction(-0.55, 1.0, 0.72)
+"""Towards the key light: above the audience's left, as a stage is lit."""
+
+
+def rgb(text: str) -> Color:
+    """``#rrggbb`` as 0..1."""
+    return int(text[1:3], 16) / 255.0, int(text[3:5], 16) / 255.0, int(text[5:7], 16) / 255.0
+
+
+def mixed(one: Color, other: Color, share: float) -> Color:
+    """Between two colours; ``share`` 0 is the first."""
+    return (
+        one[0] + share * (other[0] - one[0]),
+        one[1] + share * (other[1] - one[1]),
+        one[2] + share * (other[2] - one[2]),
+    )
+
+
+def is_dark(tokens: Tokens) -> bool:
+    """Return whether a theme's surface is dark."""
+    return sum(rgb(tokens.surface)) < 1.5
+
+
+@lru_cache(maxsize=4)
+def look_of(tokens: Tokens) -> ViewportLook:
+    """The picture in a theme."""
+    surface, sunken, raised = rgb(tokens.surface), rgb(tokens.sunken), rgb(tokens.raised)
+    text, accent = rgb(tokens.text), rgb(tokens.accent)
+    if is_dark(tokens):
+        return ViewportLook(
+            top=mixed(sunken, (0.0, 0.0, 0.0), 0.1),
+            horizon=mixed(surface, text, 0.07),
+            floor=mixed(raised, text, 0.24),
+            lines=mixed(raised, text, 0.5),
+            sky=(0.30, 0.315, 0.345),
+            ground=(0.11, 0.105, 0.10),
+            rim=(2.0, 2.2, 2.6),
+            key_light=(1.22, 1.16, 1.07),
+            fill_light=(0.17, 0.19, 0.22),
+            shadow=0.95,
+            key=KEY,
+            wire=mixed(accent, text, 0.3),
+        )
+    return ViewportLook(
+        top=mixed(sunken, text, 0.24),
+        horizon=mixed(sunken, text, 0.09),
+        floor=mixed(sunken, text, 0.11),
+        lines=mixed(sunken, text, 0.42),
+        sky=(0.45, 0.46, 0.48),
+        ground=(0.24, 0.235, 0.23),
+        rim=(0.8, 0.85, 0.9),
+        key_light=(1.12, 1.08, 1.02),
+        fill_light=(0.18, 0.19, 0.2),
+        shadow=0.8,
+        key=KEY,
+        wire=mixed(accent, text, 0.2),
+    )

@@ -1,0 +1,72 @@
+"""The camera of a film: it stands still, or goes smoothly after what a close-up shows."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from app.project.camera_bookmarks import View
+from widgets.viewport.camera import Camera, followed
+from widgets.viewport.cast import Stage
+from widgets.viewport.framing import tracked
+
+_POSES: Final = 64
+"""Most poses of players that are looked at before a film, in all."""
+_LEAST_TIMES, _MOST_TIMES = 3, 17
+
+
+class Shot:
+    """The camera of pictures that are drawn one after the other, from one direction and distance.
+
+    Parameters
+    ----------
+    view : View
+    camera : Camera
+        Direction, distance and angle of view of the whole film.
+    player_ids : tuple of str
+        Those that are filmed; a close-up shows the first.
+    shift_m : (3,) float, optional
+        Of what a close-up shows against the middle of the picture.
+    cameras : dict of float to Camera, optional
+        By time: those that are there are used, the others put there.
+    """
+
+    def __init__(
+        self,
+        view: View,
+        camera: Camera,
+        player_ids: tuple[str, ...],
+        shift_m: npt.ArrayLike = (0.0, 0.0, 0.0),
+        cameras: dict[float, Camera] | None = None,
+    ) -> None:
+        self.view, self.player_ids = view, player_ids
+        self._camera = camera
+        self._cameras = cameras
+        self._shift_m = np.asarray(shift_m, np.float64)
+        self._last_s = -math.inf
+        self.marked = False
+        """Names, marks and rings are drawn."""
+
+    def camera_at(self, stage: Stage, time_s: float) -> Camera:
+        """The camera for the poses that the stage shows at a time after the last one; the first one is centred."""
+        if self._cameras is not None and time_s in self._cameras:
+            return self._cameras[time_s]
+        rows = stage.rows(self.player_ids)
+        middle_m = tracked(self.view, stage, rows[0]) if rows else None
+        if middle_m is not None:
+            self._camera = followed(self._camera, middle_m + self._shift_m, time_s - self._last_s)
+        self._last_s = time_s
+        if self._cameras is not None:
+            self._cameras[time_s] = self._camera
+        return self._camera
+
+
+def times_looked_at(players: int, start_s: float, end_s: float) -> list[float]:
+    """The times at which so many players are looked at before a film is made of them."""
+    if end_s <= start_s:
+        return [start_s]
+    count = min(max(_POSES // max(players, 1), _LEAST_TIMES), _MOST_TIMES)
+    return [float(time_s) for time_s in np.linspace(start_s, end_s, count)]
