@@ -20,7 +20,7 @@ from widgets.timeline.model.lane_mouse import LaneMouse
 from widgets.timeline.model.lines import Lines
 from widgets.timeline.plot.mouse import mouse_at
 from widgets.timeline.plot.plot import Background, LaneItem, Plot
-from widgets.timeline.zoom_and_scroll import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis, wheel_turn
 
 __all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 
@@ -345,16 +345,11 @@ class Lane(Retranslated, QWidget):
 
     def wheeled(self, event: QWheelEvent) -> None:
         event.accept()
-        # With Alt held, some platforms turn the wheel sideways.
-        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        modifiers = event.modifiers()
-        sideways = not event.angleDelta().y() and not modifiers & Qt.KeyboardModifier.AltModifier
-        if modifiers & Qt.KeyboardModifier.ControlModifier and modifiers & Qt.KeyboardModifier.ShiftModifier:
-            self.zoom_y(self._mouse(event), notches)
-        elif modifiers & Qt.KeyboardModifier.ControlModifier:
-            self.axis.turn_wheel(notches, event.position().x(), zooms=True)
-        elif sideways or modifiers & Qt.KeyboardModifier.ShiftModifier or not self.wheel(self._mouse(event), notches):
-            self.axis.turn_wheel(notches, event.position().x(), zooms=False)
+        turn = wheel_turn(event)
+        if turn.with_ctrl and turn.with_shift:
+            self.zoom_y(self._mouse(event), turn.notches)
+        elif turn.with_ctrl or turn.with_shift or turn.sideways or not self.wheel(self._mouse(event), turn.notches):
+            self.axis.turn_wheel(turn, event.position().x())
 
     def key_pressed(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape and self.dragging:

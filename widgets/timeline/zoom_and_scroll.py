@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import overload
+from typing import NamedTuple, overload
 
 from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QScrollBar, QWidget
 
 from app.arrays import FloatArray
@@ -19,6 +20,30 @@ PAN_A_NOTCH = 0.12
 
 SCROLL_A_S = 1000
 """Steps of the scroll bar in a second."""
+
+
+class WheelTurn(NamedTuple):
+    """A turn of the wheel, with the keys held: Ctrl zooms time, Ctrl and Shift the lane, Shift scrolls time.
+
+    Attributes
+    ----------
+    notches : float
+        Away from the hand is positive.
+    """
+
+    notches: float
+    sideways: bool
+    with_ctrl: bool
+    with_shift: bool
+
+
+def wheel_turn(event: QWheelEvent) -> WheelTurn:
+    """Read a turn of the wheel."""
+    delta, keys = event.angleDelta(), event.modifiers()
+    # With Alt held, some platforms turn the wheel sideways.
+    sideways = not delta.y() and not keys & Qt.KeyboardModifier.AltModifier
+    ctrl, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
+    return WheelTurn((delta.y() or delta.x()) / 120.0, sideways, bool(keys & ctrl), bool(keys & shift))
 
 
 class TimeAxis(QObject):
@@ -113,12 +138,12 @@ class TimeAxis(QObject):
         """Scroll by what a hand drags the picture to the right."""
         self.pan(-by_px / self.px_per_s)
 
-    def turn_wheel(self, notches: float, x_px: float, zooms: bool) -> None:
-        """Scroll, or zoom about a place; away from the hand is positive."""
-        if zooms:
-            self.zoom(ZOOM_A_NOTCH**notches, self.seconds(x_px))
+    def turn_wheel(self, turn: WheelTurn, x_px: float) -> None:
+        """Scroll, or with Ctrl zoom about a place."""
+        if turn.with_ctrl:
+            self.zoom(ZOOM_A_NOTCH**turn.notches, self.seconds(x_px))
         else:
-            self.pan(-notches * PAN_A_NOTCH * self.span_s)
+            self.pan(-turn.notches * PAN_A_NOTCH * self.span_s)
 
     def reveal(self, time_s: float, end_s: float | None = None) -> None:
         """Scroll only if a time (or a span from it on) is not comfortably in view."""

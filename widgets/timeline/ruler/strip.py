@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QColor, QFont, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
@@ -10,7 +10,7 @@ from app.editor.design_tokens import LEAST_TEXT_PT
 from app.editor.session import Session
 from widgets.timeline.lane import GUTTER_PX
 from widgets.timeline.plot.cached_picture import Pictured
-from widgets.timeline.zoom_and_scroll import TimeAxis
+from widgets.timeline.zoom_and_scroll import TimeAxis, wheel_turn
 
 
 class Strip(Pictured):
@@ -53,6 +53,4 @@ class Strip(Pictured):
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         event.accept()
-        notches = (event.angleDelta().y() or event.angleDelta().x()) / 120.0
-        zooms = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
-        self.axis.turn_wheel(notches, event.position().x() - GUTTER_PX, zooms)
+        self.axis.turn_wheel(wheel_turn(event), event.position().x() - GUTTER_PX)
