@@ -87,7 +87,7 @@ def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
         (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
         for plan, start, end in spans
     ]
-    _add(session, "edit.add_gesture", made)
+    _add(session, "edit.add_gesture", made, gesture=kind)
 
 
 def add_named_gestures(session: Session, name: str, spans: Spans) -> None:
@@ -100,7 +100,7 @@ def add_named_gestures(session: Session, name: str, spans: Spans) -> None:
         for plan, start, _ in spans
         for end in [round(clock.ticks(clock.seconds(float(start)) + length_s))]
     ]
-    _add(session, "edit.add_gesture", made)
+    _add(session, "edit.add_gesture", made, gesture=name)
 
 
 def add_expressions(session: Session, name: str, spans: Spans) -> None:
@@ -111,7 +111,7 @@ def add_expressions(session: Session, name: str, spans: Spans) -> None:
         (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
         for plan, start, end in spans
     ]
-    _add(session, "edit.add_expression", made)
+    _add(session, "edit.add_expression", made, expression=name)
 
 
 def add_styles(session: Session, style: str, spans: Spans) -> None:
@@ -121,7 +121,7 @@ def add_styles(session: Session, style: str, spans: Spans) -> None:
         (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
         for plan, start, end in spans
     ]
-    _add(session, "edit.add_style", made)
+    _add(session, "edit.add_style", made, style=style)
 
 
 def change_styles(session: Session, style: str) -> None:
@@ -134,7 +134,7 @@ def change_styles(session: Session, style: str) -> None:
             project = edit.set_style(project, plans[player_id], ids, style)
         return project
 
-    session.attempt(Message("edit.set_style"), edited)
+    session.attempt(Message("edit.set_style", {"style": style}), edited)
 
 
 def bars_of(session: Session, player_ids: Iterable[str], tick: float) -> list[tuple[PlayerPlan, int, int]]:
@@ -148,7 +148,7 @@ def bars_of(session: Session, player_ids: Iterable[str], tick: float) -> list[tu
     return [(plan, *span) for player_id in player_ids if (plan := session.plans.get(player_id)) is not None]
 
 
-def _add(session: Session, id: str, additions: Sequence[Addition]) -> None:
+def _add(session: Session, id: str, additions: Sequence[Addition], **added: str) -> None:
     keys: set[EventKey] = set()
 
     def whole(project: Project) -> Project:
@@ -159,7 +159,8 @@ def _add(session: Session, id: str, additions: Sequence[Addition]) -> None:
 
     before = session.project
     players, ticks = {plan.player_id for plan, _, _ in additions}, [tick for _, tick, _ in additions]
-    if additions and session.attempt(edit_at(before, id, len(additions), players, ticks), whole):
+    name = edit_at(before, id, len(additions), players, ticks, **added)
+    if additions and session.attempt(name, whole):
         session.select(Selection(events=frozenset(keys)))
         if session.project is before and keys:
             session.notice(Message("edit.is_there"))

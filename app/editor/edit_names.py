@@ -65,10 +65,12 @@ def edit_of_notes(
     return edit_at(project, name, len(note_ids), player_ids, [note.onset_tick for _, mine in found for note in mine])
 
 
-def edit_at(project: Project, name: str, count: int, player_ids: Collection[str], ticks: Iterable[int]) -> Message:
+def edit_at(
+    project: Project, name: str, count: int, player_ids: Collection[str], ticks: Iterable[int], **more: Argument
+) -> Message:
     """Return the name of an edit of so many things of some players, from the first of these ticks to the last."""
     of = " · ".join(filter(None, (_named(project, player_ids), _range(project, ticks))))
-    return Message(name, {"count": count, "of": of})
+    return Message(name, {**more, "count": count, "of": of})
 
 
 def edit_of_players(project: Project, name: str, player_ids: Collection[str], **more: Argument) -> Message:

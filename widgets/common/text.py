@@ -13,6 +13,7 @@ from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
 from app.messages.wordings import CORRECTION, CORRECTIONS
 from app.plan.by_hand.additive_curve import CHANNELS
+from app.plan.kinds import GESTURE_KINDS
 from app.plan.problem_lines import NOTES, note_of, note_place
 from app.project.performers import Player
 from app.score.model import Note
@@ -75,6 +76,8 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
     if name == "work":
         its_own = {other: given for other, given in message.arguments.items() if other != name}
         return message_text(Message(str(value), its_own), session, player_id).rstrip("…")
+    if name in _NAMES:
+        return _NAMES[name](str(value))
     if name in DETAILS:
         return detail_text(str(value), language(), _label)
     if name == "place" and message.id in _STORED:
@@ -118,6 +121,17 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
     return f"{kind_name(kind)} {place}"
 
 
+def _gesture(name: str) -> str:
+    """A kind of gesture as its command has it, or the gesture of a table."""
+    return tr(f"action.gesture.{name}") if name in GESTURE_KINDS else gesture_name(name)
+
+
+_NAMES: Mapping[str, Callable[[str], str]] = {
+    "gesture": _gesture,
+    "expression": expression_name,
+    "style": style_name,
+}
+"""Arguments that are names of what an edit adds or changes."""
 _STORED = frozenset({"project.cannot_save", "project.not_storable", "autosave.without"})
 """Messages about a value of the open project: the user does not find it by the key path of a file."""
 _NOTE_ID = re.compile(r"\d+:\d+")

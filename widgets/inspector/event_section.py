@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 from app.editor.edit_names import OF_EVENTS, edit_of_events
 from app.editor.selection import EventKey
 from app.editor.session import Session
-from app.errors import Message
+from app.errors import Argument, Message
 from app.plan.by_hand.corrections import PoseCorrection
 from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.cues.cues import LEAD_BEATS
@@ -266,12 +266,18 @@ class EventSection(Retranslated, QWidget):
     def _ids(self) -> tuple[str, ...]:
         return tuple(event.id for event in self._events)
 
-    def _edit(self, name: str, change: Callable[[Project, PlayerPlan], Project], token: object | None = None) -> None:
+    def _edit(
+        self,
+        name: str,
+        change: Callable[[Project, PlayerPlan], Project],
+        token: object | None = None,
+        **more: Argument,
+    ) -> None:
         plan = self._plan
         if plan is None:
             return
         keys = [EventKey(plan.player_id, event.id) for event in self._events]
-        message = edit_of_events(self._session, name, keys) if name in OF_EVENTS else Message(name)
+        message = edit_of_events(self._session, name, keys) if name in OF_EVENTS else Message(name, more)
         if not self._session.attempt(message, lambda project: change(project, plan), token):
             self.show_events()
 
@@ -327,7 +333,7 @@ class EventSection(Retranslated, QWidget):
     def _set_expression(self, name: str) -> None:
         ids = self._ids()
         if any(isinstance(event, StyleEvent) for event in self._events):
-            self._edit("edit.set_style", lambda project, plan: edit.set_style(project, plan, ids, name))
+            self._edit("edit.set_style", lambda project, plan: edit.set_style(project, plan, ids, name), style=name)
             return
         self._edit("edit.set_expression", lambda project, plan: edit.set_expression(project, plan, ids, name))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -11,6 +11,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QMenu
 from pytestqt.qtbot import QtBot
 
+from app.editor import additions
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.editor.settings import Settings
@@ -22,10 +23,13 @@ from app.score.model import Note
 from app.shell.actions import ActionTable
 from app.shell.commands import edit as undoing
 from app.shell.commands import events, fingerings, problems
+from tests.gui.japanese import speaking
 from tests.gui.timeline.lane_hands import front_plan, shown_panel
 from tests.support.windows import child, show_in_front
 from widgets.common.actions import actions
 from widgets.common.chip import Chip
+from widgets.common.event_names import expression_name, gesture_name, style_name
+from widgets.common.text import message_text
 from widgets.timeline.lanes.fingering.fingering_lane import FingeringLane
 from widgets.timeline.panel import TimelinePanel
 
@@ -360,3 +364,51 @@ def test_rows_that_make_no_sense_now_are_off(panel: TimelinePanel, session: Sess
     QApplication.processEvents()
     assert actions(session)["fingering.cycle"].isEnabled()
     assert not actions(session)["events.give_back"].isEnabled()
+
+
+def test_the_history_names_what_was_added_whose_and_where(panel: TimelinePanel, session: Session) -> None:
+    first, second = session.project.players[:2]
+    label, ticks = session.project.metre_map.label, session.project.metre_map.tick_of_bar(3)
+    spans = [(session.performance.plan(one), ticks, ticks + 960) for one in (first, second)]
+    at, both = f"{first.name} · {label(ticks)}", f"{first.name}, {second.name} · {label(ticks)}"
+    bare = next(
+        note for note in notes(session) if not any(note.id in breath.id for breath in front_plan(session).breaths)
+    )
+
+    def by_key(key: Qt.Key) -> str:
+        session.select(Selection(frozenset({bare.id})))
+        press(panel, key)
+        return f"{first.name} · {label(bare.onset_tick)}"
+
+    adding: tuple[tuple[Callable[[], object], str, str], ...] = (
+        (lambda: by_key(Qt.Key.Key_B), "Add Breath ({of})", "ブレスを追加（{of}）"),
+        (lambda: by_key(Qt.Key.Key_C), "Add Cue ({of})", "合図を追加（{of}）"),
+        (
+            lambda: additions.add_gestures(session, "tap", spans[:1]),
+            f"Add Gesture Toe Tap ({at})",
+            f"ジェスチャー「つま先で拍を取る」を追加（{at}）",
+        ),
+        (
+            lambda: additions.add_named_gestures(session, "head_shake", spans),
+            f"Add Gesture {gesture_name('head_shake')} ({both})",
+            f"を追加（{both}）",
+        ),
+        (
+            lambda: additions.add_expressions(session, "smile", spans),
+            f"Add Expression {expression_name('smile')} ({both})",
+            f"を追加（{both}）",
+        ),
+        (
+            lambda: additions.add_styles(session, "soloist", spans[:1]),
+            f"Add Style {style_name('soloist')} ({at})",
+            f"の区間を追加（{at}）",
+        ),
+    )
+    for add, english, japanese in adding:
+        before = len(session.document.done)
+        of = add()
+        assert len(session.document.done) == before + 1, english
+        name = session.document.done[-1].name
+        assert message_text(name, session) == english.format(of=of)
+        with speaking():
+            assert message_text(name, session).endswith(japanese.format(of=of))

@@ -194,7 +194,7 @@ def test_an_expression_is_added_faded_and_made_weaker(panel: TimelinePanel, sess
     lane = acting_lane(panel)
     player = front_plan(session).player_id
     session.attempt(
-        Message("edit.add_expression", {"of": "1"}),
+        Message("edit.add_expression", {"expression": "smile", "of": "1"}),
         lambda p: edit.add_expression(p, player, "smile", 4 * 960, 10 * 960, fade_in_s=0.3, fade_out_s=0.3).project,
     )
     name = "expression:own-1"
@@ -281,7 +281,7 @@ def test_regions_of_one_kind_never_lie_over_one_another(panel: TimelinePanel, se
     player = front_plan(session).player_id
     for start in (0, 480, 960, 2400):
         session.attempt(
-            Message("edit.add_gesture", {"of": "1"}),
+            Message("edit.add_gesture", {"gesture": "sway", "of": "1"}),
             lambda p, start=start: edit.add_gesture(p, player, "bell_height", start, start + 1500, 0.5).project,
         )
     by_row: dict[int, list[tuple[int, int]]] = {}
@@ -353,7 +353,7 @@ def test_a_pose_is_moved_and_its_fades_lie_beside_it(panel: TimelinePanel, sessi
     lane = acting_lane(panel)
     player = front_plan(session).player_id
     pose = PoseCorrection("lift", "bell", 8 * 480, 12 * 480, up_deg=6.0, fade_in_ticks=240, fade_out_ticks=240)
-    session.attempt(Message("edit.add_gesture", {"of": "1"}), lambda p: with_corrections(p, player, (pose,)))
+    session.attempt(Message("edit.add_gesture", {"gesture": "sway", "of": "1"}), lambda p: with_corrections(p, player, (pose,)))
     region = region_of(lane, "pose:lift")
     assert region.label == "Bell"
     drag(lane, middle(lane, "pose:lift"), dx=lane.axis.px_per_s, modifiers=ALT)

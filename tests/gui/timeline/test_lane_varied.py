@@ -113,7 +113,7 @@ def test_what_did_not_change_is_known_again_and_all_is_as_if_made_anew(session: 
 
     def smile() -> None:
         project = with_corrections(session.project, player.id, [AddExpression("x", "smile", 1920, 3840)])
-        session.apply(Message("edit.add_expression", {"of": "1"}), project)
+        session.apply(Message("edit.add_expression", {"expression": "smile", "of": "1"}), project)
 
     def vary() -> None:
         project = with_corrections(session.project, player.id, [Vary("varied-1", *SPAN, 5)])
