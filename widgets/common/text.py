@@ -73,7 +73,7 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
         return parameter_text(str(value))
     if name == "event":
         return kind_name(str(value))
-    if name == "work":
+    if name in ("work", "why") and value in WORDINGS:
         its_own = {other: given for other, given in message.arguments.items() if other != name}
         return message_text(Message(str(value), its_own), session, player_id).rstrip("…")
     if name in _NAMES:

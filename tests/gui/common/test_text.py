@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from string import Formatter
 
 import pytest
 
 from app.editor.session import Session
 from app.errors import Argument, Message
-from app.messages import PITCHES, WORDINGS, text
+from app.messages import LANGUAGES, PITCHES, WORDINGS, text
 from app.project.edit.notes import move
 from app.score.model import Note
+from app.shell.language import TEXTS
+from tests.gui.conftest import planned_quartet
+from tests.gui.japanese import speaking
 from widgets.common.text import message_text
 
 OUTSIDE = {"low": 54, "high": 82, "played_pitch": 54}
@@ -142,3 +146,19 @@ def test_cancelled_work_is_named(session: Session, work: str) -> None:
     arguments |= {name: 4 if name == "players" else "Lutkin" for name in arguments}
     cancelled = message_text(Message("work.cancelled", {**arguments, "work": work}), session)
     assert cancelled == "cancelled: " + WORDINGS[work][0].rstrip("…").format(**arguments)
+
+
+def test_no_reason_of_a_plan_holds_the_id_of_a_text(session: Session) -> None:
+    ids = re.compile(r"\b[a-z_]+\.[a-z_]+\b")
+    reasons: dict[str, tuple[Message, str]] = {}
+    for plan in map(planned_quartet().plan, session.project.players):
+        said = [event.reason for event in plan.fingerings] + [event.reason for event in plan.breaths]
+        said += [event.reason for event in plan.cues] + [event.reason for event in plan.gestures]
+        reasons |= {reason.id: (reason, plan.player_id) for reason in said}
+    # Those of breaths in rests say why these were breathed in by a text of its own.
+    assert any("why" in reason.arguments for reason, _ in reasons.values())
+    for code in LANGUAGES:
+        with speaking(code):
+            for reason, player_id in reasons.values():
+                worded = message_text(reason, session, player_id)
+                assert not set(ids.findall(worded)) & TEXTS.keys(), worded

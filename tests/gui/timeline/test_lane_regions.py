@@ -353,7 +353,9 @@ def test_a_pose_is_moved_and_its_fades_lie_beside_it(panel: TimelinePanel, sessi
     lane = acting_lane(panel)
     player = front_plan(session).player_id
     pose = PoseCorrection("lift", "bell", 8 * 480, 12 * 480, up_deg=6.0, fade_in_ticks=240, fade_out_ticks=240)
-    session.attempt(Message("edit.add_gesture", {"gesture": "sway", "of": "1"}), lambda p: with_corrections(p, player, (pose,)))
+    session.attempt(
+        Message("edit.add_gesture", {"gesture": "sway", "of": "1"}), lambda p: with_corrections(p, player, (pose,))
+    )
     region = region_of(lane, "pose:lift")
     assert region.label == "Bell"
     drag(lane, middle(lane, "pose:lift"), dx=lane.axis.px_per_s, modifiers=ALT)
