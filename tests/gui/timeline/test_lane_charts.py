@@ -21,6 +21,7 @@ from app.score.model import Note
 from tests.gui.japanese import speaking
 from tests.gui.timeline.conftest import TPQ, scale_project
 from tests.gui.timeline.lane_hands import front_plan, planned
+from tests.support.mouse import move
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child, show_in_front
 from widgets.common.fingering_chip import FingeringChip
@@ -87,8 +88,8 @@ def closed(lane: FingeringLane, event: FingeringEvent, colour: str) -> str:
 
 
 def names_under_mouse(lane: FingeringLane, event: FingeringEvent) -> str:
-    QTest.mouseMove(lane.plot, QPoint(2, 2))
-    QTest.mouseMove(lane.plot, middle(lane, event))
+    move(lane.plot, QPoint(2, 2))
+    move(lane.plot, middle(lane, event))
     return lane.plot.toolTip().splitlines()[0]
 
 

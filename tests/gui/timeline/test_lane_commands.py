@@ -242,6 +242,24 @@ def test_what_does_not_fit_is_said_beside_the_note_with_what_does(panel: Timelin
     assert corrections(session) == (PinFingering(note.id, "1"),)
 
 
+def test_what_is_shown_again_while_it_is_shown_has_its_room(panel: TimelinePanel, session: Session) -> None:
+    """Of 1 and 2 neither fits: it is said at the first key, and again at the second."""
+    lane = panel.lanes["fingering"]
+    assert isinstance(lane, FingeringLane)
+    choose(session, next(note for note in notes(session) if not labels_of(session, note) & {"1", "12", "2"}))
+    panel.axis.show(-1.0, 19.0)
+    for key in (Qt.Key.Key_1, Qt.Key.Key_2):
+        press(panel, key)
+        shown = lane.alternates
+        assert shown.isVisible()
+        parts = [child(shown, QLabel, "why"), *(chip for chip in shown.findChildren(Chip) if chip.isVisible())]
+        assert len(parts) > 1
+        for part in parts:
+            assert part.height() >= part.sizeHint().height(), (key, part.objectName())
+            assert part.width() >= part.sizeHint().width(), (key, part.objectName())
+            assert shown.rect().contains(part.geometry()), (key, part.objectName())
+
+
 def test_a_fingering_typed_without_a_note_is_said(panel: TimelinePanel, session: Session) -> None:
     reported: list[Message] = []
     session.noticed.connect(lambda message, severity: reported.append(message))

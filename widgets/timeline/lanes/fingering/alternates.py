@@ -80,6 +80,8 @@ class Alternates(QFrame):
             chip.setToolTip(f"{chip.text()}\n{choice}")
             on_click(chip, self.choose, fingering.label)
             self._row.addWidget(chip)
+            # In a row that is shown already Qt would show it later, and give it no room before.
+            chip.show()
         if pinned:
             back = named(
                 QPushButton(icon("reset", self._session.tokens), self.tr("alternates.generated"), self), "give_back"
@@ -90,6 +92,7 @@ class Alternates(QFrame):
             back.setToolTip(self.tr("alternates.revert_tip"))
             on_click(back, self.give_back)
             self._row.addWidget(back)
+            back.show()
         self._row.addStretch(1)
         window = self._lane.window()
         self.setParent(window)
