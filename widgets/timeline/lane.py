@@ -402,6 +402,13 @@ class Lane(Retranslated, QWidget):
 
     # Qt overrides
 
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Unfold it: beside its title there is nothing else that could be meant."""
+        if self._folded and event.button() == Qt.MouseButton.LeftButton:
+            self._toggle_fold()
+        else:
+            super().mouseDoubleClickEvent(event)
+
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
         if event.type() == QEvent.Type.LanguageChange:

@@ -153,6 +153,18 @@ def test_a_lane_folds_and_unfolds_by_its_button(stage: Stage) -> None:
     assert not lane.folded
 
 
+def test_a_folded_lane_unfolds_by_a_double_click_beside_its_title(stage: Stage) -> None:
+    lane = stage.roll
+    lane.set_folded(True)
+    QApplication.processEvents()
+    place = QPoint(lane.width() - 100, lane.height() // 2)
+    assert not lane.header.geometry().contains(place)
+    QTest.mouseDClick(lane, Qt.MouseButton.RightButton, pos=place)
+    assert lane.folded
+    QTest.mouseDClick(lane, Qt.MouseButton.LeftButton, pos=place)
+    assert not lane.folded
+
+
 def test_a_lane_is_made_taller_by_its_lower_edge(stage: Stage) -> None:
     lane = stage.roll
     height = lane.height()
