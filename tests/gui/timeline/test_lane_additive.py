@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication, QMenu
 
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
+from app.editor.timeline_view import Tool
 from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve, CurveKey, Tangent
 from app.project.edit import additive as edit
@@ -420,3 +421,16 @@ def test_what_a_body_cannot_do_is_marked_where_it_is(lane: AdditiveLane, session
     quiet = AdditiveCurve("own-1", lane.channel, keys, weight=0.5 * high / (high + 20.0))
     session.attempt(Message("edit.change_curve"), lambda project: with_corrections(project, player, (quiet,)))
     assert lane.curves[0].beyond_s(lane.limits) == []
+
+
+def test_the_pencil_makes_a_key_at_each_click(panel: TimelinePanel, lane: AdditiveLane) -> None:
+    panel.set_tool(Tool.DRAW)
+    click(lane, place(lane, 4 * QUARTER, 5.0))
+    click(lane, place(lane, 8 * QUARTER, -5.0))
+    assert [tick for tick, _ in values(one(lane))] == [4 * QUARTER, 8 * QUARTER]
+    assert [step.name.id for step in lane.session.document.done] == ["edit.add_curve_key"] * 2
+    # A key that is there is dragged, as by the arrow.
+    key = one(lane).keys[0]
+    drag(lane, place(lane, key.tick, key.value), dy=-10.0)
+    assert len(one(lane).keys) == 2
+    assert one(lane).keys[0].value > key.value

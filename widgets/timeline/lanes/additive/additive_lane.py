@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QToolButton, QWidget
 from app.arrays import FloatArray
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
+from app.editor.timeline_view import Tool
 from app.errors import AppError, Message, Progress, StopRequested
 from app.performance.ensemble import Performance
 from app.performance.motion import generated_anew, generated_channel
@@ -166,6 +167,10 @@ class AdditiveLane(CurveEditing):
         found, player = self.hit(mouse), self.player_id
         self._gesture = None
         if player is None:
+            return
+        view = self.session.timeline_view
+        if view is not None and view.tool is Tool.DRAW and (found is None or found.what == "curve"):
+            self.add_key(mouse.snapped_tick, mouse.value)
             return
         if found is None:
             kept = self.selected if mouse.ctrl or mouse.shift else frozenset()
