@@ -28,7 +28,7 @@ _MOST_NAMES: Final = 2
 
 
 class PlannedPiece(Protocol):
-    """Part of the session that says where events are."""
+    """Part of the session that says where events are; models of the timeline, which know no Qt, have such a part."""
 
     @property
     def project(self) -> Project: ...

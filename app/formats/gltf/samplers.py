@@ -3,26 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, Protocol
 
 import numpy as np
-import numpy.typing as npt
 import pygltflib as gltf
 
 from app.arrays import AnyIntArray, SingleArray
 from app.formats.continuous import continuous
+from app.formats.gltf.document import GlbDocument
 from app.formats.scene import Clip, Scene, SkinnedMesh
 
 METRES = 0.01
-
-
-class GltfDocument(Protocol):
-    """A glTF document that samplers are added to; its class is in the module that imports this one."""
-
-    gltf: gltf.GLTF2
-
-    def accessor(self, kind: str, values: npt.NDArray[Any], *, bounds: bool = False, flat: bool = False) -> int:
-        """Index of a new accessor of values (N,) or (N, width)."""
 
 
 class Samplers:
@@ -30,12 +20,12 @@ class Samplers:
 
     Parameters
     ----------
-    document : GltfDocument
+    document : GlbDocument
     clip : Clip
         The first of them.
     """
 
-    def __init__(self, document: GltfDocument, clip: Clip) -> None:
+    def __init__(self, document: GlbDocument, clip: Clip) -> None:
         self._seconds = (np.arange(clip.frames) * clip.fps.denominator / clip.fps.numerator).astype(np.float32)
         self._document = document
         self._times: dict[bytes, int] = {}

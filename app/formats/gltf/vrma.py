@@ -20,11 +20,12 @@ import pygltflib as gltf
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.errors import FileError
+from app.formats.gltf.document import GlbDocument
 from app.formats.gltf.model import GltfAnimation
 from app.formats.gltf.read import read_glb
 from app.formats.gltf.read_scene import channel_values, clip_frames
 from app.formats.gltf.samplers import METRES, Samplers
-from app.formats.gltf.write import GlbDocument, node_at, write_document
+from app.formats.gltf.write import node_at, write_document
 from app.formats.scene import Bone, Clip, NodePlace, Scene, SkinnedMesh, check_scene
 
 EXTENSION: Final = "VRMC_vrm_animation"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Final
 
-from app.score.musicxml.played import PlayedChord, PlayedNote
+from app.score.musicxml.played_chords import PlayedChord, PlayedNote
 from app.score.tempo import TempoMap
 
 _GRACE_S: Final = 0.085

@@ -3,57 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Final
 
 from app.score.musicxml.in_force import restored
-from app.score.musicxml.players_by_voice import EVERYONE, Desk, seat
-from app.score.musicxml.written import Chord, Direction, Measure, Time, Tone
+from app.score.musicxml.played_chords import PlayedChord, PlayedNote
+from app.score.musicxml.players_by_voice import seat
+from app.score.musicxml.written import Chord, Direction, Measure, Time
 
 _MOST_OPEN: Final = 32
 """Slurs of one number, and ties of one pitch, that wait for their ends."""
 _NONE: Final = Measure()
 """A measure that a part lacks."""
-
-
-@dataclass(slots=True, eq=False)
-class PlayedNote:
-    """A note, its ties joined.
-
-    Attributes
-    ----------
-    rows : list of (onset, end, pitch)
-        Ticks of what it is written out in; one row where that is the note itself.
-    last : Tone
-        The last of those tied together.
-    """
-
-    onset: int
-    end: int
-    tone: Tone
-    chord: Chord
-    last: Tone
-    rows: list[tuple[int, int, int]] = field(default_factory=list)
-    marks: list[tuple[str, str]] = field(default_factory=list)
-    numbers: list[int] = field(default_factory=list)
-
-
-@dataclass(slots=True, eq=False)
-class PlayedChord:
-    """A chord where it is played; its notes are those that it begins, and those that it holds on."""
-
-    onset: int
-    end: int
-    chord: Chord
-    notes: list[PlayedNote] = field(default_factory=list)
-    begun: list[PlayedNote] = field(default_factory=list)
-    desk: Desk = EVERYONE
-
-    def desk_of(self, note: PlayedNote) -> Desk:
-        """The player of one of its notes."""
-        above = sum(tone.pitch > note.tone.pitch for tone in self.chord.tones)
-        return Desk(self.desk.first + above, self.desk.players) if self.desk.first else self.desk
 
 
 @dataclass(slots=True)

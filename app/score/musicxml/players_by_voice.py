@@ -7,44 +7,17 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from typing import Final, NamedTuple, Protocol
+from typing import Final
 
-from app.score.musicxml.written import Chord
+from app.score.musicxml.played_chords import Desk, PlayedChord
 
 _MOST_VOICES: Final = 8
 """Voices of a measure; in more no one plays a line."""
 
 
-class Desk(NamedTuple):
-    """Players of a chord, of all who are written in its measure.
-
-    Attributes
-    ----------
-    first : int
-        The player of its highest note, from 1; the next have those below. 0: nothing says who.
-    players : int
-        All players of the measure.
-    """
-
-    first: int = 0
-    players: int = 0
-
-
-EVERYONE: Final = Desk()
-
-
-class Placed(Protocol):
-    """A chord or a rest where it is played, ticks."""
-
-    onset: int
-    end: int
-    chord: Chord
-    desk: Desk
-
-
-def seat(measure: Sequence[Placed]) -> None:
+def seat(measure: Sequence[PlayedChord]) -> None:
     """Set the desks of the chords of a measure."""
-    lines: dict[tuple[str, str], list[Placed]] = {}
+    lines: dict[tuple[str, str], list[PlayedChord]] = {}
     for one in measure:
         if one.chord.tones or not one.chord.hidden:
             lines.setdefault((one.chord.staff, one.chord.voice), []).append(one)
@@ -62,7 +35,7 @@ def seat(measure: Sequence[Placed]) -> None:
         first += widths[place]
 
 
-def _goes_down(line: Sequence[Placed]) -> bool:
+def _goes_down(line: Sequence[PlayedChord]) -> bool:
     """Return whether the stems of a voice go down."""
     stems = [one.chord.stem for one in line]
     return stems.count("down") > stems.count("up")

@@ -14,8 +14,8 @@ from app.score.marks import Mark
 from app.score.musicxml.flutter import fluttered
 from app.score.musicxml.loudness import hairpins, loudness_of, velocity_of
 from app.score.musicxml.parts import PartInstrument, WrittenPart, said_instrument
-from app.score.musicxml.played import PlayedChord, PlayedNote, PlayedPart
-from app.score.musicxml.players_by_voice import Desk
+from app.score.musicxml.played import PlayedPart
+from app.score.musicxml.played_chords import Desk, PlayedChord, PlayedNote
 from app.score.mutes import OPEN_SIGN, STOPPED_SIGN, How, mutes_in, named_mute, said_of_mute, takes_mutes
 from app.score.solos import words_of_players
 from app.score.track_channel import TrackChannel
