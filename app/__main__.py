@@ -59,42 +59,43 @@ def run(arguments: Sequence[str]) -> int:
 
     from app.cli import main as command_line
     from app.cli import parser
+    from app.cli.commands import worded_argparse
+    from app.cli.speech import command_first, requested_speech, said, speaking
     from app.cli.status import BAD_USE, NO_DISPLAY
     from app.cli.terminal import warn
-    from app.errors import Message
-    from app.messages import text
 
-    requested = list(arguments)
-    if not requested or requested[0].lower().endswith(OPENED):
+    requested = command_first(arguments)
+    if not requested or requested[0].startswith("--language") or requested[0].lower().endswith(OPENED):
         requested.insert(0, "edit")
-    if requested[0] != "edit":
-        if Path(requested[0]).suffix and not requested[0].startswith("-"):
-            warn(text(Message("file.cannot_open", {"file": requested[0], "kinds": ", ".join(OPENED)})))
-            return BAD_USE
-        return command_line(requested)
-    from app.cli.display import example_hint, why_no_display
+    with speaking(requested_speech(requested)), worded_argparse():
+        if requested[0] != "edit":
+            if Path(requested[0]).suffix and not requested[0].startswith("-"):
+                warn(said("file.cannot_open", file=requested[0], kinds=", ".join(OPENED)))
+                return BAD_USE
+            return command_line(requested)
+        from app.cli.display import example_hint, why_no_display
 
-    try:
-        parsed = parser().parse_args(requested)
-    except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
-        return stop.code if isinstance(stop.code, int) else BAD_USE
-    reason = why_no_display()
-    if reason is not None:
-        warn(reason)
-        if parsed.file is None:
-            warn(example_hint())
-        return NO_DISPLAY
-    return edit(parsed)
+        try:
+            parsed = parser().parse_args(requested)
+        except SystemExit as stop:  # argparse: --help ends with 0, bad use with 2
+            return stop.code if isinstance(stop.code, int) else BAD_USE
+        reason = why_no_display()
+        if reason is not None:
+            warn(reason)
+            if parsed.file is None:
+                warn(example_hint())
+            return NO_DISPLAY
+        return edit(parsed)
 
 
 def edit(parsed: Namespace) -> int:
     """Start the editor as the command line says."""
     # Which sound libraries this system lacks is nothing the user can act on.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
+    from app.cli.speech import error_sentence
     from app.cli.status import BAD_INPUT, STOPPED
     from app.cli.terminal import warn
     from app.errors import AppError
-    from app.messages import error_text
     from app.shell.app import LaunchOptions
     from app.shell.app import run as run_editor
 
@@ -110,7 +111,7 @@ def edit(parsed: Namespace) -> int:
     try:
         return run_editor(start)
     except AppError as error:
-        warn(error_text(error))
+        warn(error_sentence(error))
         return BAD_INPUT
     except KeyboardInterrupt:
         return STOPPED

@@ -22,13 +22,12 @@ class SubCommand:
     Attributes
     ----------
     module : str
-        Declares its arguments; loaded when they are read.
+        Declares its arguments; loaded when they are read. Their help stands in a table in its folder.
     after : str
         The command behind which the help lists it.
     """
 
     module: str
-    help: str
     after: str
 
 
@@ -67,17 +66,9 @@ FEATURES: Final[tuple[Feature, ...]] = (
         actions="app.shell.evaluation.actions",
         actions_after="file.export_midi",
         sub_commands={
-            "evaluate": SubCommand(
-                "app.cli.evaluation.make",
-                "make a questionnaire in which viewers judge the performance against real players",
-                after="film",
-            ),
-            "evaluate results": SubCommand("app.cli.evaluation.results", "what viewers answered", after="evaluate"),
-            "evaluate measures": SubCommand(
-                "app.cli.evaluation.measures",
-                "what can be measured of a piece without viewers",
-                after="evaluate results",
-            ),
+            "evaluate": SubCommand("app.cli.evaluation.make", after="film"),
+            "evaluate results": SubCommand("app.cli.evaluation.results", after="evaluate"),
+            "evaluate measures": SubCommand("app.cli.evaluation.measures", after="evaluate results"),
         },
     ),
     Feature(
@@ -88,11 +79,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
         lanes_after="curves",
         players_section="widgets.players.choreography.dancers",
         sub_commands={
-            "choreography": SubCommand(
-                "app.cli.choreography.command",
-                "learn how dancers move to music, from motion capture, and let them dance",
-                after="characters",
-            ),
+            "choreography": SubCommand("app.cli.choreography.command", after="characters"),
         },
         dances="app.choreography.performed",
     ),

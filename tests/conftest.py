@@ -25,6 +25,8 @@ settings.load_profile("suisou")
 _USER: Final = tempfile.TemporaryDirectory(prefix="suisou-user-")
 for _variable in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"):
     os.environ[_variable] = f"{_USER.name}/{_variable.lower()}"
+# Nor does the command line speak another language where the user of this machine does.
+os.environ["LANGUAGE"] = "en"
 
 
 PATIENCE_MS: Final = 180_000

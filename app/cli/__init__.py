@@ -15,20 +15,24 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Final
 
-from app.cli.commands import TWO_WORDS, CommandParser, add_commands
+from app.cli.commands import (
+    TWO_WORDS,
+    CommandParser,
+    TopFormatter,
+    add_commands,
+    add_language_option,
+    explain,
+    worded_argparse,
+)
+from app.cli.speech import command_first, error_sentence, requested_speech, said, speaking, spoken
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, STOPPED
 from app.cli.terminal import interrupted_by, warn
 from app.encoding import shown
-from app.errors import AppError, Message, UsageError
+from app.errors import AppError, UsageError
 from app.formats.other_computers import agree
-from app.messages import error_text, text
 from app.version import program_version
 
-_DESCRIPTION = """\
-Turns the MIDI or score of a wind ensemble into character animation.
-"""
-_EPILOG = """\
-examples:
+_EXAMPLES = """\
   suisou edit quartet.mid
   suisou inspect quartet.mid
   suisou export quartet.mid --to out
@@ -54,13 +58,24 @@ examples:
 """
 
 
-@cache
 def parser() -> CommandParser:
-    """The whole command line."""
+    """The whole command line, in the language that is spoken."""
+    return _parser(spoken().language)
+
+
+@cache
+def _parser(language: str) -> CommandParser:
     top = CommandParser(
-        prog="suisou", description=_DESCRIPTION, epilog=_EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog="suisou",
+        description=said("cli.description"),
+        epilog=f"{said('cli.examples')}\n{_EXAMPLES}",
+        formatter_class=TopFormatter,
     )
-    top.add_argument("--version", action="version", version=f"suisou {program_version()}")
+    top.add_argument(
+        "--version", action="version", version=f"suisou {program_version()}", help=said("cli.version_option")
+    )
+    add_language_option(top)
+    explain(top)
     add_commands(top)
     return top
 
@@ -68,12 +83,17 @@ def parser() -> CommandParser:
 def main(arguments: Sequence[str]) -> int:
     """Run the program with these arguments (without its own name) and return the exit status."""
     _speak_utf8()
+    with speaking(requested_speech(arguments)), worded_argparse():
+        return _run(command_first(arguments))
+
+
+def _run(arguments: Sequence[str]) -> int:
     for argument in arguments:
         # Whoever names a file on another computer agrees to that computer.
         agree(argument.partition("=")[2] if argument.startswith("--") else argument)
     broken = next((argument for argument in arguments if "\0" in argument), None)
     if broken is not None:
-        return _fail(text(Message("argument.with_nul", {"argument": broken})), BAD_USE)
+        return _fail(said("argument.with_nul", argument=broken), BAD_USE)
     try:
         parsed = parser().parse_args(_joined(arguments), argparse.Namespace(given=tuple(arguments)))
         if parsed.command is None:
@@ -86,11 +106,11 @@ def main(arguments: Sequence[str]) -> int:
     except SystemExit as stop:  # argparse: --help and --version end with 0, bad use with 2
         return stop.code if isinstance(stop.code, int) else BAD_USE
     except UsageError as error:
-        return _fail(error_text(error), BAD_USE)
+        return _fail(error_sentence(error), BAD_USE)
     except AppError as error:
         return _fail(_with_file(error, parsed), BAD_INPUT)
     except KeyboardInterrupt:
-        return _fail("stopped; nothing was written", STOPPED)
+        return _fail(said("cli.stopped"), STOPPED)
     except BrokenPipeError:
         # The reader of our output has ended (`| head`): not an error. Python would complain once more at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -110,7 +130,7 @@ _OTHERWISE_PLACED: Final = frozenset({"file", "folder", "host"})
 
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:
     """Error with its file, even where the code that raised it knows no files."""
-    sentence = error_text(error)
+    sentence = error_sentence(error)
     if "file" not in parsed or not _OTHERWISE_PLACED.isdisjoint(error.message.arguments):
         return sentence
     return f"{shown(parsed.file)}: {sentence}"

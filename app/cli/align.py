@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Final
 
 from app.cli.options import LONGEST_S, add_file_options, bounded_number, open_project
 from app.cli.progress import Progress
+from app.cli.speech import said, sentence
 from app.cli.terminal import say, warn
-from app.errors import Argument, FileError, Message, UsageError
-from app.messages import filled, text
+from app.errors import FileError, UsageError
 
 if TYPE_CHECKING:
     from app.audio.followed_recording import Followed
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _MIDI: Final = (".mid", ".midi")
 _PROJECT: Final = ".suisou"
 
-_seconds = bounded_number(0.0, LONGEST_S, "a number of seconds", float)
+_seconds = bounded_number(0.0, LONGEST_S, "quantity.seconds", float)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -64,7 +64,7 @@ def align(arguments: argparse.Namespace) -> None:
         save(aligned, target)
     else:
         for warning in export_midi(aligned, target, library().maps):
-            warn(text(warning))
+            warn(sentence(warning))
     _report(aligned, followed.following, target)
 
 
@@ -84,11 +84,11 @@ def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
     stems = dict(_stem(project, text) for text in arguments.stems)
     options = FollowOptions(notes=arguments.notes, dynamics=arguments.dynamics or bool(stems), stems=stems)
     progress = Progress(sys.stderr)
-    label = filled("listening to {file}", {"file": arguments.recording.name})
+    label = said("align.listening", file=arguments.recording.name)
     try:
         recording = decode(str(arguments.recording), lambda share: progress(0.2 * share, label))
         for warning in recording.warnings:
-            warn(text(warning))
+            warn(sentence(warning))
         first = round((arguments.from_s or 0.0) * RATE_HZ)
         last = len(recording.samples) if arguments.until_s is None else round(arguments.until_s * RATE_HZ)
         samples = recording.samples[first:last]
@@ -121,33 +121,29 @@ def _report(project: Project, following: Following, target: Path) -> None:
 
     changes = project.score.tempo_map.bpm
     say(
-        filled(
-            "{file}: {beats} {beats:beat|beats}, {slowest:.0f} to {fastest:.0f} quarters per minute, bar 1 at "
-            "{start_s:.3f} s of the recording, confidence {percent} %",
-            {
-                "file": target,
-                "beats": len(following.ticks),
-                "slowest": min(bpm for _, bpm in changes),
-                "fastest": max(bpm for _, bpm in changes),
-                "start_s": _second_of_bar(project, following, 1),
-                "percent": round(100 * following.mean_confidence),
-            },
+        said(
+            "align.written",
+            file=str(target),
+            beats=len(following.ticks),
+            slowest=min(bpm for _, bpm in changes),
+            fastest=max(bpm for _, bpm in changes),
+            start_s=_second_of_bar(project, following, 1),
+            percent=round(100 * following.mean_confidence),
         )
     )
     runner_up = following.runner_up
     if runner_up is not None:
         start_s = _second_of_bar(project, following, 1) + runner_up.later_s
         percent = round(100 * runner_up.confidence)
-        arguments: dict[str, Argument] = {"start_s": start_s, "later_s": runner_up.later_s, "percent": percent}
-        say(text(Message("align.runner_up", arguments)))
+        say(said("align.runner_up", start_s=start_s, later_s=runner_up.later_s, percent=percent))
     bar_of_tick = project.metre_map.bar_of_tick
     for span in following.missing:
         first, last = bar_of_tick(int(span.start)), bar_of_tick(max(int(span.end) - 1, int(span.start)))
-        warn(text(Message("align.bars_outside", bars_named((first, last)))))
+        warn(said("align.bars_outside", **bars_named((first, last))))
     for span in following.added:
-        warn(text(Message("align.only_recorded", {"start_s": span.start, "end_s": span.end})))
+        warn(said("align.only_recorded", start_s=span.start, end_s=span.end))
     for first, last, percent in following.doubtful_bars(project.metre_map):
-        warn(text(Message("align.doubtful", {"percent": percent, **bars_named((first, last))})))
+        warn(said("align.doubtful", percent=percent, **bars_named((first, last))))
 
 
 def _second_of_bar(project: Project, following: Following, bar: int) -> float:

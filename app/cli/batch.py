@@ -22,16 +22,17 @@ import msgspec
 from app.child import core_count, own_process
 from app.cli.batch_inputs import own_digests, piece_digest
 from app.cli.progress import Progress
+from app.cli.speech import said
 from app.cli.status import BAD_INPUT, DONE, PARTIAL, STOPPED
-from app.cli.summary import columns
+from app.cli.summary import columns, heads
 from app.cli.terminal import say, warn
+from app.cli.widths import on_left, width
 from app.encoding import shown
-from app.errors import FileError, Message, UsageError
+from app.errors import FileError, UsageError
 from app.export.file_names import REPORT
 from app.formats.atomic import atomic_write
 from app.formats.files import cannot_write, open_file, read_file
 from app.formats.json_data import decode_json
-from app.messages import filled, text
 from app.project.storage import SUFFIX
 from app.score.suffixes import MUSIC
 
@@ -228,7 +229,7 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> BatchOutcome:
         _, printed = child.communicate()
     lines = [line for line in printed.decode("utf-8", "replace").splitlines() if line.strip()]
     if child.returncode not in (DONE, PARTIAL):
-        reason = lines[-1].removeprefix("suisou: ") if lines else f"ended with status {child.returncode}"
+        reason = lines[-1].removeprefix("suisou: ") if lines else said("batch.ended", status=child.returncode)
         return BatchOutcome(child.returncode or BAD_INPUT, reason)
     file = Path(folder) / REPORT
     report = decode_json(read_file(file, _MOST_BYTES), _Reported, str(file))
@@ -312,7 +313,7 @@ def _read_notes(file: Path) -> dict[str, _Note]:
             file.replace(aside)
         except OSError as refusal:
             raise cannot_write(aside, refusal) from refusal
-        warn(text(Message(error.message.id, {**error.message.arguments, "aside": aside.name})))
+        warn(said(error.message.id, **{**error.message.arguments, "aside": aside.name}))
         return {}
 
 
@@ -325,32 +326,28 @@ def _table(
     pieces: dict[str, str], outcomes: dict[str, BatchOutcome], known: dict[str, BatchOutcome], stopped: bool
 ) -> list[str]:
     """A line for each piece, and how many there are of each kind."""
-    rows: list[tuple[str, ...]] = [("piece", "players", "seconds", "excluded", "to look at", "result")]
+    rows: list[tuple[str, ...]] = [heads("batch.heads")]
     for piece in pieces:
         outcome = outcomes.get(piece)
         if outcome is None or (stopped and not outcome.done):
-            rows.append((piece, "", "", "", "", "not exported"))
+            rows.append((piece, "", "", "", "", said("batch.not_exported")))
         elif not outcome.done:
             rows.append((piece, "", "", "", "", outcome.reason))
         else:
             numbers = (outcome.players, round(outcome.seconds), outcome.excluded, outcome.warnings)
-            result = "up to date" if piece in known else "exported"
-            rows.append(
-                (
-                    piece,
-                    *map(str, numbers),
-                    f"{result}, incomplete: {outcome.incomplete}" if outcome.incomplete else result,
-                )
-            )
+            result = said("batch.up_to_date" if piece in known else "batch.exported")
+            if outcome.incomplete:
+                result = said("batch.incomplete", result=result, reason=outcome.incomplete)
+            rows.append((piece, *map(str, numbers), result))
     failed = sum(not outcome.done for outcome in outcomes.values())
     done = len(outcomes) - failed
     lines = columns([row[:-1] for row in rows])
-    width = max(map(len, lines))
-    table = [f"{line.ljust(width)}  {shown(row[-1])}" for line, row in zip(lines, rows, strict=True)]
-    count = filled("{done} of {count} {count:piece|pieces} exported", {"done": done, "count": len(pieces)})
+    wide = max(map(width, lines))
+    table = [f"{on_left(line, wide)}  {shown(row[-1])}" for line, row in zip(lines, rows, strict=True)]
+    counts = [said("batch.count", done=done, count=len(pieces))]
     incomplete = sum(bool(outcome.incomplete) for outcome in outcomes.values())
     if incomplete:
-        count += filled("; {count} of them {count:is|are} incomplete", {"count": incomplete})
+        counts.append(said("batch.some_incomplete", count=incomplete))
     if stopped:
-        count += "; stopped: the same command goes on where it was"
-    return [*table, "", count]
+        counts.append(said("batch.goes_on"))
+    return [*table, "", said("cli.and_then").join(counts)]

@@ -28,7 +28,9 @@ _ROOMS: Final = ("app", "instrument_maps", "metadata", "resources")
 """Packages that decide what an export holds."""
 _NOT_INSTALLED: Final = frozenset({"__pycache__", "build"})
 """Folders that a checkout has and an installation does not."""
-_ELSEWHERE: Final = frozenset({"file", "to", "jobs", "scheduler", "piece", "run", "given", "command"})
+_ELSEWHERE: Final = frozenset(
+    {"file", "to", "jobs", "scheduler", "piece", "run", "given", "command", "language", "pitch_names", "middle_c"}
+)
 """Arguments that say where and how an export is made, not what it holds."""
 
 

@@ -7,15 +7,17 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
+from app.cli.commands import add_actions
 from app.cli.options import bounded_number
+from app.cli.speech import ENGLISH, Speech, said, spoken
 from app.cli.terminal import say, say_json
+from app.cli.widths import on_left
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
-from app.messages import filled, text
 from app.rig.characters.character_library import LEAST_M, MOST_M
 
-_weight = bounded_number(-10.0, 10.0, "a weight", float)
-_height = bounded_number(LEAST_M, MOST_M, "a height in metres", float)
+_weight = bounded_number(-10.0, 10.0, "quantity.weight", float)
+_height = bounded_number(LEAST_M, MOST_M, "quantity.height", float)
 
 
 class CannotPlayError(AppError):
@@ -26,14 +28,12 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
     command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_characters)
-    actions = command.add_subparsers(title="actions", metavar="ACTION")
-    check = actions.add_parser(
-        "check", help="say what of a figure is what, what is missing and what will not be played"
-    )
+    actions = add_actions(command)
+    check = actions.add_parser("check", help="")
     _add_file(check)
     check.add_argument("--json", action="store_true")
     check.set_defaults(run=check_character)
-    add = actions.add_parser("add", help="copy a character's file into your own folder")
+    add = actions.add_parser("add", help="")
     _add_file(add)
     add.add_argument("--name", default="", metavar="NAME")
     add.set_defaults(run=add_character)
@@ -61,15 +61,16 @@ def list_characters(arguments: argparse.Namespace) -> None:
         }
         for id, source in known.sources.items()
     ]
-    problems = {shown(id): text(problem) for id, problem in character_problems().items()}
+    speech = ENGLISH if arguments.json else spoken()
+    problems = {shown(id): speech(problem) for id, problem in character_problems().items()}
     if arguments.json:
         found = {"characters": rows, "folder": stored(known.folder), "problems": problems}
         say_json(found)
         return
     for row in rows:
         mark = "*" if row["own"] else ""
-        say(f"{row['id']}{mark}".ljust(28) + f" {row['title']}" if row["title"] else f"{row['id']}{mark}")
-    say("", f"your own (*): {shown(known.folder)}")
+        say(on_left(f"{row['id']}{mark}", 28) + f" {row['title']}" if row["title"] else f"{row['id']}{mark}")
+    say("", said("cli.own_folder", folder=str(known.folder)))
     for problem in problems.values():
         say(f"  {problem}")
 
@@ -83,7 +84,9 @@ def check_character(arguments: argparse.Namespace) -> None:
         It cannot play.
     """
     joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
-    found = checked(arguments.file, joints, morphs, arguments.height, arguments.hide)
+    found = checked(
+        arguments.file, joints, morphs, arguments.height, arguments.hide, ENGLISH if arguments.json else spoken()
+    )
     if arguments.json:
         say_json(found)
     else:
@@ -134,8 +137,10 @@ def checked(
     morphs: Mapping[str, Mapping[str, float]],
     height_m: float = 0.0,
     hidden: Collection[str] = (),
+    speech: Speech = ENGLISH,
 ) -> dict[str, Any]:
-    """Mapping of a file's figure, as JSON. Raises FileError where there is no figure in it."""
+    """Mapping of a file's figure, as JSON, with notes in the words of ``speech``. Raises FileError where there is no
+    figure in it."""
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.load_character import read_character
@@ -165,7 +170,7 @@ def checked(
         "face": reading.face.profile,
         "morphs": {shape: dict(own) for shape, own in reading.face.morphs.items()},
         "missing_morphs": list(reading.face.missing),
-        "notes": [text(note) for note in reported],
+        "notes": [speech(note) for note in reported],
     }
 
 
@@ -184,30 +189,32 @@ def _reported(character: Any) -> tuple[Message, ...]:
 def as_text(found: Mapping[str, Any]) -> list[str]:
     """Findings as text."""
     doubtful = set(found["doubtful_joints"])
-    by_what = {"": "by shape", "vrm0": "by the file (VRM 0.x)", "vrm1": "by the file (VRM 1.0)"}
+    ways = {"": "characters.by_shape", "vrm0": "characters.by_vrm0", "vrm1": "characters.by_vrm1"}
+    counts = {key: found[key] for key in ("kind", "bones", "height_m")}
+    names: str = found["names"]
     lines = [
-        filled(
-            "{file}: {kind}, {bones} {bones:bone|bones}, {meshes} {meshes:mesh|meshes}, {height_m} m tall",
-            {**found, "file": restored(found["file"]), "meshes": len(found["meshes"])},
-        ),
+        said("characters.figure", file=restored(found["file"]), meshes=len(found["meshes"]), **counts),
         "",
-        f"joints, {by_what.get(found['names'], found['names'])} (?: in doubt):",
-        *(f"  {joint.ljust(26)}{'?' if joint in doubtful else ' '} {bone}" for joint, bone in found["joints"].items()),
+        said("characters.joints", found_by=said(ways[names]) if names in ways else names),
+        *(
+            f"  {on_left(joint, 26)}{'?' if joint in doubtful else ' '} {bone}"
+            for joint, bone in found["joints"].items()
+        ),
     ]
     hidden = set(found["hidden_meshes"])
-    listed = [f"{name} (hidden)" if name in hidden else name for name in found["meshes"]]
-    lines += ["", f"meshes: {', '.join(listed)}"]
+    listed = [said("characters.hidden", name=name) if name in hidden else name for name in found["meshes"]]
+    lines += ["", said("characters.meshes", names=", ".join(listed))]
     if found["missing_joints"]:
-        lines += ["", f"joints without a bone: {', '.join(found['missing_joints'])}"]
-    lines += ["", f"face, {found['face'] or 'no known names'}:"]
+        lines += ["", said("characters.without_bone", names=", ".join(found["missing_joints"]))]
+    lines += ["", said("characters.face", profile=found["face"] or said("characters.unknown_face"))]
     for shape, own in found["morphs"].items():
-        lines.append(f"  {shape.ljust(26)}  {' + '.join(_share(name, weight) for name, weight in own.items())}")
+        lines.append(f"  {on_left(shape, 26)}  {' + '.join(_share(name, weight) for name, weight in own.items())}")
     if found["missing_morphs"]:
-        lines.append(f"shapes that nothing makes: {', '.join(found['missing_morphs'])}")
+        lines.append(said("characters.without_morph", names=", ".join(found["missing_morphs"])))
     if found["notes"] or found["required_joints"]:
         lines += ["", *found["notes"]]
     if found["required_joints"]:
-        lines.append(f"It cannot play: no bone was found for {', '.join(found['required_joints'])}.")
+        lines.append(said("characters.required", names=", ".join(found["required_joints"])))
     return lines
 
 

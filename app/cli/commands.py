@@ -1,6 +1,7 @@
 """The sub-commands: what each is called and does. Its module is loaded when its arguments are read.
 
-Descriptions of sub-commands and the help of their options stand in tables beside the modules (``help.toml``).
+What the help says of sub-commands and their options stands in tables beside the modules (``help.toml``), the words of
+argparse itself in ``argparse.toml``.
 """
 
 from __future__ import annotations
@@ -8,34 +9,36 @@ from __future__ import annotations
 import argparse
 import gc
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Final, NoReturn
+from typing import Any, Final, NoReturn, TypeAlias
 
+from app.cli.speech import (
+    LANGUAGE,
+    MIDDLE_C,
+    MIDDLE_C_OCTAVES,
+    PITCH_NAME_CHOICES,
+    PITCH_NAMES,
+    said,
+    spoken,
+)
+from app.cli.widths import width, wrapped
 from app.encoding import shown
+from app.messages import LANGUAGES
 from app.optional_features import FEATURES, SubCommand
 
-_OWN: Final = {
-    "edit": "open the editor (also without any command)",
-    "inspect": "say what a MIDI file or a score holds and what its players will do",
-    "export": "write the players and their instruments as FBX, BVH, GLB or USD",
-    "film": "draw the players: a film with sound, PNG frames or a contact sheet",
-    "midi": "write the piece as a MIDI file",
-    "align": "put the notes where a recording of the piece has them",
-    "instruments": "list the instrument maps, show the fingerings of one, or check one",
-    "metadata": "list styles, habits, expressions, gestures and rules; save, load and compare those of a piece",
-    "characters": "list the characters, check whether a file's figure can play, add one",
-    "ports": "list the MIDI devices that are there",
-    "record": "record from a MIDI device into a MIDI file",
-    "stream": "play a piece live to another program (VMC)",
-}
-"""By name: the help. The module of a name is in this folder."""
+_OWN: Final = (
+    *("edit", "inspect", "export", "film", "midi", "align"),
+    *("instruments", "metadata", "characters", "ports", "record", "stream"),
+)
+"""Names, each of a module of this folder."""
 
 
 def _all_commands() -> dict[str, SubCommand]:
-    found = {name: SubCommand(f"app.cli.{name}", help, after="") for name, help in _OWN.items()}
+    found = {name: SubCommand(f"app.cli.{name}", after="") for name in _OWN}
     for feature in FEATURES:
         for name, command in feature.sub_commands.items():
             names = list(found)
@@ -49,9 +52,43 @@ TWO_WORDS: Final = frozenset(name for name in _COMMANDS if " " in name)
 """A piece with such a name is written "./results"."""
 
 SHARED: Final = "shared"
+SUMMARY: Final = "summary"
+"""The line of a sub-command in the list of all."""
 DESCRIPTION: Final = "description"
 
 Declare = Callable[[argparse.ArgumentParser], None]
+Actions: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
+
+
+class _HelpFormatter(argparse.HelpFormatter):
+    """Breaks lines by the columns that their characters take."""
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        return super()._split_lines(text, width) if text.isascii() else wrapped(text, width)
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        if text.isascii():
+            return super()._fill_text(text, width, indent)
+        return "\n".join(f"{indent}{line}" for line in wrapped(text, width - len(indent)))
+
+    def _format_usage(
+        self,
+        usage: str | None,
+        actions: Iterable[argparse.Action],
+        groups: Iterable[argparse._MutuallyExclusiveGroup],
+        prefix: str | None,
+    ) -> str:
+        """Format the usage with as many signs before it as its first word takes columns, since argparse counts them."""
+        words = argparse_words().get(_USAGE, _USAGE) if prefix is None else prefix
+        place = "\1" * width(words)
+        return super()._format_usage(usage, actions, groups, place).replace(place, words, 1)
+
+
+class TopFormatter(_HelpFormatter):
+    """Leaves the lines of the description and of the examples as they are."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "".join(indent + line for line in text.splitlines(keepends=True))
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -66,7 +103,7 @@ class CommandParser(argparse.ArgumentParser):
     """
 
     def __init__(self, *, declare: Declare | None = None, **options: Any) -> None:
-        super().__init__(**options)
+        super().__init__(**{"formatter_class": _HelpFormatter, **options})
         self._declare = declare
 
     def complete(self) -> None:
@@ -74,7 +111,7 @@ class CommandParser(argparse.ArgumentParser):
         if self._declare is not None:
             declare, self._declare = self._declare, None
             declare(self)
-            _explain(self)
+            explain(self)
 
     def error(self, message: str) -> NoReturn:
         super().error(shown(message))
@@ -86,31 +123,94 @@ class CommandParser(argparse.ArgumentParser):
         return super().parse_known_args(args, namespace)
 
 
+_FOLDER: Final = Path(__file__).parent
+_USAGE: Final = "usage: "
+
+
 @cache
-def help_texts() -> dict[str, dict[str, str]]:
-    """Read the tables: descriptions and texts of options by sub-command; those of several under `SHARED`."""
-    folder = Path(__file__).parent
-    paths = (folder / "help.toml", *sorted(folder.glob("*/help.toml")))
+def help_texts() -> dict[str, dict[str, dict[str, str]]]:
+    """Read the tables: texts by language, of the summary, description and options of each sub-command; those of several
+    under `SHARED`."""
+    paths = (_FOLDER / "help.toml", *sorted(_FOLDER.glob("*/help.toml")))
     return {name: texts for path in paths for name, texts in tomllib.loads(path.read_text("utf-8")).items()}
 
 
-def _explain(command: argparse.ArgumentParser) -> None:
-    """Give a sub-command, its options and its own sub-commands the texts that their declarations leave out."""
-    texts = help_texts()[SHARED] | help_texts().get(command.prog.partition(" ")[2], {})
-    command.description = command.description or texts.get(DESCRIPTION)
+@cache
+def _words_of(language: str) -> dict[str, str]:
+    table = tomllib.loads((_FOLDER / "argparse.toml").read_text("utf-8"))
+    return {words["en"]: words[language] for words in table.values()}
+
+
+def argparse_words() -> dict[str, str]:
+    """Words of argparse by their English, in the language that is spoken."""
+    return _words_of(spoken().language)
+
+
+@contextmanager
+def worded_argparse() -> Iterator[None]:
+    """Let argparse say its own words in the language that is spoken. It asks gettext, whose catalogues are of the
+    system's locale and have no Japanese of it."""
+    module: Any = argparse
+    words, before = argparse_words(), (module._, module.ngettext)
+    module._ = lambda english: words.get(english, english)
+    module.ngettext = lambda one, many, number: words.get(one if number == 1 else many, one if number == 1 else many)
+    try:
+        yield
+    finally:
+        module._, module.ngettext = before
+
+
+def fill_help(action: argparse.Action, **values: object) -> None:
+    """Give the help of an option what its text in the table has in ``%(name)s``."""
+    vars(action).update(values)
+
+
+def explain(command: argparse.ArgumentParser) -> None:
+    """Give a sub-command, its options and its own sub-commands their texts."""
+    name, language = command.prog.partition(" ")[2], spoken().language
+    texts = help_texts()[SHARED] | help_texts().get(name, {})
+    if DESCRIPTION in texts:
+        command.description = texts[DESCRIPTION][language]
     for action in command._actions:
         if isinstance(action, argparse._SubParsersAction):
+            for listed in action._choices_actions:
+                listed.help = summary(f"{name} {listed.dest}")
             for part in action.choices.values():
-                _explain(part)
+                explain(part)
         elif action.help is None:
-            action.help = texts.get(action.option_strings[-1] if action.option_strings else action.dest)
+            key = action.option_strings[-1] if action.option_strings else action.dest
+            action.help = texts[key][language] if key in texts else None
+
+
+def summary(name: str) -> str:
+    """The line of a sub-command in the list of all."""
+    return help_texts()[name][SUMMARY][spoken().language]
 
 
 def add_commands(top: argparse.ArgumentParser) -> None:
-    """Declare all sub-commands by name and help."""
-    commands = top.add_subparsers(title="commands", dest="command", metavar="COMMAND", parser_class=CommandParser)
+    """Declare all sub-commands by name and summary."""
+    commands = top.add_subparsers(
+        title=said("cli.commands"), dest="command", metavar="COMMAND", parser_class=CommandParser
+    )
     for name, command in _COMMANDS.items():
-        commands.add_parser(name, help=command.help, declare=partial(_add_arguments, command.module))
+        commands.add_parser(name, help=summary(name), declare=partial(_add_arguments, command.module))
+
+
+def add_actions(command: argparse.ArgumentParser, required: bool = False) -> Actions:
+    """Declare that a sub-command has sub-commands of its own, whose summaries stand in the table."""
+    return command.add_subparsers(title=said("cli.actions"), metavar="ACTION", required=required)
+
+
+def add_language_option(command: argparse.ArgumentParser) -> None:
+    """Declare the language, unless a command has declared it with a meaning of its own."""
+    if LANGUAGE not in command._option_string_actions:
+        command.add_argument(LANGUAGE, choices=tuple(LANGUAGES), default="")
+
+
+def add_pitch_options(command: argparse.ArgumentParser) -> None:
+    """Declare how pitches are named."""
+    command.add_argument(PITCH_NAMES, choices=PITCH_NAME_CHOICES, default=PITCH_NAME_CHOICES[0])
+    command.add_argument(MIDDLE_C, choices=tuple(MIDDLE_C_OCTAVES), default="C4")
 
 
 def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
@@ -123,3 +223,13 @@ def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
         if collects:
             gc.enable()
     module.add_arguments(command)
+    _add_language_options(command)
+
+
+def _add_language_options(command: argparse.ArgumentParser) -> None:
+    """Declare the language of a sub-command, or of its own sub-commands too."""
+    add_language_option(command)
+    for action in command._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for part in action.choices.values():
+                _add_language_options(part)

@@ -12,45 +12,50 @@ from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Final
 
+from app.cli.speech import said
+
 WITHOUT: Final = ("offscreen", "minimal", "minimalegl", "vnc", "eglfs", "linuxfb")
 """Platforms of Qt that need no display server."""
 X_PORT: Final = 6000
 ANSWER_S: Final = 3.0
-INSTEAD: Final = "'suisou export' and 'suisou inspect' work without one; 'suisou --help' lists all commands."
-
-
 _DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>\d+)(?:\.\d+)?$")
 
 
 def virtual(command: str) -> str:
     """Advice for drawing to a file without a display."""
-    return f"A virtual one does: install xvfb, then 'xvfb-run -a suisou {command} ...'."
+    return said("cli.virtual_display", command=command)
 
 
 def why_no_display(
     environment: Mapping[str, str] = os.environ,
     platform: str = sys.platform,
-    what: str = "the editor",
-    instead: str = INSTEAD,
+    what: str = "",
+    instead: str = "",
 ) -> str | None:
-    """Reason why the editor cannot be shown, or a film not drawn, as a sentence for the command line; None if it
-    can."""
+    """Reason why the editor cannot be shown, or a film not drawn, as a sentence for the command line; None if it can.
+
+    Parameters
+    ----------
+    what, instead : str
+        What needs a display, and what can be done without one; by default the editor and other commands.
+    """
     if not platform.startswith("linux") or environment.get("QT_QPA_PLATFORM", "").partition(":")[0] in WITHOUT:
         return None
+    what, instead = what or said("cli.editor"), instead or said("cli.without_display")
     display, wayland = environment.get("DISPLAY", ""), environment.get("WAYLAND_DISPLAY", "")
     if not display and not wayland:
-        return f"{what} needs a display and there is none (neither DISPLAY nor WAYLAND_DISPLAY is set). {instead}"
+        return said("cli.no_display", what=what, instead=instead)
     if (wayland and _answers(_wayland_socket(wayland, environment))) or (display and _x_answers(display)):
         return None
-    asked = " and ".join(filter(None, (wayland, display)))
-    return f"{what} needs a display, and none answers at {asked}. {instead}"
+    asked = ", ".join(filter(None, (wayland, display)))
+    return said("cli.silent_display", what=what, asked=asked, instead=instead)
 
 
 def example_hint() -> str:
     """Command to type to see something on the disk, where the editor cannot show its example."""
     with as_file(files("resources") / "examples" / "quartet.mid") as path:
         command = f"suisou export {shlex.quote(str(path.absolute()))} --to out"
-    return f"to try the bundled quartet: {command}"
+    return said("cli.example_hint", command=command)
 
 
 def _wayland_socket(name: str, environment: Mapping[str, str]) -> Path:

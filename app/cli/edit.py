@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Final
 
+from app.cli.commands import add_language_option
 from app.cli.options import picture_size, seconds
-from app.messages import LANGUAGES
 from app.project.camera_bookmarks import VIEWS
 
 THEMES: Final = ("dark", "light")
@@ -21,6 +21,6 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("--time", dest="time_s", type=seconds, default=0.0, metavar="S")
     command.add_argument("--view", choices=VIEWS, default="")
     command.add_argument("--size", type=picture_size(LEAST_PX, MOST_PX), default=(1600, 1000), metavar="WxH")
-    command.add_argument("--language", choices=tuple(LANGUAGES), default="")
+    add_language_option(command)
     command.add_argument("--theme", choices=THEMES, default="")
     command.set_defaults(run=None)

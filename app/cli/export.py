@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.cli.bars import add_bar_options, add_lead_in_option, requested_bars, requested_span
+from app.cli.commands import add_pitch_options, fill_help
 from app.cli.options import (
     add_ignored_option,
     add_players_option,
@@ -20,6 +21,7 @@ from app.cli.options import (
     open_project,
 )
 from app.cli.progress import Progress, find_holds
+from app.cli.speech import said, sentence
 from app.cli.status import report_left_out
 from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
@@ -50,16 +52,10 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     place = command.add_mutually_exclusive_group(required=True)
     place.add_argument("--to", type=Path, metavar="DIR")
     place.add_argument("--unreal", type=Path, metavar="PROJECT")
-    command.add_argument(
-        "--format",
-        dest="formats",
-        action="extend",
-        type=file_formats,
-        metavar="FORMAT",
-        help=f"{', '.join(FILE_FORMATS)}; repeatable, or several with commas (default: {','.join(USUAL_FORMATS)})",
-    )
+    formats = command.add_argument("--format", dest="formats", action="extend", type=file_formats, metavar="FORMAT")
+    fill_help(formats, formats=", ".join(FILE_FORMATS), usual=",".join(USUAL_FORMATS))
     add_rate_option(command)
-    add_players_option(command, "only this player or dancer; repeatable")
+    add_players_option(command)
     _add_skeleton_options(command)
     _add_content_options(command)
     add_ignored_option(command)
@@ -68,6 +64,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("--piece", type=Path, help=argparse.SUPPRESS)
     add_bar_options(command)
     add_lead_in_option(command)
+    add_pitch_options(command)
     command.set_defaults(run=export)
 
 
@@ -76,33 +73,18 @@ def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--skeleton", choices=SKELETONS)
     add_rig_options(command)
     command.add_argument("--check-skeleton", type=Path, metavar="ASSET")
-    command.add_argument(
-        "--bvh-names",
-        choices=names("bone_names"),
-        default="",
-        metavar="PROFILE",
-        help=f"whose bone names the files have, of {names_where(lambda kind: kind.bones_by_name)} (default: the "
-        f"skeleton's own): {', '.join(names('bone_names'))}",
-    )
+    known = names("bone_names")
+    bones = command.add_argument("--bvh-names", choices=known, default="", metavar="PROFILE")
+    fill_help(bones, formats=names_where(lambda kind: kind.bones_by_name), names=", ".join(known))
 
 
 def _add_content_options(command: argparse.ArgumentParser) -> None:
     """Add the options for further files, and for reducing keys."""
     command.add_argument("--sound", action="store_true")
-    command.add_argument(
-        "--stage",
-        action="store_true",
-        help="also everyone in one file, each at the place on the stage, in every format that can hold it: "
-        + names_where(lambda kind: kind.stage),
-    )
-    command.add_argument(
-        "--keys",
-        choices=KEY_CHOICES,
-        default="every",
-        help="a key on every frame, or reduced: as few linear keys as keep rotations within 0.25 degrees, and joints, "
-        "fingertips, lips, soles and instruments within 0.5 mm, at every frame; of "
-        f"{names_where(lambda kind: kind.reduces_keys)} (default: every)",
-    )
+    stage = command.add_argument("--stage", action="store_true")
+    fill_help(stage, formats=names_where(lambda kind: kind.stage))
+    keys = command.add_argument("--keys", choices=KEY_CHOICES, default="every")
+    fill_help(keys, formats=names_where(lambda kind: kind.reduces_keys))
 
 
 def add_rig_options(command: argparse.ArgumentParser) -> None:
@@ -114,7 +96,7 @@ def add_rig_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--eyes", choices=EYE_TURNS, default=DEFAULT_RIG.eyes)
 
 
-jobs = bounded_number(1, 256, "a number of processes", int)
+jobs = bounded_number(1, 256, "quantity.processes", int)
 
 
 def file_formats(text: str) -> list[Format]:
@@ -128,8 +110,8 @@ def file_formats(text: str) -> list[Format]:
     names = [name.strip().casefold() for name in text.split(",")]
     unknown = [name for name in names if name not in FILE_FORMATS]
     if unknown:
-        possible = ", ".join(FILE_FORMATS)
-        raise argparse.ArgumentTypeError(f"{', '.join(map(repr, unknown))}: possible formats are {possible}")
+        typed = ", ".join(map(repr, unknown))
+        raise argparse.ArgumentTypeError(said("cli.no_format", typed=typed, possible=", ".join(FILE_FORMATS)))
     return [name for name in FILE_FORMATS if name in names]
 
 
@@ -161,12 +143,12 @@ def export(arguments: argparse.Namespace) -> int:
     try:
         with interrupted_by(signal.SIGTERM):
             if unreal is None:
-                report = write(request, text, progress=progress)
+                report = write(request, text, progress=progress, shown_in=sentence)
                 reported = summary(report, arguments.to)
             else:
                 from app.export.unreal.run import export_into
 
-                written = export_into(request, unreal, text, progress=progress)
+                written = export_into(request, unreal, text, progress=progress, shown_in=sentence)
                 report = written.report
                 reported = project_summary(written, unreal, skeleton, chosen=arguments.skeleton is not None)
     finally:

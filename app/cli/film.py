@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from app.cli.bars import add_bar_options, add_lead_in_option, requested_span
+from app.cli.commands import add_language_option, fill_help
 from app.cli.display import virtual, why_no_display
 from app.cli.drawing import kept_camera, nearest, parsed_view, require_writable, stoppable
 from app.cli.edit import MOST_PX, THEMES
@@ -25,10 +26,11 @@ from app.cli.options import (
     picture_size,
 )
 from app.cli.progress import Progress, find_holds
+from app.cli.speech import error_sentence, said, sentence, spoken
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
 from app.errors import AppError, Cancelled, FileError, Message, StopRequested, UsageError
-from app.messages import LANGUAGES, error_text, filled, text
+from app.messages import text
 from app.project.camera_bookmarks import VIEWS, CameraBookmark, View
 from app.project.frame_rate import USUAL_FILM_RATE, exact_number, frame_rate_text
 
@@ -45,8 +47,8 @@ MOST_COLUMNS: Final = 200
 
 Kind: TypeAlias = Literal["mp4", "folder", "sheet"]
 
-_every = bounded_number(Fraction(1, 120), Fraction(3600), "a number of seconds", exact_number)
-_columns = bounded_number(1, MOST_COLUMNS, "a number of columns", int)
+_every = bounded_number(Fraction(1, 120), Fraction(3600), "quantity.seconds", exact_number)
+_columns = bounded_number(1, MOST_COLUMNS, "quantity.columns", int)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -58,34 +60,18 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     seen = command.add_mutually_exclusive_group()
     seen.add_argument("--view", choices=VIEWS)
     seen.add_argument("--camera", metavar="NAME")
-    add_players_option(
-        command,
-        "the player or dancer that the view is about; a pattern such as '*sax*'; repeatable; a close-up shows the "
-        "first (default: the first of the piece)",
-    )
+    add_players_option(command)
     add_bar_options(command)
     add_lead_in_option(command)
-    command.add_argument(
-        "--size",
-        type=picture_size(LEAST_PX, MOST_PX),
-        metavar="WxH",
-        help=f"of a frame (default {_size_text(FILM_PX)}; on a contact sheet {_size_text(SHEET_PX)})",
-    )
-    command.add_argument(
-        "--fps",
-        dest="rate",
-        type=frame_rate,
-        metavar="RATE",
-        help=f"frames per second of a film or folder (default: the project's, at most {USUAL_FILM_RATE})",
-    )
+    size = command.add_argument("--size", type=picture_size(LEAST_PX, MOST_PX), metavar="WxH")
+    fill_help(size, film=_size_text(FILM_PX), sheet=_size_text(SHEET_PX))
+    fill_help(command.add_argument("--fps", dest="rate", type=frame_rate, metavar="RATE"), most=USUAL_FILM_RATE)
     command.add_argument("--marks", action="store_true")
     command.add_argument("--no-sound", action="store_true")
-    command.add_argument(
-        "--every", type=_every, metavar="S", help=f"seconds between frames of a sheet (default {float(USUAL_EVERY_S)})"
-    )
+    fill_help(command.add_argument("--every", type=_every, metavar="S"), usual=float(USUAL_EVERY_S))
     command.add_argument("--columns", type=_columns, metavar="N")
-    command.add_argument("--language", choices=tuple(LANGUAGES))
-    command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
+    add_language_option(command)
+    command.add_argument("--theme", choices=THEMES, default=THEMES[0])
     command.set_defaults(run=film)
 
 
@@ -164,7 +150,7 @@ def film(arguments: argparse.Namespace) -> int:
                 raise KeyboardInterrupt from error
             if error.message.id not in ("picture.film_no_gl", "picture.no_gl"):
                 raise
-            warn(error_text(error))
+            warn(error_sentence(error))
             return NO_DISPLAY
 
 
@@ -178,10 +164,10 @@ def _draw(film: _Film, stop_requested: StopRequested) -> int:
     progress = Progress(sys.stderr)
     with offscreen(film.performance, film.arguments.theme, stop_requested) as viewport:
         if not viewport.shows(film.player_ids):
-            require_players(viewport.left_out, str(film.arguments.file), text)
+            require_players(viewport.left_out, str(film.arguments.file), sentence)
         try:
             with _WRITERS[film.kind](film, stop_requested) as writer:
-                progress(0.0, "how the players are seen")
+                progress(0.0, said("drawing.preparing"))
                 draw = viewport.film(
                     size, (span.first_frame_s, span.end_s), film.view, film.player_ids, marked=film.arguments.marks
                 )
@@ -189,16 +175,15 @@ def _draw(film: _Film, stop_requested: StopRequested) -> int:
                     if stop_requested():
                         raise KeyboardInterrupt
                     writer.write(draw(time_s))
-                    progress(number / count, f"frame {number} of {count}")
+                    progress(number / count, said("drawing.frame", number=number, count=count))
         finally:
             progress.clear()
         left_out = viewport.left_out
-    pace = f"one every {film.step_s:g} s" if film.kind == "sheet" else f"{frame_rate_text(span.fps)} frames/s"
-    say(
-        filled("{path}: {count} {count:frame|frames}", {"path": film.path, "count": count})
-        + f" of {_size_text(size)} from {film.times_s[0]:.3f} s to {film.times_s[-1]:.3f} s, {pace}"
-    )
-    return report_left_out((one.player.name, text(one.reason)) for one in left_out)
+    step = said("drawing.pace_sheet", step_s=film.step_s)
+    pace = step if film.kind == "sheet" else said("drawing.pace", rate=frame_rate_text(span.fps))
+    drawn = {"path": str(film.path), "size": _size_text(size), "pace": pace}
+    say(said("drawing.written", count=count, first_s=film.times_s[0], last_s=film.times_s[-1], **drawn))
+    return report_left_out((one.player.name, sentence(one.reason)) for one in left_out)
 
 
 def _kind(arguments: argparse.Namespace) -> Kind:
@@ -219,7 +204,7 @@ def _kind(arguments: argparse.Namespace) -> Kind:
 
 def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
     """Raise UsageError (``picture.film_option``, ``picture.odd_size``) for what means nothing to this kind of film."""
-    sheet_only = {"--every": arguments.every, "--columns": arguments.columns, "--language": arguments.language}
+    sheet_only = {"--every": arguments.every, "--columns": arguments.columns}
     for option, value in sheet_only.items():
         if value is not None and kind != "sheet":
             raise UsageError("picture.film_option", option=option, needs="--sheet")
@@ -281,7 +266,7 @@ def _mp4(film: _Film, stop_requested: StopRequested) -> Iterator[PictureWriter]:
                 span.first_frame_s,
                 span.end_s,
                 SOUND_RATE_HZ,
-                lambda share: progress(share, "sound"),
+                lambda share: progress(share, said("drawing.sound")),
                 stop_requested,
             )
         finally:
@@ -303,7 +288,7 @@ def _sheet(film: _Film, stop_requested: StopRequested) -> Iterator[PictureWriter
     from app.export.pictures import sheet_into
     from widgets.viewport.offscreen import captions
 
-    texts = caption_texts(film.performance, film.times_s, film.arguments.language or "en")
+    texts = caption_texts(film.performance, film.times_s, spoken().language)
     strips = captions(texts, film.size[0], film.arguments.theme)
     with sheet_into(film.path, film.size, film.columns, strips) as sheet:
         yield sheet

@@ -10,14 +10,15 @@ from typing import TypeAlias
 
 import numpy as np
 
+from app.cli.commands import add_pitch_options
 from app.cli.inspect_tables import Table, tables
 from app.cli.options import add_ignored_option, add_rate_option, add_source_options, add_title_option, open_project
 from app.cli.progress import find_holds
+from app.cli.speech import ENGLISH, Speech, spoken
 from app.cli.status import report_left_out
 from app.cli.terminal import say, say_json
 from app.encoding import shown
 from app.errors import Message
-from app.messages import text
 from app.performance.cast import attempt
 from app.performance.ensemble import Performance
 from app.performance.fact_sources import breath_source, note_sources, tempo_source
@@ -59,6 +60,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     add_rate_option(command)
     add_ignored_option(command)
     command.add_argument("--json", action="store_true")
+    add_pitch_options(command)
     contacts = command.add_mutually_exclusive_group()
     contacts.add_argument("--no-contacts", action="store_true")
     contacts.add_argument("--all-contacts", action="store_true")
@@ -81,6 +83,7 @@ def _inspect(arguments: argparse.Namespace) -> int:
         find_holds(performance, performance.project.players)
     found = inspection(
         performance,
+        speech=ENGLISH if arguments.json else spoken(),
         contacts=not arguments.no_contacts,
         without_limit=arguments.all_contacts,
         with_ignored=arguments.ignored,
@@ -89,11 +92,17 @@ def _inspect(arguments: argparse.Namespace) -> int:
         say_json(found)
     else:
         say(*tables(shown(arguments.file.name), found))
-    return report_left_out((one["player"], one["reason"]) for one in found["left_out"])
+    left_out = attempt(performance.project.players, performance.instrument).left_out
+    return report_left_out((one.player.name, spoken()(one.reason)) for one in left_out)
 
 
 def inspection(
-    performance: Performance, *, contacts: bool = True, without_limit: bool = False, with_ignored: bool = False
+    performance: Performance,
+    *,
+    contacts: bool = True,
+    without_limit: bool = False,
+    with_ignored: bool = False,
+    speech: Speech = ENGLISH,
 ) -> Table:
     """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0.
 
@@ -105,6 +114,8 @@ def inspection(
         Whether it is of every player at the usual rate, however long that takes.
     with_ignored : bool
         Whether ignored problems are among the warnings.
+    speech : Speech
+        Words reasons and names keys and pitches; that of JSON is `ENGLISH`.
     """
     project = performance.project
     score = project.score
@@ -116,24 +127,24 @@ def inspection(
     else:
         problems, notice = {player.id: performance.problems(player.id) for player in project.players}, None
     reported = [
-        (player, *reported_lines(performance, player, problems[player.id], text, with_ignored))
+        (player, *reported_lines(performance, player, problems[player.id], speech, with_ignored))
         for player in project.players
         if player.id not in absent
     ]
     return {
         **_piece(performance),
         "warnings": [
-            *(text(message) for message in score.warnings),
-            *([] if notice is None else [text(notice)]),
+            *(speech(message) for message in score.warnings),
+            *([] if notice is None else [speech(notice)]),
             *(f"{player.name}: {line}" for player, lines, _ in reported for line in lines),
         ],
         "ignored_problems": sum(ignored for _, _, ignored in reported),
         "unplayed": [
-            {"name": part.name, "reason": text(part.reason), "note_count": part.note_count} for part in score.unplayed
+            {"name": part.name, "reason": speech(part.reason), "note_count": part.note_count} for part in score.unplayed
         ],
-        "left_out": [{"player": one.player.name, "reason": text(one.reason)} for one in playable.left_out],
+        "left_out": [{"player": one.player.name, "reason": speech(one.reason)} for one in playable.left_out],
         "players": [
-            _player(performance, player, playable.made[player.id])
+            _player(performance, player, playable.made[player.id], speech)
             for player in project.players
             if player.id not in absent
         ],
@@ -186,8 +197,8 @@ class _Reasons:
     """Reasons as sentences that name notes by pitch, bar and beat, and keys by their names; many events have an equal
     one."""
 
-    def __init__(self, score: Score, part_id: str, instrument: InstrumentMap) -> None:
-        self._score, self._part_id, self._instrument = score, part_id, instrument
+    def __init__(self, score: Score, part_id: str, instrument: InstrumentMap, speech: Speech) -> None:
+        self._score, self._part_id, self._instrument, self._speech = score, part_id, instrument, speech
         self._known: dict[int, tuple[Message, str]] = {}
         self._equal: dict[tuple[str, str], str] = {}
 
@@ -201,19 +212,20 @@ class _Reasons:
         key = message.id, repr(message.arguments)
         sentence = self._equal.get(key)
         if sentence is None:
-            sentence = self._equal[key] = text(with_names(message, self._score, text, self._part_id, self._instrument))
+            named = with_names(message, self._score, self._speech, self._part_id, self._instrument)
+            sentence = self._equal[key] = self._speech(named)
         return sentence
 
 
-def _player(performance: Performance, player: Player, instrument: InstrumentMap) -> Table:
+def _player(performance: Performance, player: Player, instrument: InstrumentMap, speech: Speech) -> Table:
     plan = performance.plan(player)
     clock = performance.piece.clock
     part = performance.project.part(player)
-    reason = _Reasons(performance.project.score, part.id, instrument)
+    reason = _Reasons(performance.project.score, part.id, instrument, speech)
     fingerings = {event.note_id: event for event in plan.fingerings}
     played = [note for note in part.notes if note.id in fingerings]
     labels = {event.label for event in plan.fingerings}
-    keys = {label: fingering_words(instrument, label, "en") for label in labels}
+    keys = {label: fingering_words(instrument, label, speech.language) for label in labels}
     loudness = {event.note_id: event.air for event in plan.embouchures}
     marks, blown = performance.marks(player), controller_input(part)
     tongues = {event.note_id: event for event in plan.tongues}

@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from app.cli.summary import columns
+from app.cli.commands import add_actions, add_pitch_options
+from app.cli.speech import said, sentence, spoken
+from app.cli.summary import columns, heads
 from app.cli.terminal import say
-from app.encoding import shown
 from app.errors import AppError
-from app.messages import text
-from app.messages.pitches import pitch_name
 
 
 class InvalidMapError(AppError):
@@ -20,14 +19,14 @@ class InvalidMapError(AppError):
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
     command.set_defaults(run=list_maps)
-    actions = command.add_subparsers(title="actions", metavar="ACTION")
-    scale = actions.add_parser("scale", help="print the fingerings of an instrument in a chromatic scale of its range")
+    add_pitch_options(command)
+    actions = add_actions(command)
+    scale = actions.add_parser("scale", help="")
     scale.add_argument("id", metavar="ID")
     scale.add_argument("--first", action="store_true")
+    add_pitch_options(scale)
     scale.set_defaults(run=print_scale)
-    check = actions.add_parser(
-        "check", help="validate a map: says the line of a syntax error, else the key path that is wrong"
-    )
+    check = actions.add_parser("check", help="")
     check.add_argument("file", type=Path, metavar="FILE")
     check.set_defaults(run=check_map)
 
@@ -37,22 +36,22 @@ def list_maps(arguments: argparse.Namespace) -> None:
     what is wrong in it."""
     from instrument_maps.library import library
 
-    known = library()
+    known, speech = library(), spoken()
     rows = [
         (
             f"{instrument.id}{'*' if instrument.id in known.own else ''}",
-            instrument.name.en,
-            f"{pitch_name(instrument.range.low)} - {pitch_name(instrument.range.high)}",
+            speech.name(instrument.name),
+            f"{speech.pitch(instrument.range.low)} - {speech.pitch(instrument.range.high)}",
             transposition(instrument.transposition_semitones),
             ", ".join(control.label or control.name for control in instrument.controls),
         )
         for instrument in known.in_score_order
     ]
-    say(*columns([("id", "name", "sounds", "written", "controls"), *rows], of_numbers=False))
-    say("", f"your own (*): {shown(known.folder)}")
+    say(*columns([heads("instruments.heads"), *rows], of_numbers=False))
+    say("", said("cli.own_folder", folder=str(known.folder)))
     for problems in known.problems.values():
         for problem in problems:
-            say(f"  {text(problem)}")
+            say(f"  {sentence(problem)}")
 
 
 def print_scale(arguments: argparse.Namespace) -> None:
@@ -69,22 +68,22 @@ def print_scale(arguments: argparse.Namespace) -> None:
             first = fingering.rank == 1
             rows.append(
                 (
-                    pitch_name(pitch) if first else "",
-                    pitch_name(fingering.written_pitch) if first else "",
+                    spoken().pitch(pitch) if first else "",
+                    spoken().pitch(fingering.written_pitch) if first else "",
                     str(fingering.rank),
                     fingering.label,
                     f"{fingering.cents:+.0f}" if round(fingering.cents) else "",
                     ", ".join(fingering.tags),
-                    *([fingering_words(instrument, fingering.label, "en")] if words else []),
+                    *([fingering_words(instrument, fingering.label, spoken().language)] if words else []),
                 )
             )
-    head = ("sounds", "written", "rank", "fingering", "cents", "for", *(["keys"] if words else []))
-    say(*columns([head, *rows], of_numbers=False))
+    titles = heads("instruments.scale_heads")
+    say(*columns([titles if words else titles[:-1], *rows], of_numbers=False))
 
 
 def transposition(semitones: int) -> str:
     """Interval between written and sounding pitch: ``"+2"``, ``"as it sounds"``."""
-    return f"{semitones:+d}" if semitones else "as it sounds"
+    return f"{semitones:+d}" if semitones else said("instruments.as_it_sounds")
 
 
 def check_map(arguments: argparse.Namespace) -> None:
@@ -99,7 +98,7 @@ def check_map(arguments: argparse.Namespace) -> None:
 
     problems = problems_of(arguments.file)
     for problem in problems:
-        say(text(problem))
+        say(sentence(problem))
     if problems:
         raise InvalidMapError("instruments.invalid", file=arguments.file.name, count=len(problems))
-    say(f"{shown(arguments.file.name)}: valid")
+    say(said("cli.valid", file=arguments.file.name))

@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from app.cli.summary import columns
+from app.cli.speech import said, sentence, spoken
+from app.cli.summary import columns, heads
 from app.cli.terminal import say, warn
 from app.encoding import shown
 from app.errors import AppError, Message, UsageError
-from app.messages import text
 
 if TYPE_CHECKING:
     from metadata.rules import Rule
@@ -64,21 +64,22 @@ def list_all() -> None:
 
     library = metadata_library()
     strange = {name: _unknown_names(library.rules.items[name].rules) for name in library.rules.files}
-    rows = [("kind", "name", "is")]
+    name_of = spoken().name
+    rows = [heads("metadata.heads")]
     shelves: tuple[Shelf[Any], ...] = library
     for folder, shelf in zip(FOLDERS, shelves, strict=True):
         for name, item in sorted(shelf.items.items()):
             title = getattr(item, "title", None)
-            said = item.description if title is None else f"{title.en}: {item.description.en}"
-            rows.append((folder.name, f"{name}{'*' if name in shelf.files else ''}", said))
-    say(*columns(rows, of_numbers=False), "", "your own (*):")
+            described = item.description if title is None else f"{name_of(title)}: {name_of(item.description)}"
+            rows.append((folder.name, f"{name}{'*' if name in shelf.files else ''}", described))
+    say(*columns(rows, of_numbers=False), "", said("cli.own_folders"))
     for shelf in shelves:
         say(f"  {shown(shelf.folder)}")
         for problems in shelf.problems.values():
-            say(*(f"    {text(problem)}" for problem in problems))
+            say(*(f"    {sentence(problem)}" for problem in problems))
         if shelf is library.rules:
             for name, unknown in strange.items():
-                say(*(f"    rules/{shown(name)}.toml: {text(message)}" for message in unknown))
+                say(*(f"    rules/{shown(name)}.toml: {sentence(message)}" for message in unknown))
 
 
 def check(file: Path) -> None:
@@ -101,7 +102,7 @@ def check(file: Path) -> None:
     unknown = _unknown_names(found.rules) if isinstance(found, RuleSet) else []
     if unknown:
         raise InvalidMetadataError(unknown[0].id, **unknown[0].arguments)
-    say(f"{shown(file.name)}: valid")
+    say(said("cli.valid", file=file.name))
 
 
 def _unknown_names(rules: Iterable[Rule]) -> list[Message]:
@@ -117,8 +118,8 @@ def _unknown_names(rules: Iterable[Rule]) -> list[Message]:
             ("style", (*rule.when.styles, *rule.when.not_styles), library.styles.items),
             ("habit", rule.when.habits, library.habits.items),
         ):
-            said = {"rule": rule.name, "known": ", ".join(sorted(known))}
-            found += [Message(f"rule.unknown_{kind}", {**said, "name": name}) for name in names if name not in known]
+            where = {"rule": rule.name, "known": ", ".join(sorted(known))}
+            found += [Message(f"rule.unknown_{kind}", {**where, "name": name}) for name in names if name not in known]
     return found
 
 
@@ -128,7 +129,7 @@ def save(piece: Path, file: Path) -> None:
     from app.project.storage import load
 
     save_metadata(metadata_of(load(piece)), file)
-    say(f"{shown(file)}: written")
+    say(said("cli.written", file=str(file)))
 
 
 def load(piece: Path, file: Path) -> None:
@@ -139,9 +140,9 @@ def load(piece: Path, file: Path) -> None:
 
     project, problems = with_metadata(opened(piece), load_metadata(file))
     for problem in problems:
-        warn(text(problem))
+        warn(sentence(problem))
     written(project, piece)
-    say(f"{shown(piece)}: written")
+    say(said("cli.written", file=str(piece)))
 
 
 def diff(piece: Path, file: Path) -> None:
@@ -154,4 +155,4 @@ def diff(piece: Path, file: Path) -> None:
         say(f"{place}: {one or '-'} -> {other or '-'}")
     if found:
         raise InvalidMetadataError("metadata.differ", piece=piece.name, file=file.name, count=len(found))
-    say(f"{shown(piece.name)} and {shown(file.name)} are the same")
+    say(said("metadata.no_difference", piece=piece.name, file=file.name))

@@ -6,9 +6,9 @@ import argparse
 from pathlib import Path
 
 from app.cli.options import add_file_options, add_title_option, open_project
+from app.cli.speech import said, sentence
 from app.cli.terminal import say, warn
 from app.errors import FileError
-from app.messages import filled, text
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
@@ -28,16 +28,11 @@ def write(arguments: argparse.Namespace) -> None:
     if _same(arguments.to, arguments.file):
         raise FileError("midi.onto_itself", file=str(arguments.to))
     for warning in export_midi(project, arguments.to, library().maps):
-        warn(text(warning))
+        warn(sentence(warning))
     notes = sum(len(part.notes) for part in project.score.parts)
     hits = len(project.score.percussion)
-    say(
-        filled(
-            "{file}: {tracks} {tracks:track|tracks}, {notes} {notes:note|notes}"
-            + (", {hits} percussion {hits:hit|hits}" if hits else ""),
-            {"file": arguments.to, "tracks": len(project.score.parts) + (hits > 0), "notes": notes, "hits": hits},
-        )
-    )
+    counts = {"tracks": len(project.score.parts) + (hits > 0), "notes": notes, "hits": hits}
+    say(said("midi.file_written_with_hits" if hits else "midi.file_written", file=str(arguments.to), **counts))
 
 
 def _same(one: Path, other: Path) -> bool:

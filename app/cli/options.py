@@ -10,11 +10,12 @@ from typing import Final, TypeVar
 
 import msgspec
 
+from app.cli.commands import fill_help
 from app.cli.part_instruments import assign_message, unassigned_parts, with_instruments, with_pitches
+from app.cli.speech import said, sentence
 from app.cli.terminal import warn
 from app.encoding import is_encoding, shown
 from app.errors import FileError, Message, UsageError
-from app.messages import text as worded
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
 from app.project.casting import ConductorPlace, conductor_place
@@ -37,15 +38,15 @@ _MOST_SHOWN = 40
 N = TypeVar("N", int, float, Fraction)
 
 
-def bounded_number(least: N, most: N, what: str, parse: Callable[[str], N]) -> Callable[[str], N]:
+def bounded_number(least: N, most: N, quantity: str, parse: Callable[[str], N]) -> Callable[[str], N]:
     """The type of an option that takes a number: every numeric option has one of these.
 
     Parameters
     ----------
     least, most : number
         Both allowed. Not-a-number and infinity never are.
-    what : str
-        What the number is, for the error: "a number of seconds".
+    quantity : str
+        Id of what the number is, for the error: "a number of seconds".
     parse : callable
         `int`, `float` or `exact_number`; raises ValueError for what is no number.
 
@@ -63,11 +64,16 @@ def bounded_number(least: N, most: N, what: str, parse: Callable[[str], N]) -> C
         except (ValueError, ZeroDivisionError, OverflowError):
             possible = False
         if not possible:
-            shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
-            raise argparse.ArgumentTypeError(f"{shown!r} is not {what} from {_plain(least)} to {_plain(most)}")
+            bounds = {"least": _plain(least), "most": _plain(most)}
+            raise argparse.ArgumentTypeError(said("cli.no_number", typed=_cut(text), quantity=said(quantity), **bounds))
         return value
 
     return parsed
+
+
+def _cut(typed: str) -> str:
+    """The beginning of what was typed, for an error that repeats it."""
+    return typed if len(typed) <= _MOST_SHOWN else f"{typed[:_MOST_SHOWN]}..."
 
 
 def _plain(number: float | Fraction) -> str:
@@ -78,20 +84,20 @@ def _plain(number: float | Fraction) -> str:
 LONGEST_S: Final = 24 * 3600.0
 """A day: no piece and no recording is longer."""
 
-frame_rate = bounded_number(*limits.FPS, "a number of frames per second such as 24, 29.97 or 30000/1001", typed_rate)
-whole_number = bounded_number(0, 2**63 - 1, "a whole number", int)
-beats = bounded_number(*limits.PREROLL_BEATS, "a number of beats", float)
-section_intensity = bounded_number(*limits.SECTION_INTENSITY, "a multiplier", float)
+frame_rate = bounded_number(*limits.FPS, "quantity.frame_rate", typed_rate)
+whole_number = bounded_number(0, 2**63 - 1, "quantity.whole_number", int)
+beats = bounded_number(*limits.PREROLL_BEATS, "quantity.beats", float)
+section_intensity = bounded_number(*limits.SECTION_INTENSITY, "quantity.multiplier", float)
 _felt_quarters = bounded_number(
     *limits.FELT_BEAT_QUARTERS,
-    "auto or a length in quarters such as 1, 1.5 or 1/2",
+    "quantity.felt_beat",
     lambda text: float(exact_number(text)),
 )
-_stage_m = bounded_number(*limits.STAGE_M, "a number of metres", float)
+_stage_m = bounded_number(*limits.STAGE_M, "quantity.metres", float)
 AUTOMATIC: Final = "auto"
 NO_CONDUCTOR: Final = "none"
 USUAL_CONDUCTOR: Final = "usual"
-seconds = bounded_number(-LONGEST_S, LONGEST_S, "a number of seconds", float)
+seconds = bounded_number(-LONGEST_S, LONGEST_S, "quantity.seconds", float)
 """Seconds of the performance; negative before the first beat."""
 
 
@@ -102,13 +108,11 @@ def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callabl
         width, _, height = text.partition("x")
         # No more digits than `int` reads at once.
         if not all(side.isascii() and side.isdecimal() and len(side) <= _MOST_SHOWN for side in (width, height)):
-            shown = text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
-            raise argparse.ArgumentTypeError(f"{shown!r} is not a size such as 1600x1000")
+            raise argparse.ArgumentTypeError(said("cli.no_size", typed=_cut(text)))
         result = int(width), int(height)
         if not all(least <= value <= most for least, value, most in zip(least_px, result, most_px, strict=True)):
-            raise argparse.ArgumentTypeError(
-                f"{text!r} is not between {least_px[0]}x{least_px[1]} and {most_px[0]}x{most_px[1]}"
-            )
+            bounds = {"least": f"{least_px[0]}x{least_px[1]}", "most": f"{most_px[0]}x{most_px[1]}"}
+            raise argparse.ArgumentTypeError(said("cli.size_outside", typed=text, **bounds))
         return result
 
     return parsed
@@ -121,25 +125,25 @@ def felt_beat(text: str) -> float | str:
 
 def conductor(text: str) -> ConductorPlace | str:
     """A place on the stage, `USUAL_CONDUCTOR` or `NO_CONDUCTOR`."""
-    said = text.strip().casefold()
-    if said in (NO_CONDUCTOR, USUAL_CONDUCTOR):
-        return said
-    x, comma, z = said.partition(",")
+    place = text.strip().casefold()
+    if place in (NO_CONDUCTOR, USUAL_CONDUCTOR):
+        return place
+    x, comma, z = place.partition(",")
     if not comma:
-        raise argparse.ArgumentTypeError(f"{text[:_MOST_SHOWN]!r} is not a place such as 0,1.5, nor usual, nor none")
+        raise argparse.ArgumentTypeError(said("cli.no_place", typed=_cut(text)))
     return ConductorPlace(_stage_m(x), _stage_m(z), on_stage=True)
 
 
 def text_encoding(text: str) -> str:
     """The name of an encoding that turns bytes into text."""
     if not is_encoding(text):
-        raise argparse.ArgumentTypeError(f"{text!r} is not the name of a text encoding")
+        raise argparse.ArgumentTypeError(said("cli.no_encoding", typed=text))
     return text
 
 
-def add_players_option(command: argparse.ArgumentParser, help: str) -> None:
+def add_players_option(command: argparse.ArgumentParser) -> None:
     """Declare the option for players."""
-    command.add_argument("--player", dest="players", action="append", default=[], metavar="NAME", help=help)
+    command.add_argument("--player", dest="players", action="append", default=[], metavar="NAME")
 
 
 def add_file_options(command: argparse.ArgumentParser) -> None:
@@ -157,23 +161,13 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
 def add_source_options(command: argparse.ArgumentParser) -> None:
     """Declare the file and everything that decides what its players do."""
     add_file_options(command)
-    command.add_argument(
-        "--set",
-        dest="settings",
-        action="append",
-        default=[],
-        metavar='"PLAYER.parameter=value"',
-        help=f"set a player's parameter; PLAYER may be a pattern such as '*'; repeatable. "
-        f"Parameters: {', '.join(parameter_names())}",
+    settings = command.add_argument(
+        "--set", dest="settings", action="append", default=[], metavar='"PLAYER.parameter=value"'
     )
+    fill_help(settings, parameters=", ".join(parameter_names()))
     command.add_argument("--seed", type=whole_number, metavar="N")
-    command.add_argument(
-        "--preroll",
-        type=beats,
-        metavar="BEATS",
-        help=f"beats before the first note, at least {PREROLL_LEAST_S:g} s (default: the project's; of a MIDI file or "
-        f"score {PREROLL_BEATS:g}, or as many as take {COME_UP_S:g} s)",
-    )
+    preroll = command.add_argument("--preroll", type=beats, metavar="BEATS")
+    fill_help(preroll, least_s=f"{PREROLL_LEAST_S:g}", usual=f"{PREROLL_BEATS:g}", come_up_s=f"{COME_UP_S:g}")
     command.add_argument("--felt-beat", type=felt_beat, metavar="QUARTERS")
     command.add_argument("--section-intensity", type=section_intensity, metavar="TIMES")
     command.add_argument("--conductor", type=conductor, metavar="PLACE")
@@ -186,9 +180,7 @@ def add_ignored_option(command: argparse.ArgumentParser) -> None:
 
 def add_title_option(command: argparse.ArgumentParser) -> None:
     """Declare the title, for commands whose result has one."""
-    command.add_argument(
-        "--title", metavar="TEXT", help=f"of the piece, at most {limits.MOST_NAME} characters (default: the file's)"
-    )
+    fill_help(command.add_argument("--title", metavar="TEXT"), most=limits.MOST_NAME)
 
 
 def add_rate_option(command: argparse.ArgumentParser) -> None:
@@ -216,15 +208,15 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     known = library()
     maps = known.maps
     for problems in known.problems.values():
-        warn(worded(problems[0]))
+        warn(sentence(problems[0]))
     for problems in metadata_library().problems.values():
-        warn(worded(problems[0]))
+        warn(sentence(problems[0]))
     project, message = _opened(arguments, maps)
     if if_empty and not project.performers:
         refused = message or Message(if_empty, {"file": shown(arguments.file)})
         raise FileError(refused.id, **refused.arguments)
     if message is not None:
-        warn(worded(message))
+        warn(sentence(message))
     settings = parse_settings(
         arguments.settings, [player.name for player in project.players], maps, tuple(characters())
     )

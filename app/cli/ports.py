@@ -11,9 +11,10 @@ from typing import Final, Self
 
 from app.capture.link import RecorderLink
 from app.capture.protocol import News, Ports, RequestRefused
+from app.cli.speech import said, spoken
 from app.cli.terminal import say, say_json
+from app.cli.widths import on_left, width
 from app.errors import AppError, Message
-from app.messages import text
 from metadata.load import recognised_controller
 
 _ANSWER_WITHIN_S: Final = 15.0
@@ -82,13 +83,13 @@ def list_ports(arguments: argparse.Namespace) -> None:
         say_json({"system": ports.system, "inputs": inputs, "outputs": ports.outputs})
         return
     if not ports.inputs:
-        say(text(Message("capture.no_ports")))
+        say(said("capture.no_ports"))
     else:
-        width = max(map(len, ports.inputs))
-        say("to record from:")
+        wide = max(map(width, ports.inputs))
+        say(said("ports.inputs"))
         for name, controller in taken_for.items():
-            say(f"  {name.ljust(width)}  {controller.title.en}")
+            say(f"  {on_left(name, wide)}  {spoken().name(controller.title)}")
     if ports.outputs:
-        say("to send to:")
+        say(said("ports.outputs"))
         for name in ports.outputs:
             say(f"  {name}")

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from app.performance.ensemble import Performance
     from app.project.performers import Player
 
+from app.cli.speech import said
+from app.cli.widths import cut, on_left, width
 from app.encoding import shown
 
 
@@ -35,15 +37,15 @@ class Progress:
         if not self._active or (now_s - self._last_s < 0.1 and fraction < 1.0):
             return
         self._last_s = now_s
-        line = f"{round(100 * min(max(fraction, 0.0), 1.0)):3d} %  {shown(label)}"[:78]
-        self._stream.write(f"\r{line.ljust(len(self._shown))}")
+        line = cut(f"{round(100 * min(max(fraction, 0.0), 1.0)):3d} %  {shown(label)}", 78)
+        self._stream.write(f"\r{on_left(line, width(self._shown))}")
         self._stream.flush()
         self._shown = line
 
     def clear(self) -> None:
         """Take the line away."""
         if self._shown:
-            self._stream.write(f"\r{' ' * len(self._shown)}\r")
+            self._stream.write(f"\r{' ' * width(self._shown)}\r")
             self._stream.flush()
             self._shown = ""
 
@@ -53,6 +55,6 @@ def find_holds(performance: Performance, players: Iterable[Player]) -> None:
     for an instrument that can hardly be held: progress is shown on standard error."""
     progress = Progress(sys.stderr)
     try:
-        performance.hold(progress=lambda share: progress(share, "how the instruments are held"), players=players)
+        performance.hold(progress=lambda share: progress(share, said("cli.finding_grips")), players=players)
     finally:
         progress.clear()

@@ -27,14 +27,14 @@ from app.capture.protocol import (
     RequestRefused,
     Restarted,
 )
+from app.cli.commands import fill_help
 from app.cli.options import LONGEST_S, bounded_number
 from app.cli.ports import NoDevice, PortMonitor
+from app.cli.speech import error_sentence, said, sentence
 from app.cli.status import DONE, PARTIAL
 from app.cli.terminal import count, say, warn
-from app.encoding import shown
-from app.errors import AppError, Argument, FileError, Message, UsageError
+from app.errors import AppError, FileError, UsageError
 from app.formats.locks import is_locked
-from app.messages import text
 from app.project.journals import second_folder
 from app.score.write_take import write_take
 from metadata.load import recognised_controller
@@ -44,9 +44,9 @@ _LEAD_S: Final = 0.2
 _BEATS_IN_BAR: Final = 4
 _USUAL_TEMPO: Final = 120.0
 
-_seconds = bounded_number(0.1, LONGEST_S, "a number of seconds", float)
-_tempo = bounded_number(20.0, 400.0, "a number of beats in a minute", float)
-_bars = bounded_number(0, 16, "a whole number of bars", int)
+_seconds = bounded_number(0.1, LONGEST_S, "quantity.seconds", float)
+_tempo = bounded_number(20.0, 400.0, "quantity.tempo", float)
+_bars = bounded_number(0, 16, "quantity.bars", int)
 
 
 class RecordError(AppError):
@@ -59,13 +59,8 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid")
     command.add_argument("--seconds", type=_seconds, metavar="S")
     command.add_argument("--count-in", type=_bars, default=0, metavar="BARS")
-    command.add_argument(
-        "--tempo",
-        type=_tempo,
-        default=_USUAL_TEMPO,
-        metavar="BPM",
-        help=f"of the count-in and of the file, quarters in a minute (default: {_USUAL_TEMPO:g})",
-    )
+    tempo = command.add_argument("--tempo", type=_tempo, default=_USUAL_TEMPO, metavar="BPM")
+    fill_help(tempo, usual=f"{_USUAL_TEMPO:g}")
     command.add_argument("--rescue", action="store_true")
     command.set_defaults(run=record)
 
@@ -128,7 +123,7 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
             with contextlib.suppress(KeyboardInterrupt):
                 _count_in(listening, arguments.count_in, arguments.tempo, begin_ns, moved)
                 length_s = LONGEST_S if arguments.seconds is None else arguments.seconds
-                warn("recording" if arguments.seconds else "recording; Ctrl+C ends it")
+                warn(said("record.begun" if arguments.seconds else "record.begun_until_stopped"))
                 _report_until(listening, _monotonic_s(begin_ns) + length_s, moved)
         finally:
             now_ns = time.perf_counter_ns()
@@ -147,8 +142,8 @@ class _Moves:
     def follow(self, reported: Moved) -> None:
         """It goes on there."""
         former, self.journal = self.journal, Path(os.fsdecode(reported.path))
-        said: dict[str, Argument] = {"file": str(former), "reason": reported.reason, "journal": str(self.journal)}
-        warn(text(Message("record.goes_on_elsewhere", said)))
+        files = {"file": str(former), "journal": str(self.journal)}
+        warn(said("record.goes_on_elsewhere", reason=reported.reason, **files))
 
 
 def _open(listening: PortMonitor, requested: str) -> str:
@@ -195,11 +190,11 @@ def _report_until(listening: PortMonitor, end_s: float, moves: _Moves) -> None:
             case Moved():
                 moves.follow(reported)
             case Lost(port=port):
-                warn(f"{port} is gone; recording goes on when it comes back")
+                warn(said("record.port_gone", port=port))
             case Back(port=port):
-                warn(f"{port} is back")
+                warn(said("record.port_back", port=port))
             case RequestRefused(reason=reason) | Restarted(reason=reason):
-                warn(text(reason))
+                warn(sentence(reason))
 
 
 def _finished(listening: PortMonitor, moves: _Moves) -> None:
@@ -207,7 +202,7 @@ def _finished(listening: PortMonitor, moves: _Moves) -> None:
         if isinstance(reported, Moved):
             moves.follow(reported)
         if isinstance(reported, RequestRefused):
-            warn(text(reported.reason))
+            warn(sentence(reported.reason))
         if isinstance(reported, RecordingFinished):
             return
 
@@ -230,20 +225,19 @@ def _write(target: Path, path: Path, tempo: float) -> int:
         )
         path.unlink()
         length_s = max(end_us, take.times_us[-1], 0) / 1e6
-        say(f"{shown(file)}: {notes} {'note' if notes == 1 else 'notes'} in {length_s:.1f} s")
+        say(said("record.written", file=str(file), notes=notes, seconds=length_s))
 
     try:
         written(target)
     except FileError as error:
-        reason = error.message.arguments.get("reason", text(error.message))
+        reason = error.message.arguments.get("reason", error_sentence(error))
         elsewhere = _beside_none(second_place(target), target.name)
         try:
             written(elsewhere)
         except FileError:
             kept = path.name if path.parent == target.parent else str(path)
             raise RecordError("record.not_written", file=str(target), reason=reason, journal=kept) from error
-        said = {"file": str(target), "reason": reason, "elsewhere": str(elsewhere)}
-        warn(text(Message("record.written_elsewhere", said)))
+        warn(said("record.written_elsewhere", file=str(target), reason=reason, elsewhere=str(elsewhere)))
         return PARTIAL
     return DONE
 

@@ -6,9 +6,8 @@ import signal
 from collections.abc import Iterable
 from typing import Final
 
+from app.cli.speech import said
 from app.cli.terminal import warn
-from app.errors import Message
-from app.messages import text
 
 DONE: Final = 0
 BAD_INPUT: Final = 1
@@ -26,6 +25,6 @@ def report_left_out(left_out: Iterable[tuple[str, str]]) -> int:
     """Name the excluded players with the reasons, a line for each on stderr; the exit status."""
     status = DONE
     for player, reason in left_out:
-        warn(text(Message("player.left_out", {"player": player, "reason": reason})))
+        warn(said("player.left_out", player=player, reason=reason))
         status = PARTIAL
     return status

@@ -8,6 +8,7 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
+from app.cli.commands import add_pitch_options
 from app.cli.options import (
     add_ignored_option,
     add_players_option,
@@ -18,11 +19,11 @@ from app.cli.options import (
     seconds,
 )
 from app.cli.progress import Progress, find_holds
+from app.cli.speech import said, sentence
 from app.cli.status import report_left_out
 from app.cli.summary import look_at
 from app.cli.terminal import say
 from app.errors import UsageError
-from app.messages import text
 from app.project.frame_rate import USUAL_RATE
 from app.project.parameters import select_players
 from app.project.performers import Dancer, Player
@@ -55,29 +56,23 @@ _REPORT_S: Final = 1.0
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
     add_source_options(command)
-    add_players_option(command, "only this player or dancer; repeatable (default: all, each on a port of their own)")
-    command.add_argument(
-        "--host", type=_host, default=LOOPBACK, help=f"name or address of a computer (default: {LOOPBACK})"
-    )
+    add_players_option(command)
+    command.add_argument("--host", type=_host, default=LOOPBACK)
     command.add_argument("--broadcast", action="store_true")
-    command.add_argument(
-        "--port",
-        type=bounded_number(LEAST_PORT, MOST_PORT, "a port", int),
-        default=PORT,
-        help=f"of the first performer (default: {PORT})",
-    )
+    command.add_argument("--port", type=bounded_number(LEAST_PORT, MOST_PORT, "quantity.port", int), default=PORT)
     command.add_argument("--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE")
     command.add_argument("--faces", choices=FACE_NAMES, default="arkit")
     command.add_argument("--from", dest="from_s", type=seconds, metavar="S")
     add_ignored_option(command)
     command.add_argument("--loop", action="store_true")
+    add_pitch_options(command)
     command.set_defaults(run=stream)
 
 
 def _host(text: str) -> str:
     """A computer's name or address."""
     if not text.strip():
-        raise argparse.ArgumentTypeError("the name or address of a computer is missing")
+        raise argparse.ArgumentTypeError(said("cli.no_host"))
     return text.strip()
 
 
@@ -115,8 +110,8 @@ def stream(arguments: argparse.Namespace) -> int:
     made: dict[str, Performer | Dancing] = {**playing.made, **dancing.made}
     left_out = playing.left_out + dancing.left_out
     if not made:
-        require_players(left_out, str(arguments.file), text)
-    status = report_left_out((one.player.name, text(one.reason)) for one in left_out)
+        require_players(left_out, str(arguments.file), sentence)
+    status = report_left_out((one.player.name, sentence(one.reason)) for one in left_out)
     # An excluded player keeps its port, so that the ports of the others never change.
     ports = {one.id: arguments.port + place for place, one in enumerate(chosen)}
     sent = [one for one in chosen if one.id in made]
@@ -132,10 +127,10 @@ def stream(arguments: argparse.Namespace) -> int:
         for one, sender in zip(sent, senders, strict=True):
             say(f"{one.name}: {arguments.host}:{sender.address.at[1]}")
         if not is_loopback(arguments.host):
-            say(f"what is sent leaves this computer, to {arguments.host}", stream=sys.stderr)
+            say(said("stream.leaves", host=arguments.host), stream=sys.stderr)
         _play(cast, senders, span, first, arguments.loop)
     except KeyboardInterrupt:
-        say("stopped")
+        say(said("cli.stream_stopped"))
     finally:
         for sender in senders:
             sender.close()
@@ -194,7 +189,7 @@ class _Streamed:
             played = [(made, self._motion)] if isinstance(made, Performer) else []
             for one, motion in [*played, *zip(beside, self._beside, strict=True)]:
                 found = judged_problems(performance, one, motion)
-                lines, left = reported_lines(performance, one.player, found, text, arguments.ignored)
+                lines, left = reported_lines(performance, one.player, found, sentence, arguments.ignored)
                 self.ignored += left
                 self.warnings += [f"{one.player.name}: {line}" for line in lines]
         finally:
@@ -229,7 +224,7 @@ def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: 
         sent += 1
         if now_s - sounding_s >= _REPORT_S:
             if inaudible and sys.stderr.isatty():
-                say("no receiver there yet", stream=sys.stderr)
+                say(said("stream.no_receiver"), stream=sys.stderr)
             sounding_s, inaudible = now_s, False
         step = max(step + 1, int((time.perf_counter() - began_s) * fps))
-    say(f"{sent} frames in {time.perf_counter() - began_s:.1f} s")
+    say(said("stream.sent", frames=sent, seconds=time.perf_counter() - began_s))

@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Final
 
+from app.cli.speech import said, sentence
+from app.cli.widths import on_left, on_right, width
 from app.contacts.bounds import GRIP_MM, TOUCH_MM, Spread
 from app.encoding import shown
-from app.errors import Message
 from app.export.measure import PlayerMeasures
 from app.export.report import (
     BONES_BOUND_MM,
@@ -19,43 +20,35 @@ from app.export.report import (
     Report,
     failures,
 )
-from app.messages import filled, text
 
 if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
     from app.export.unreal.project import UnrealProject
     from app.export.unreal.run import UnrealExport
 
-_DANCE_HEAD = ("dancer", "steps", "standing s", "slide mm/s", "bones mm")
-_HEAD = (
-    "player",
-    "notes",
-    "controls",
-    "fingers mm",
-    "grips mm",
-    "lips mm",
-    "feet mm",
-    "penetration mm",
-    "arms mm",
-    "breaths",
-    "sway",
-)
+_MEASURES, _DANCE_MEASURES = 9, 3
+"""Number of columns behind a player's notes and a dancer's steps."""
 
 
 def summary(report: Report, folder: Path) -> list[str]:
     """The table of measures, what was written, what is not played and what to look at."""
     lines = [
-        filled("{count} {count:file|files} in {folder}: ", {"count": report.file_count, "folder": folder})
-        + f"{report.frames} frames at {report.fps_exact} frames/s; "
-        f"frame 0 is {_from_start(report.first_frame_s)}"
+        said(
+            "export_report.files",
+            count=report.file_count,
+            folder=str(folder),
+            frames=report.frames,
+            fps=report.fps_exact,
+            place=_from_start(report.first_frame_s),
+        )
     ]
     if report.keys == "reduced":
-        lines += [f"reduced keys: {100.0 * share_of_keys(report):.1f} % of those on every frame"]
+        lines += [said("export_report.reduced_keys", share=100.0 * share_of_keys(report))]
     return [*lines, *_judgement(report)]
 
 
 def _from_start(time_s: float) -> str:
-    return f"{-time_s:.3f} s before the piece begins" if time_s < 0.0 else f"{time_s:.3f} s into the piece"
+    return said("export_report.before_piece" if time_s < 0.0 else "export_report.into_piece", seconds=abs(time_s))
 
 
 def share_of_keys(report: Report) -> float:
@@ -67,9 +60,9 @@ def share_of_keys(report: Report) -> float:
 
 
 _SKELETONS: Final[dict[SkeletonChoice, str]] = {
-    "own": "the characters' own",
-    "ue5": "Unreal Engine 5's mannequin",
-    "suisou": "ours",
+    "own": "export_report.skeleton_own",
+    "ue5": "export_report.skeleton_ue5",
+    "suisou": "export_report.skeleton_suisou",
 }
 
 
@@ -82,19 +75,28 @@ def project_summary(written: UnrealExport, project: UnrealProject, skeleton: Ske
         Whether the skeleton was; otherwise it is said how another is.
     """
     plan, report = written.plan, written.report
-    engine = f"Unreal Engine {project.engine}" if project.version is not None else "unknown engine version"
+    known = project.version is not None
+    engine = (
+        said("export_report.engine", version=str(project.engine)) if known else said("export_report.engine_unknown")
+    )
     lines = [
-        f"{shown(project.file)} ({engine}): {report.frames} frames at {report.fps_exact} frames/s; "
-        "the sound starts with the first one",
-        *tree(plan.written, lambda path: " (replaced)" if path in plan.replaced else ""),
+        said(
+            "export_report.project",
+            file=str(project.file),
+            engine=engine,
+            frames=report.frames,
+            fps=report.fps_exact,
+        ),
+        *tree(plan.written, lambda path: said("export_report.replaced") if path in plan.replaced else ""),
     ]
-    other = "" if chosen else " (--skeleton own: the characters' own)"
-    lines += [f"skeleton: {_SKELETONS[skeleton]}{other}"]
-    lines += [f"removed: {path}" for path in plan.removed]
-    lines += [text(message) for message in plan.kept]
     lines += [
-        f"in Unreal: Suisou > Import Performance, or Update Performance; the assets come to {plan.layout.content}"
+        said(
+            "export_report.skeleton" if chosen else "export_report.skeleton_or_own", skeleton=said(_SKELETONS[skeleton])
+        )
     ]
+    lines += [said("export_report.removed", path=str(path)) for path in plan.removed]
+    lines += [sentence(message) for message in plan.kept]
+    lines += [said("export_report.in_unreal", content=str(plan.layout.content))]
     return [*lines, *_judgement(report)]
 
 
@@ -120,24 +122,24 @@ def _judgement(report: Report) -> list[str]:
         played: list[PlayerReport | DoubleReport] = []
         for player in report.players:
             played += [player, *player.doubles]
-        lines += ["", *columns([_HEAD, *map(_row, played)])]
-        lines += [
-            "(greatest distance at any frame of a sounding note, on the meshes read back; arms: depth of forearms in "
-            "trunk and clothes; * beyond its bound)"
-        ]
+        lines += ["", *columns([heads("export_report.heads"), *map(_row, played)])]
+        lines += [said("export_report.measures")]
         for one in played:
             wrong = failures(one)
             if wrong:
                 lines.append(f"! {one.name}: {', '.join(wrong)}")
     if any(dancer.measures is not None for dancer in report.dancers):
-        lines += ["", *columns([_DANCE_HEAD, *(_dance_row(dancer) for dancer in report.dancers)])]
-        lines += ["(feet that stand, and bones, of the files read back; * beyond its bound)"]
-    if report.left_out:
-        lines += ["", "excluded:", *(f"  {one.player}: {one.reason}" for one in report.left_out)]
-    if report.unplayed:
-        lines += ["", "not played:"]
         lines += [
-            f"  {part.name} ({filled('{count} {count:note|notes}', {'count': part.note_count})}): {part.reason}"
+            "",
+            *columns([heads("export_report.dance_heads"), *(_dance_row(dancer) for dancer in report.dancers)]),
+        ]
+        lines += [said("export_report.dance_measures")]
+    if report.left_out:
+        lines += ["", said("export_report.excluded"), *(f"  {one.player}: {one.reason}" for one in report.left_out)]
+    if report.unplayed:
+        lines += ["", said("export_report.not_played")]
+        lines += [
+            f"  {said('export_report.part', name=part.name, count=part.note_count, reason=part.reason)}"
             for part in report.unplayed
         ]
     return [*lines, *look_at(report.warnings, report.ignored_problems)]
@@ -146,20 +148,25 @@ def _judgement(report: Report) -> list[str]:
 def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:
     """Warnings to look at, after an empty line, and the number of ignored problems that are not among them; nothing if
     there are none of either."""
-    lines = ["to look at:", *(f"  {warning}" for warning in warnings)] if warnings else []
+    lines = [said("export_report.look_at"), *(f"  {warning}" for warning in warnings)] if warnings else []
     if ignored:
-        lines.append(f"{text(Message('problem.ignored', {'count': ignored}))} (--ignored)")
+        lines.append(f"{said('problem.ignored', count=ignored)} (--ignored)")
     return ["", *lines] if lines else []
+
+
+def heads(id: str) -> tuple[str, ...]:
+    """Heads of columns, which stand in one text with lines between them."""
+    return tuple(said(id).split("|"))
 
 
 def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True, names: int = 1) -> list[str]:
     """Rows as columns two spaces apart; all but the first ``names`` are ``of_numbers``, on the right of their
     columns."""
     table = [tuple(map(shown, row)) for row in rows]
-    widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
-    placed = [str.ljust] * names + [str.rjust if of_numbers else str.ljust] * (len(widths) - names)
+    widths = [max(width(row[column]) for row in table) for column in range(len(table[0]))]
+    placed = [on_left] * names + [on_right if of_numbers else on_left] * (len(widths) - names)
     return [
-        "  ".join(place(cell, width) for place, cell, width in zip(placed, row, widths, strict=True)).rstrip()
+        "  ".join(place(cell, wide) for place, cell, wide in zip(placed, row, widths, strict=True)).rstrip()
         for row in table
     ]
 
@@ -167,7 +174,7 @@ def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True, names: int
 def _row(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
     measures = player.measures
     if measures is None:
-        return (player.name, str(player.notes), *[""] * (len(_HEAD) - 2))
+        return (player.name, str(player.notes), *[""] * _MEASURES)
     judged = sum(control.judged for control in measures.controls.values())
     right = sum(control.right for control in measures.controls.values())
     correlation = player.sway_correlation if isinstance(player, PlayerReport) else None
@@ -190,7 +197,7 @@ def _row(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
 def _dance_row(dancer: DancerReport) -> tuple[str, ...]:
     measures = dancer.measures
     if measures is None:
-        return (dancer.name, str(dancer.steps), *[""] * (len(_DANCE_HEAD) - 2))
+        return (dancer.name, str(dancer.steps), *[""] * _DANCE_MEASURES)
     return (
         dancer.name,
         str(dancer.steps),

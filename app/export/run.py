@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -39,11 +40,19 @@ _STAGE_WORK = 0.4
 """Share of a player's work for each player and format of the stage."""
 
 
+class WordedReports(NamedTuple):
+    """One report, worded for its file and for who sees it."""
+
+    filed: Report
+    shown: Report
+
+
 def export(
     request: ExportRequest,
     wording: Callable[[Message], str],
     stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share, label: None,
+    shown_in: Callable[[Message], str] | None = None,
 ) -> Report:
     """Write the files of every player asked for who can be exported, and ``report.json``: all of them, or none.
 
@@ -53,6 +62,9 @@ def export(
     wording : callable
         Words a message for the report.
     stop_requested, progress : callable
+    shown_in : callable, optional
+        Words a message for the report that is returned, and for errors, where the language of who sees them is
+        another than that of the file.
 
     Raises
     ------
@@ -63,7 +75,8 @@ def export(
     Cancelled
         ``stop_requested`` said so.
     """
-    return write_cast(request, cast_of(request, wording, stop_requested), wording, stop_requested, progress)
+    cast = cast_of(request, shown_in or wording, stop_requested)
+    return write_cast(request, cast, wording, stop_requested, progress, shown_in).shown
 
 
 def write_cast(
@@ -72,7 +85,8 @@ def write_cast(
     wording: Callable[[Message], str],
     stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share, label: None,
-) -> Report:
+    shown_in: Callable[[Message], str] | None = None,
+) -> WordedReports:
     """`export` of a request's cast."""
     dancers: list[DancerReport] = []
     everyone = len(cast.ids)
@@ -117,10 +131,12 @@ def write_cast(
                 progress((begun + (whole - begun) * share) / whole, label)
 
             stage = write_stage(request, cast, folder, placed)
-        report_value = _report(request, cast, players, tuple(dancers), stage, wording)
+        filed = _report(request, cast, players, tuple(dancers), stage, wording)
         with atomic_write(folder / REPORT) as stream:
-            stream.write(encode_report(report_value))
-    return report_value
+            stream.write(encode_report(filed))
+    if shown_in is None:
+        return WordedReports(filed, filed)
+    return WordedReports(filed, _report(request, cast, players, tuple(dancers), stage, shown_in))
 
 
 def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]:

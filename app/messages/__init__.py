@@ -1,12 +1,9 @@
-"""Messages in words: the templates of an id (`app.messages.wordings`), filled with a message's arguments.
-
-The command line prints the English ones.
-"""
+"""Messages in words: the templates of an id (`app.messages.wordings`), filled with a message's arguments."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from string import Formatter
 from typing import Final
 
@@ -123,11 +120,11 @@ def filled(template: str, arguments: Mapping[str, object]) -> str:
     return _FILLING.vformat(template, (), arguments)
 
 
-def text(message: Message, language: str = "en") -> str:
-    """The message as a sentence, English unless another of `LANGUAGES` is asked for."""
+def text(message: Message, language: str = "en", named: Callable[[float], str] = pitch_name) -> str:
+    """The message as a sentence, English unless another of `LANGUAGES` is asked for; ``named`` names pitches."""
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
-        arguments[name] = pitch_name(float(arguments[name]))
+        arguments[name] = named(float(arguments[name]))
     for name in DETAILS & arguments.keys():
         arguments[name] = detail_text(str(arguments[name]), language)
     if (kind := f"{CORRECTION}{arguments.get('kind')}") in WORDINGS:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final, Literal
 
+from app.messages.wordings import wording
+
 PitchNames = Literal["letters", "german", "syllables"]
 """Letters (B♭4), the German letters of school bands (B4), or syllables (Ti♭4)."""
 
@@ -33,6 +35,18 @@ def spelled(steps: Sequence[str]) -> tuple[str, ...]:
 
 LETTERS: Final = spelled(STEPS)
 GERMAN: Final = ("C", "Cis", "D", "Es", "E", "F", "Fis", "G", "As", "A", "B", "H")
+
+
+def pitch_class_names(names: PitchNames, language: str) -> tuple[str, ...]:
+    """Names of the twelve pitch classes from C on; syllables are those of a language."""
+    if names == "german":
+        return GERMAN
+    return LETTERS if names == "letters" else spelled(wording("pitch.do_re_mi_fa_so", language).split())
+
+
+def named_pitch(pitch: float, names: PitchNames, language: str, middle_c_octave: int = 4) -> str:
+    """A MIDI pitch by name, as `pitch_name`, in one of the ways of naming."""
+    return pitch_name(pitch, middle_c_octave, pitch_class_names(names, language))
 
 
 def pitch_name(pitch: float, middle_c_octave: int = 4, names: Sequence[str] = LETTERS) -> str:

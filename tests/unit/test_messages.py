@@ -44,7 +44,7 @@ def calls(path: Path) -> Iterator[tuple[ast.Call, str, set[str] | None]]:
             continue
         if function == "Message":
             yield node, first.value, message_arguments(node)
-        elif function.endswith("Error") or function == "Cancelled":
+        elif function.endswith("Error") or function == "Cancelled" or (function == "said" and "cli" in path.parts):
             names = {keyword.arg for keyword in node.keywords}
             yield node, first.value, None if None in names else {str(name) for name in names}
 

@@ -10,20 +10,20 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.cli.commands import Actions, add_actions
 from app.cli.options import bounded_number, frame_rate, seconds, whole_number
 from app.cli.progress import Progress
-from app.cli.summary import columns
+from app.cli.speech import said, sentence
+from app.cli.summary import columns, heads
 from app.cli.terminal import say, warn
 from app.encoding import shown
-from app.errors import Message, UsageError
-from app.messages import text
+from app.errors import UsageError
 from app.project.frame_rate import USUAL_RATE
 
 if TYPE_CHECKING:
     from app.choreography.dance import Dance
     from app.choreography.model import ChoreographyModel
 
-    Actions = argparse._SubParsersAction[argparse.ArgumentParser]
 
 MOST_STATES: Final = 1000
 MOST_DANCERS: Final = 32
@@ -31,7 +31,7 @@ MOST_DANCERS: Final = 32
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
-    actions = command.add_subparsers(title="actions", metavar="ACTION", required=True)
+    actions = add_actions(command, required=True)
     _add_learn(actions)
     _add_generate(actions)
 
@@ -69,10 +69,10 @@ class _OfPair(argparse.Action):
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
     ) -> None:
         if not namespace.pairs:
-            raise argparse.ArgumentError(self, "it belongs to a pair: write it behind a --pair")
+            raise argparse.ArgumentError(self, said("learn.no_pair"))
         *before, pair = namespace.pairs
         if getattr(pair, self.dest) is not None:
-            raise argparse.ArgumentError(self, f"the pair of {pair.motion.name} has it twice")
+            raise argparse.ArgumentError(self, said("learn.twice", motion=pair.motion.name))
         namespace.pairs = (*before, replace(pair, **{self.dest: values}))
 
 
@@ -83,18 +83,18 @@ class _CorrectBone(argparse.Action):
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
     ) -> None:
         if not namespace.pairs:
-            raise argparse.ArgumentError(self, "it belongs to a pair: write it behind a --pair")
+            raise argparse.ArgumentError(self, said("learn.no_pair"))
         joint, equals, bone = values.partition("=")
         if not equals or not joint:
-            raise argparse.ArgumentError(self, text(Message("characters.joint", {"text": values})))
+            raise argparse.ArgumentError(self, said("characters.joint", text=values))
         *before, pair = namespace.pairs
         if joint in pair.joints:
-            raise argparse.ArgumentError(self, f"the pair of {pair.motion.name} has {joint} twice")
+            raise argparse.ArgumentError(self, said("learn.joint_twice", motion=pair.motion.name, joint=joint))
         namespace.pairs = (*before, replace(pair, joints={**pair.joints, joint: bone}))
 
 
 def _add_learn(actions: Actions) -> None:
-    command = actions.add_parser("learn", help="learn a choreography from motion capture and its music")
+    command = actions.add_parser("learn", help="")
     command.add_argument(
         "--pair",
         dest="pairs",
@@ -105,37 +105,18 @@ def _add_learn(actions: Actions) -> None:
         required=True,
         metavar=("MOTION", "PIECE"),
     )
-    of_pair = command.add_argument_group("options of the pair before them")
+    of_pair = command.add_argument_group(said("cli.pair_options"))
 
-    def add(option: str, help: str, **more: Any) -> None:
-        of_pair.add_argument(option, action=_OfPair, default=argparse.SUPPRESS, help=help, **more)
+    def add(option: str, **more: Any) -> None:
+        of_pair.add_argument(option, action=_OfPair, default=argparse.SUPPRESS, **more)
 
-    add(
-        "--offset",
-        "time of the motion at which the music begins; without it, it is found from the beats of both, with a "
-        "confidence from 0 to 1",
-        dest="offset_s",
-        type=seconds,
-        metavar="SECONDS",
-    )
-    add("--fps", "the motion's true frame rate, where its file says a wrong one", type=frame_rate, metavar="RATE")
-    add(
-        "--credits",
-        "a text file with the origin and the licence of the motion (default: the .txt file beside the motion that has "
-        "its name)",
-        type=Path,
-        metavar="FILE",
-    )
-    add(
-        "--cuts",
-        "a text file with the times of the motion, in seconds, at which it is cut, one in each line; an empty line is "
-        "a rest between motions; without it the cuts are found",
-        type=Path,
-        metavar="FILE",
-    )
-    of_pair.add_argument("--figure", action=_OfPair, default=argparse.SUPPRESS, metavar="ROOT")
+    add("--offset", dest="offset_s", type=seconds, metavar="SECONDS")
+    add("--fps", type=frame_rate, metavar="RATE")
+    add("--credits", type=Path, metavar="FILE")
+    add("--cuts", type=Path, metavar="FILE")
+    add("--figure", metavar="ROOT")
     of_pair.add_argument("--bone", action=_CorrectBone, default=argparse.SUPPRESS, metavar="JOINT=NAME")
-    command.add_argument("--states", type=bounded_number(1, MOST_STATES, "a number of basic motions", int), metavar="K")
+    command.add_argument("--states", type=bounded_number(1, MOST_STATES, "quantity.basic_motions", int), metavar="K")
     command.add_argument("--seed", type=whole_number, default=0, metavar="N")
     command.add_argument("--to", type=Path, required=True, metavar="NAME.choreography")
     command.set_defaults(run=learn)
@@ -178,14 +159,14 @@ def learn(arguments: argparse.Namespace) -> None:
         write_model(target, model)
     finally:
         progress.clear()
-    say(*learned_table(model, target, [one.motion.start_s for one in read]), "", text(report(model)))
-    notes = [f"  {one.pair.motion_name}: {', '.join(map(text, found))}" for one in read if (found := to_check(one))]
-    say("", "body:", *(f"  {one.pair.motion_name}: {text(one.motion.checked)}" for one in read))
+    say(*learned_table(model, target, [one.motion.start_s for one in read]), "", sentence(report(model)))
+    notes = [f"  {one.pair.motion_name}: {', '.join(map(sentence, found))}" for one in read if (found := to_check(one))]
+    say("", said("learn.body"), *(f"  {one.pair.motion_name}: {sentence(one.motion.checked)}" for one in read))
     if notes:
-        say("", "to look at:", *notes)
+        say("", said("export_report.look_at"), *notes)
     for source in model.sources:
         if not source.credits:
-            warn(f"{source.motion_name}: no credits; say with --credits where the motion is from and on what terms")
+            warn(said("learn.no_credits", motion=source.motion_name))
 
 
 def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:
@@ -196,7 +177,7 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
     from app.choreography.learn import summary
     from app.choreography.music_offset import CONFIDENT
 
-    rows = [("motion", "music", "seconds", "segments", "states", "offset s", "confidence")]
+    rows = [heads("learn.heads")]
     for number, (source, clip, start_s) in enumerate(zip(model.sources, model.clips, starts_s, strict=True)):
         states = [one.state for one in model.segments if one.clip == number]
         confidence = source.offset_confidence
@@ -208,14 +189,14 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
                 str(len(states)),
                 str(len(set(states))),
                 f"{source.offset_s + start_s:.2f}",
-                "given" if confidence is None else f"{confidence:.2f}{'' if confidence >= CONFIDENT else '*'}",
+                said("learn.given")
+                if confidence is None
+                else f"{confidence:.2f}{'' if confidence >= CONFIDENT else '*'}",
             )
         )
-    lines = [text(summary(model, file)), "", *columns(rows)]
+    lines = [sentence(summary(model, file)), "", *columns(rows)]
     if any(source.offset_confidence is not None and source.offset_confidence < CONFIDENT for source in model.sources):
-        lines.append(
-            "(* another offset would fit nearly as well: if the music begins elsewhere, say where with --offset)"
-        )
+        lines.append(said("learn.doubtful_offset"))
     return lines
 
 
@@ -223,19 +204,23 @@ def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float
 
 
 def _add_generate(actions: Actions) -> None:
-    command = actions.add_parser("generate", help="let dancers of a choreography dance to a piece")
+    command = actions.add_parser("generate", help="")
     command.add_argument("choreography", metavar="NAME.choreography")
     command.add_argument("piece", type=Path, metavar="PIECE")
     command.add_argument("--to", type=Path, required=True, metavar="OUT.bvh")
     command.add_argument(
-        "--dancers", type=bounded_number(1, MOST_DANCERS, "a number of dancers", int), default=1, metavar="N"
+        "--dancers", type=bounded_number(1, MOST_DANCERS, "quantity.dancers", int), default=1, metavar="N"
     )
     command.add_argument("--formation", type=_formation, default="unison", metavar="NAME")
     command.add_argument("--seed", type=whole_number, default=0, metavar="N")
     command.add_argument("--prefer", metavar="MOTION")
-    command.add_argument("--size", type=bounded_number(0.0, 1.5, "a size", float), default=1.0, metavar="FACTOR")
-    command.add_argument("--weight", type=bounded_number(-1.0, 1.0, "a weight", float), default=0.0, metavar="WEIGHT")
-    command.add_argument("--melody", type=bounded_number(0.0, 1.0, "an amount", float), default=0.5, metavar="AMOUNT")
+    command.add_argument("--size", type=bounded_number(0.0, 1.5, "quantity.size", float), default=1.0, metavar="FACTOR")
+    command.add_argument(
+        "--weight", type=bounded_number(-1.0, 1.0, "quantity.weight", float), default=0.0, metavar="WEIGHT"
+    )
+    command.add_argument(
+        "--melody", type=bounded_number(0.0, 1.0, "quantity.amount", float), default=0.5, metavar="AMOUNT"
+    )
     command.add_argument("--fps", type=frame_rate, default=USUAL_RATE, metavar="RATE")
     command.set_defaults(run=generate)
 
@@ -245,7 +230,7 @@ def _formation(name: str) -> str:
     from app.choreography.formation import FORMATIONS
 
     if name not in FORMATIONS:
-        raise argparse.ArgumentTypeError(f"{name!r} is not one of {', '.join(FORMATIONS)}")
+        raise argparse.ArgumentTypeError(said("cli.not_one_of", typed=name, possible=", ".join(FORMATIONS)))
     return name
 
 
@@ -279,14 +264,14 @@ def generate(arguments: argparse.Namespace) -> None:
         progress.clear()
     say(*generated_table(model, files, dances))
     if rhythm.derived:
-        say("", "The piece has no percussion: melody, bass and accents were taken for it.")
+        say("", said("generate.derived"))
 
 
 def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Sequence[Dance]) -> list[str]:
     """Table of what each dancer dances, and how much slower and faster than captured."""
     import numpy as np
 
-    rows = [("file", "seconds", "motions", "states", "of its segments", "joins", "speed")]
+    rows = [heads("generate.heads")]
     for file, dance in zip(files, dances, strict=True):
         used = {step.segment for step in dance.steps}
         times_s = dance.first_s + np.arange(len(dance.clip)) / float(dance.clip.fps)
@@ -302,7 +287,7 @@ def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Seq
                 str(len({step.state for step in dance.steps})),
                 f"{100.0 * len(used) / len(model.segments):.0f} %",
                 str(len(dance.seams)),
-                f"{slow:.2f} to {fast:.2f}",
+                said("generate.speeds", slow=slow, fast=fast),
             )
         )
     return columns(rows)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.cli.bars import add_bar_options, requested_bars
+from app.cli.commands import fill_help
 from app.cli.display import virtual, why_no_display
 from app.cli.drawing import nearest, parsed_view, require_writable, stoppable
 from app.cli.edit import THEMES
@@ -24,6 +25,7 @@ from app.cli.options import (
     whole_number,
 )
 from app.cli.progress import Progress
+from app.cli.speech import error_sentence, said, sentence
 from app.cli.status import NO_DISPLAY, report_left_out
 from app.cli.terminal import say, warn
 from app.encoding import stored
@@ -41,7 +43,6 @@ from app.evaluation.request import (
     EvaluationRequest,
     variants_of,
 )
-from app.messages import error_text, filled, text
 from app.project.camera_bookmarks import VIEWS
 
 if TYPE_CHECKING:
@@ -50,18 +51,18 @@ if TYPE_CHECKING:
 
 LEAST_PX, MOST_PX = (64, 64), (1920, 1920)
 
-_excerpts = bounded_number(1, MOST_EXCERPTS, "a number of excerpts", int)
-_length = bounded_number(LEAST_S, MOST_S, "a number of seconds", float)
+_excerpts = bounded_number(1, MOST_EXCERPTS, "quantity.excerpts", int)
+_length = bounded_number(LEAST_S, MOST_S, "quantity.seconds", float)
 
 
-def variants(said: str) -> tuple[Variant, ...]:
+def variants(typed: str) -> tuple[Variant, ...]:
     """The type of an option that takes names of variants with commas between them."""
-    names = [name.strip().casefold() for name in said.split(",") if name.strip()]
+    names = [name.strip().casefold() for name in typed.split(",") if name.strip()]
     found = tuple(variant for variant in VARIANTS if variant in names)
     unknown = [name for name in names if name not in VARIANTS]
     if unknown or not found:
-        wrong = unknown[0] if unknown else said
-        raise argparse.ArgumentTypeError(f"{wrong[:40]!r} is not one of {', '.join(VARIANTS)}")
+        wrong = unknown[0] if unknown else typed
+        raise argparse.ArgumentTypeError(said("cli.not_one_of", typed=wrong[:40], possible=", ".join(VARIANTS)))
     return found
 
 
@@ -73,7 +74,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     add_bar_options(command)
     _add_clip_options(command)
     command.add_argument("--draw", type=whole_number, metavar="N")
-    command.add_argument("--theme", choices=THEMES, default=THEMES[0], help=f"colours (default: {THEMES[0]})")
+    command.add_argument("--theme", choices=THEMES, default=THEMES[0])
     command.set_defaults(run=evaluate)
 
 
@@ -89,23 +90,14 @@ def _add_variants_options(command: argparse.ArgumentParser) -> None:
 
 def _add_clip_options(command: argparse.ArgumentParser) -> None:
     """Add the options for the clips and their look."""
-    command.add_argument(
-        "--excerpts", type=_excerpts, metavar="N", help=f"how many excerpts are chosen (default: {EXCERPTS})"
-    )
-    command.add_argument("--seconds", type=_length, metavar="S", help=f"of a chosen excerpt (default: {SECONDS:g})")
+    fill_help(command.add_argument("--excerpts", type=_excerpts, metavar="N"), usual=EXCERPTS)
+    fill_help(command.add_argument("--seconds", type=_length, metavar="S"), usual=f"{SECONDS:g}")
     command.add_argument("--view", choices=VIEWS)
-    add_players_option(command, "the player that the view is about; repeatable; a close-up shows the first")
+    add_players_option(command)
     command.add_argument("--presentation", choices=PRESENTATIONS, default="both")
-    command.add_argument(
-        "--size",
-        type=picture_size(LEAST_PX, MOST_PX),
-        default=SIZE,
-        metavar="WxH",
-        help=f"of a clip (default {SIZE[0]}x{SIZE[1]})",
-    )
-    command.add_argument(
-        "--fps", dest="rate", type=frame_rate, metavar="RATE", help=f"frames per second (default: {FPS})"
-    )
+    size = command.add_argument("--size", type=picture_size(LEAST_PX, MOST_PX), default=SIZE, metavar="WxH")
+    fill_help(size, usual=f"{SIZE[0]}x{SIZE[1]}")
+    fill_help(command.add_argument("--fps", dest="rate", type=frame_rate, metavar="RATE"), usual=FPS)
 
 
 def evaluate(arguments: argparse.Namespace) -> int:
@@ -130,7 +122,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
     with stoppable() as stop_requested:
         try:
             made = make_evaluation(
-                project, request, offscreen, text, lambda share, said: progress(share, text(said)), stop_requested
+                project, request, offscreen, sentence, lambda share, at: progress(share, sentence(at)), stop_requested
             )
         except AppError as error:
             # ffmpeg has got the same Ctrl-C, and then refuses what it gets.
@@ -138,12 +130,12 @@ def evaluate(arguments: argparse.Namespace) -> int:
                 raise KeyboardInterrupt from error
             if error.message.id not in ("picture.film_no_gl", "picture.no_gl"):
                 raise
-            warn(error_text(error))
+            warn(error_sentence(error))
             return NO_DISPLAY
         finally:
             progress.clear()
     _report(made)
-    return report_left_out((one.player.name, text(one.reason)) for one in made.left_out)
+    return report_left_out((one.player.name, sentence(one.reason)) for one in made.left_out)
 
 
 def _check_options(arguments: argparse.Namespace) -> None:
@@ -202,30 +194,22 @@ def _bars(arguments: argparse.Namespace, project: Project) -> tuple[int, int] | 
 
 def _report(made: Made) -> None:
     clips = made.key.clips
-    said = {
-        "folder": made.folder,
-        "clips": len(clips),
-        "pairs": made.pairs,
-        "variants": len({clip.variant for clip in clips}),
-        "excerpts": len({clip.excerpt for clip in clips}),
-        "viewers": made.viewers,
-    }
     say(
-        filled(
-            "{folder}: {clips} {clips:clip|clips} ({excerpts} {excerpts:excerpt|excerpts}, {variants} variants) and "
-            "{pairs} {pairs:pair|pairs}; the order is balanced over {viewers} {viewers:viewer|viewers}",
-            said,
+        said(
+            "evaluate.made",
+            folder=str(made.folder),
+            clips=len(clips),
+            pairs=made.pairs,
+            variants=len({clip.variant for clip in clips}),
+            excerpts=len({clip.excerpt for clip in clips}),
+            viewers=made.viewers,
         )
     )
     for excerpt in sorted({clip.excerpt for clip in clips}):
         clip = next(clip for clip in clips if clip.excerpt == excerpt)
-        say(filled("excerpt {number}: {from_s:.1f} s to {until_s:.1f} s", _times(excerpt, clip.from_s, clip.until_s)))
+        say(said("evaluate.excerpt", number=excerpt, from_s=clip.from_s, until_s=clip.until_s))
     if made.video is not None and made.video.confidence is not None:
-        placed = {"offset_s": made.video.offset_s, "percent": round(100 * made.video.confidence)}
-        say(filled("the film begins at {offset_s:.3f} s of the performance, confidence {percent} %", placed))
+        percent = round(100 * made.video.confidence)
+        say(said("evaluate.film_placed", offset_s=made.video.offset_s, percent=percent))
     page = os.path.join(made.folder, "evaluation.html")  # noqa: PTH118 - as the user wrote the folder
-    say(f"give viewers {page} alone; {KEY_FILE} says which variant each clip shows")
-
-
-def _times(number: int, from_s: float, until_s: float) -> dict[str, object]:
-    return {"number": number, "from_s": from_s, "until_s": until_s}
+    say(said("evaluate.give_page", page=page, key=KEY_FILE))

@@ -6,6 +6,7 @@ import argparse
 
 from app.cli.evaluation.results import table_lines
 from app.cli.options import add_file_options, open_project
+from app.cli.speech import spoken
 from app.cli.terminal import say
 
 
@@ -22,4 +23,4 @@ def measures(arguments: argparse.Namespace) -> None:
     from app.performance.ensemble import Performance
 
     performance = Performance(open_project(arguments))
-    say(*table_lines(measures_table([measure(performance)], "en")))
+    say(*table_lines(measures_table([measure(performance)], spoken().language)))

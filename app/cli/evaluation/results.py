@@ -6,11 +6,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from app.cli.speech import said, sentence, spoken
 from app.cli.summary import columns
 from app.cli.terminal import say
 from app.encoding import shown
-from app.errors import Message
-from app.messages import text
 
 if TYPE_CHECKING:
     from app.evaluation.tables import ResultTable
@@ -39,12 +38,12 @@ def results(arguments: argparse.Namespace) -> None:
 
     gathered = gather(arguments.files, arguments.key)
     found, measured = gathered.results, gathered.measures
-    say(text(Message("results.title", {"piece": found.piece})))
-    for table in tables(found, measured, "en"):
+    say(said("results.title", piece=found.piece))
+    for table in tables(found, measured, spoken().language):
         say("", *table_lines(table))
     conclusions = conclude(found)
-    for heading, said in (("results.may", conclusions.may), ("results.may_not", conclusions.may_not)):
-        say("", f"{text(Message(heading))}:", *(f"- {text(message)}" for message in said))
+    for heading, messages in (("results.may", conclusions.may), ("results.may_not", conclusions.may_not)):
+        say("", f"{said(heading)}:", *(f"- {sentence(message)}" for message in messages))
     if arguments.to is not None:
         written = write_results(found, measured, arguments.to)
         say("", f"{shown(arguments.to)}: {', '.join(path.name for path in written)}")

@@ -25,7 +25,7 @@ from app.export.formats import FILE_FORMATS, FileContent
 from app.export.instrument import instrument_bones
 from app.export.report import DancerReport, DoubleReport, PlayerReport, Report, encode_report
 from app.export.request import ExportCast, ExportRequest, cast_of
-from app.export.run import Progress, write_cast
+from app.export.run import Progress, WordedReports, write_cast
 from app.export.sound import write_sound
 from app.export.targets import written_meshes
 from app.export.tree import TreeChange, files_below, recover, refuse_links_out, tree_into
@@ -154,6 +154,7 @@ def export_into(
     wording: Callable[[Message], str],
     stop_requested: StopRequested = lambda: False,
     progress: Progress = lambda share, label: None,
+    shown_in: Callable[[Message], str] | None = None,
 ) -> UnrealExport:
     """Write a performance into a project.
 
@@ -165,6 +166,8 @@ def export_into(
     wording : callable
         Words a message for the report.
     stop_requested, progress : callable
+    shown_in : callable, optional
+        As of `app.export.run.export`.
 
     Raises
     ------
@@ -174,17 +177,17 @@ def export_into(
     """
     recover(project.folder, project.folder / SOURCES)
     request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False)
-    cast = cast_of(request, wording, stop_requested)
+    cast = cast_of(request, shown_in or wording, stop_requested)
     left_out = tuple(one.player.id for one in cast.left_out)
     plan = plan_export(request.performance, cast.ids, request.source, project, left_out=left_out)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
-        report = _figures(request, cast, plan.layout, sources, wording, stop_requested, progress)
+        reports = _figures(request, cast, plan.layout, sources, (wording, shown_in), stop_requested, progress)
         sound = _sound(request, plan.layout, sources, stop_requested, progress)
         bones = _checked(request, cast, plan.layout, sources, sound, stop_requested, progress)
         files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
         description = describe(request, cast, plan.layout, wording, sound, bones, files)
-        (sources / REPORT).write_bytes(encode_report(report))
+        (sources / REPORT).write_bytes(encode_report(reports.filed))
         (sources / DESCRIPTION).write_bytes(encode_description(description))
         _vouch(change, plan.layout.sources, request.creator, {}, plan.staying)
         change.last.insert(0, Path(plan.layout.sources / DESCRIPTION))
@@ -192,7 +195,7 @@ def export_into(
             _vouch(change, PurePosixPath(PLUGIN), request.creator, plan.plugin, {})
         change.removed += [Path(path) for path in plan.removed]
     progress(1.0, "")
-    return UnrealExport(plan, report)
+    return UnrealExport(plan, reports.shown)
 
 
 def _vouch(
@@ -218,19 +221,22 @@ def _figures(
     cast: ExportCast,
     layout: Layout,
     sources: Path,
-    wording: Callable[[Message], str],
+    wordings: tuple[Callable[[Message], str], Callable[[Message], str] | None],
     stop_requested: StopRequested,
     progress: Progress,
-) -> Report:
+) -> WordedReports:
     """Write the FBX files under their names in the project; the report knows them by these."""
     draft = sources / "draft"
-    report = write_cast(
+    wording, shown_in = wordings
+    reports = write_cast(
         replace(request, folder=draft),
         cast,
         wording,
         stop_requested,
         lambda share, label: progress(_SHARES["files"] * share, label),
+        shown_in,
     )
+    report = reports.filed
 
     places_by_content: dict[FileContent, dict[str, FigurePlace]] = {
         "character": layout.characters,
@@ -255,7 +261,8 @@ def _figures(
     dancers = tuple(placed(one.dancer, written) for one, written in zip(cast.dancers, report.dancers, strict=True))
     (draft / EXPORTED_REPORT).unlink()
     draft.rmdir()
-    return msgspec.structs.replace(report, players=tuple(players), dancers=dancers)
+    filed, shown = (msgspec.structs.replace(one, players=tuple(players), dancers=dancers) for one in reports)
+    return WordedReports(filed, shown)
 
 
 def _sound(

@@ -28,7 +28,6 @@ def _no_display(monkeypatch: pytest.MonkeyPatch) -> None:
         ("--sheet a.jpg", 2, "must end in .png"),
         ("--to a.mp4 --every 0.1", 2, "--every is only possible with --sheet"),
         ("--to a --columns 2", 2, "--columns is only possible with --sheet"),
-        ("--to a --language ja", 2, "--language is only possible with --sheet"),
         ("--sheet a.png --fps 30", 2, "--fps is only possible with --to"),
         ("--to a --no-sound", 2, "--no-sound is only possible with --to OUT.mp4"),
         ("--to a.mp4 --size 101x100", 2, "even width and height"),

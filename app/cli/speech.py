@@ -1,0 +1,155 @@
+"""The language in which the command line speaks, and how it names pitches: by its options, else by the system.
+
+What scripts read stays in English whatever is chosen: JSON, statuses, names of options and files.
+"""
+
+from __future__ import annotations
+
+import locale
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Final, Protocol, get_args
+
+from app.errors import AppError, Argument, Message
+from app.messages import LANGUAGES, text
+from app.messages.pitches import PitchNames, named_pitch
+
+LANGUAGE, PITCH_NAMES, MIDDLE_C = "--language", "--pitch-names", "--middle-c"
+PITCH_NAME_CHOICES: Final[tuple[PitchNames, ...]] = get_args(PitchNames)
+MIDDLE_C_OCTAVES: Final = {"C4": 4, "C3": 3}
+"""By name of middle C."""
+_JAPANESE: Final = ("ja", "japanese")
+_SAMPLE: Final = "あ"
+
+
+class InLanguages(Protocol):
+    """Words of a table by language."""
+
+    @property
+    def en(self) -> str:
+        """English."""
+
+    @property
+    def ja(self) -> str:
+        """Japanese, or empty."""
+
+
+@dataclass(frozen=True)
+class Speech:
+    """A language and names of pitches.
+
+    Attributes
+    ----------
+    language : str
+        One of `LANGUAGES`.
+    names : str
+        One of `PITCH_NAME_CHOICES`.
+    middle_c_octave : int
+        Octave of middle C.
+    """
+
+    language: str = "en"
+    names: PitchNames = "letters"
+    middle_c_octave: int = 4
+
+    def __call__(self, message: Message) -> str:
+        """The message as a sentence."""
+        return text(message, self.language, self.pitch)
+
+    def name(self, words: InLanguages) -> str:
+        """Name in a table; the English one where it has no Japanese."""
+        return (words.ja if self.language == "ja" else "") or words.en
+
+    def pitch(self, pitch: float) -> str:
+        """Name of a MIDI pitch."""
+        return named_pitch(pitch, self.names, self.language, self.middle_c_octave)
+
+
+ENGLISH: Final = Speech()
+"""Words of files and JSON."""
+_SPOKEN: Final[list[Speech]] = [ENGLISH]
+
+
+def spoken() -> Speech:
+    """The speech of the command that runs."""
+    return _SPOKEN[-1]
+
+
+@contextmanager
+def speaking(speech: Speech) -> Iterator[None]:
+    """Speak so for the duration of a block."""
+    _SPOKEN.append(speech)
+    try:
+        yield
+    finally:
+        _SPOKEN.pop()
+
+
+def sentence(message: Message) -> str:
+    """A message in the language of the command line."""
+    return spoken()(message)
+
+
+def said(id: str, **arguments: Argument) -> str:
+    """The sentence of a message's id, filled with its arguments."""
+    return sentence(Message(id, arguments))
+
+
+def error_sentence(error: AppError) -> str:
+    """An error in the language of the command line."""
+    return sentence(error.message)
+
+
+def requested_speech(arguments: Sequence[str]) -> Speech:
+    """The speech that a command line asks for, before anything else of it is read, since its errors are worded too;
+    what is no possible value counts for nothing and is refused later."""
+    language, names, middle_c = (_value(arguments, option) for option in (LANGUAGE, PITCH_NAMES, MIDDLE_C))
+    return Speech(
+        language if language in LANGUAGES else system_language(),
+        next((known for known in PITCH_NAME_CHOICES if known == names), "letters"),
+        MIDDLE_C_OCTAVES.get(middle_c, 4),
+    )
+
+
+def command_first(arguments: Sequence[str]) -> list[str]:
+    """The command line with a language that stands before the command behind everything."""
+    first = arguments[0] if arguments else ""
+    taken = 2 if first == LANGUAGE else 1 if first.startswith(f"{LANGUAGE}=") else 0
+    return [*arguments[taken:], *arguments[:taken]]
+
+
+def _value(arguments: Sequence[str], option: str) -> str:
+    """The last value of an option, behind it or behind its equals sign; empty where it is not given."""
+    found = ""
+    for place, argument in enumerate(arguments):
+        if argument == "--":
+            break
+        if argument == option:
+            found = next(iter(arguments[place + 1 : place + 2]), "")
+        elif argument.startswith(f"{option}="):
+            found = argument.removeprefix(f"{option}=")
+    return found
+
+
+def system_language(environment: Mapping[str, str] = os.environ) -> str:
+    """Language of the system's locale, as POSIX and GNU gettext find it: LC_ALL, LC_MESSAGES or LANG, with LANGUAGE
+    before them unless that is C. English for every language that is not ours, and where standard output cannot show
+    Japanese."""
+    named = next(filter(None, map(environment.get, ("LC_ALL", "LC_MESSAGES", "LANG"))), "")
+    listed = [] if named.partition(".")[0] in ("C", "POSIX") else environment.get("LANGUAGE", "").split(":")
+    if not named:
+        named = locale.getlocale()[0] or ""
+    codes = [name.replace("-", "_").partition("_")[0].partition(".")[0].casefold() for name in (*listed, named)]
+    first = next((code for code in codes if code in (*LANGUAGES, *_JAPANESE)), "en")
+    return "ja" if first in _JAPANESE and _can_show(_SAMPLE) else "en"
+
+
+def _can_show(sample: str) -> bool:
+    try:
+        sample.encode(getattr(sys.stdout, "encoding", None) or "utf-8")
+    except UnicodeEncodeError:
+        return False
+    return True

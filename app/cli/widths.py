@@ -1,0 +1,65 @@
+"""Widths of text in a terminal, where Japanese characters take two columns: padding, and lines of a given width."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from typing import Final
+
+_WORDS: Final = re.compile(r"\s+|[!-\u2e7f\ufb00-\ufdff\ufe70-\ufefe]+|[ァ-ヺー]{1,12}|.", re.DOTALL)
+"""Blanks, words of narrow characters, words in katakana, single wide characters."""
+_NOT_FIRST: Final = frozenset("、。，．・：；！？）」』】〕～ーぁぃぅぇぉっゃゅょァィゥェォッャュョ々")
+"""Characters that begin no line (JIS X 4051)."""
+_NOT_LAST: Final = frozenset("（「『【〔")
+"""Characters that end no line."""
+
+
+def width(text: str) -> int:
+    """Number of columns that a text takes: two for a character that is wide in East Asian typography."""
+    if text.isascii():
+        return len(text)
+    return sum(
+        0 if unicodedata.combining(character) else 2 if unicodedata.east_asian_width(character) in "WF" else 1
+        for character in text
+    )
+
+
+def on_left(text: str, columns: int) -> str:
+    """The text with blanks behind it up to a number of columns."""
+    return text + " " * (columns - width(text))
+
+
+def on_right(text: str, columns: int) -> str:
+    """The text with blanks before it up to a number of columns."""
+    return " " * (columns - width(text)) + text
+
+
+def cut(text: str, columns: int) -> str:
+    """The beginning of a text that fits into a number of columns."""
+    while width(text) > columns:
+        text = text[:-1]
+    return text
+
+
+def wrapped(text: str, columns: int) -> list[str]:
+    """Lines of at most so many columns, broken at blanks and between Japanese characters; punctuation stays with the
+    character before it. A word that is longer than a line has one of its own."""
+    lines, line = list[str](), ""
+    for piece in _unbroken(" ".join(text.split())):
+        if line and width(line + piece.rstrip()) > columns:
+            lines.append(line.rstrip())
+            line = ""
+        line += piece if line else piece.lstrip()
+    return [*lines, line.rstrip()] if line.strip() else lines
+
+
+def _unbroken(text: str) -> list[str]:
+    """Pieces of a text between which a line may end."""
+    pieces: list[str] = []
+    for word in _WORDS.findall(text):
+        joined = pieces and not word.isspace() and (word[0] in _NOT_FIRST or pieces[-1][-1] in _NOT_LAST)
+        if joined:
+            pieces[-1] += word
+        else:
+            pieces.append(word)
+    return pieces
