@@ -135,6 +135,9 @@ def read_skeleton(path: Path) -> SkeletonProfile:
         seen.add(joint.name)
     for kind, axes in profile.axes.items():
         _check_axes(path, f"axes.{kind}", (axes.flexion, axes.sideways, axes.twist))
+    for kind, turns in profile.turns.items():
+        if kind not in profile.axes or len(set(turns)) != len(turns):
+            raise _invalid(path, f"turns.{kind}", "must name each axis of a kind of joint once")
     for chain, joints in profile.chains.items():
         _check_joints(path, f"chains.{chain}", joints, seen)
     for side, fingers in profile.fingers.items():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Final, Literal, TypeAlias
 
 import msgspec
 
@@ -17,6 +17,10 @@ from metadata.units import NotNegative as NotNegative
 from metadata.units import Positive as Positive
 from metadata.units import Range as Range
 from metadata.units import at_amplitude as at_amplitude
+
+Turn: TypeAlias = Literal["flexion", "sideways", "twist"]
+"""An axis of `JointAxes`."""
+USUAL_TURNS: Final[tuple[Turn, Turn, Turn]] = ("flexion", "sideways", "twist")
 
 
 class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -56,6 +60,9 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         ``spine``, ``neck``, ``left_arm`` (clavicle to hand), ``right_arm``, ``left_leg``, ``right_leg``.
     fingers : dict of str to dict of str to Finger
         By side (``left``, ``right``) and finger (``thumb``, ``index``, ``middle``, ``ring``, ``little``).
+    turns : dict of str to tuple of str
+        By joint kind, the order from the parent on of the axes that files with angles turn it about; of the others
+        `USUAL_TURNS`.
     """
 
     name: str
@@ -64,6 +71,7 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     axes: dict[str, JointAxes]
     chains: dict[str, tuple[str, ...]]
     fingers: dict[Literal["left", "right"], dict[Literal["thumb", "index", "middle", "ring", "little"], Finger]]
+    turns: dict[str, tuple[Turn, Turn, Turn]] = {}
 
     def joint(self, name: str) -> ProfileJoint:
         """The joint of this name; KeyError where there is none."""

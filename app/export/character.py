@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from app.arrays import AnyFloatArray, SingleArray
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
+from app.export.bone_axes import bone_axes
 from app.export.eyes import eyes_of_file, with_turned_balls
 from app.export.morph_normals import with_morph_normals
 from app.export.own_skeleton import own_weights
@@ -77,7 +78,7 @@ def character_scene(
         held,
     )
     return Scene(
-        bones=_bound_bones(target, meshes[0]) if _rests_as_bound(target) else skeleton_bones(target),
+        bones=_bones(target, character, meshes[0]),
         meshes=meshes,
         clip=replace(clip, whole_turns=eyes.whole(target, character, clip.rotations_xyzw)),
         creator=creator,
@@ -97,32 +98,18 @@ def _shaped(character: Character, eyes: str) -> Character:
     return replace(character, meshes=tuple(map(with_morph_normals, character.meshes)))
 
 
-def skeleton_bones(target: TargetSkeleton) -> tuple[Bone, ...]:
+def _bones(target: TargetSkeleton, character: Character, mesh: SkinnedMesh) -> tuple[Bone, ...]:
     """The bones at rest."""
-    return tuple(
-        Bone(name, parent, offset * CENTIMETRES, rotation)
-        for name, parent, offset, rotation in zip(
-            target.names, target.parents, target.offsets_m, target.rest, strict=True
-        )
-    )
-
-
-def _rests_as_bound(target: TargetSkeleton) -> bool:
-    return target.choice == "ue5" or target.rest_pose != "model"
-
-
-def _bound_bones(target: TargetSkeleton, mesh: SkinnedMesh) -> tuple[Bone, ...]:
-    """The bones where the mesh was bound: Unreal takes that pose for the rest pose, and three.js mixes the two."""
-    binds = np.asarray(mesh.world_from_bone_bind, np.float64)
-    turned = quaternion.from_matrix(binds[:, :3, :3])
-    places_cm, rotations = local_placements(target.parents, binds[:, :3, 3], turned)
-    placed = sorted(target.loose)
-    offsets_cm = target.offsets_m * CENTIMETRES
-    offsets_cm[placed] = places_cm[placed]
-    return tuple(
-        Bone(name, parent, offset, rotation)
-        for name, parent, offset, rotation in zip(target.names, target.parents, offsets_cm, rotations, strict=True)
-    )
+    offsets_cm, rotations = target.offsets_m * CENTIMETRES, target.rest
+    if target.choice == "ue5" or target.rest_pose != "model":
+        # Where the mesh was bound: Unreal takes that pose for the rest pose, and three.js mixes the two.
+        binds = np.asarray(mesh.world_from_bone_bind, np.float64)
+        turned = quaternion.from_matrix(binds[:, :3, :3])
+        places_cm, rotations = local_placements(target.parents, binds[:, :3, 3], turned)
+        placed = sorted(target.loose)
+        offsets_cm[placed] = places_cm[placed]
+    rows = zip(target.names, target.parents, offsets_cm, rotations, bone_axes(target, character.skeleton), strict=True)
+    return tuple(Bone(*row) for row in rows)
 
 
 def character_clip(

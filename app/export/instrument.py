@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.export.bind_pose import CENTIMETRES
+from app.export.bone_axes import OBJECT_AXES
 from app.export.character import mesh_names, skinned_mesh
 from app.export.target import Trajectory, instrument_path
 from app.formats.joined_meshes import join_meshes
@@ -67,6 +68,7 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
             parent=-1 if index == 0 else 0,
             translation_cm=(model.node_positions_m[index] - (root_m if index else 0.0)) * CENTIMETRES,
             rotation_xyzw=unturned,
+            axes=None if index else OBJECT_AXES,
         )
         for index, node in enumerate(model.node_names)
     )

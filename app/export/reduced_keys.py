@@ -24,8 +24,8 @@ from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, SingleArray
 from app.export.key_reduction_landmarks import SkinnedMarks, rigid_links
 from app.export.playback import METRES
 from app.formats.continuous import continuous
-from app.formats.euler import matrices, quaternions
-from app.formats.fbx.curves import EULER_ORDER, place_curves, rotation_curves
+from app.formats.euler import matrices
+from app.formats.fbx.curves import curve_rotations, place_curves, rotation_curves
 from app.formats.keys import Keys, KeySpans, runs, straight_keys
 from app.formats.scene import Clip, Scene
 
@@ -140,7 +140,8 @@ class _Motion:
             moves[bone] |= bool((values != values[0]).any())
         self.moving = np.flatnonzero(moves)
         self.rotations = np.ascontiguousarray(rotations[:, moves].transpose(1, 0, 2))
-        self.angles = rotation_curves(clip)[moves].transpose(0, 2, 1).astype(np.float32)
+        self._turning = [scene.bones[bone] for bone in self.moving.tolist()]
+        self.angles = rotation_curves(scene.bones, clip)[moves].transpose(0, 2, 1).astype(np.float32)
         self.places_m = {row: places_m[bone] for row, bone in enumerate(self.moving.tolist()) if bone in places_m}
         still_m = np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones]) * METRES
         for bone, values in places_m.items():
@@ -247,7 +248,7 @@ class _Motion:
     def shown(self, frames: AnyIntArray, spans: KeySpans, by_angles: bool) -> KeyedPoses:
         """Motion at some frames between keys in a program that interpolates angles or quaternions."""
         angles = spans.straight(self.angles) if by_angles else None
-        turned = spans.turned(self.rotations) if angles is None else quaternions(angles, EULER_ORDER)
+        turned = spans.turned(self.rotations) if angles is None else curve_rotations(self._turning, angles)
         places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
         return KeyedPoses(turned, places_m, self._face_weights[:, frames])
 

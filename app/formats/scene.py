@@ -14,6 +14,7 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.formats.euler import matrices
+from app.formats.joint_angles import order_along
 from app.formats.keys import Keys
 
 
@@ -28,12 +29,21 @@ class Bone:
     translation_cm : ndarray, shape (3,)
     rotation_xyzw : ndarray, shape (4,)
         Rest pose, relative to the parent. What the clip does not move stays here.
+    axes : ndarray, shape (3, 3), or None
+        Axes that the bone turns about, in its own space and in their order from the parent on, for formats with angles:
+        first a hinge, in the middle what turns least. None: they mean nothing.
     """
 
     name: str
     parent: int
     translation_cm: AnyFloatArray
     rotation_xyzw: AnyFloatArray
+    axes: AnyFloatArray | None = None
+
+    @property
+    def order(self) -> str:
+        """Order of its angles, as in `app.formats.euler`."""
+        return order_along(self.axes)
 
 
 @dataclass(frozen=True, eq=False)

@@ -603,28 +603,33 @@ def r_assimp(a):
             tr[c['name']] = (k('positionkeys'), k('rotationkeys'), k('scalingkeys'))
     flat, par = [], {}
 
+    # An animated bone's channel has its whole transform, yet assimp 5 leaves that at rest in helper nodes above it
+    # too (assimp issue 5759), unless pivots are not preserved: so programs turn that off, or pass over the helpers.
     def walk(n, p):
-        par[n['name']] = p; flat.append(n['name'])
+        helps = '$AssimpFbx$' in n['name']
+        if not helps:
+            par[n['name']] = p
+        flat.append(n['name'])
         for c in n.get('children', []):
-            walk(c, n['name'])
+            walk(c, p if helps else n['name'])
     walk(js['rootnode'], None)
     bones = sorted({b['name'] for m in js.get('meshes', []) for b in m.get('bones', [])})
     pos, s = [], 100.0 if a['ext'] == '.glb' else 1.0    # glTF is in metres
     for t in a['times']:
         o, tt = {}, t + a.get('t0', 0)
 
-        def ev(n, m):
+        def ev(n, m, above):
             c = tr.get(n['name'])
             if c and c[0][0] and c[1][0]:
                 q = at(*c[1], tt, nlerp)
-                l = trs(at(*c[0], tt), [q[1], q[2], q[3], q[0]], at(*c[2], tt) if c[2][0] else [1, 1, 1])
+                l, m = trs(at(*c[0], tt), [q[1], q[2], q[3], q[0]], at(*c[2], tt) if c[2][0] else [1, 1, 1]), above
             else:
                 l = n['transformation']
             w = mul(m, l) if m else l
             o[n['name']] = [w[3], w[7], w[11]]
             for k in n.get('children', []):
-                ev(k, w)
-        ev(js['rootnode'], None)
+                ev(k, w, above if '$AssimpFbx$' in n['name'] else w)
+        ev(js['rootnode'], None, None)
         pos.append({k: a['to_canon'](v) if a['ext'] == '.fbx' else [s * x for x in v] for k, v in o.items()})
     helper = sum('$AssimpFbx$' in n for n in flat)
     return {'bones': bones, 'parent': par, 'animated': len(tr), 'duration': dur, 'fps': None, 'pos': pos, 'weights': {},

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IntArray, SingleArray
-from app.formats.euler import euler_degrees
 from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.encode import Element, PackedArray, pack_array
 from app.formats.fbx.sections import integer, property_block, property_row
-from app.formats.scene import Clip
+from app.formats.joint_angles import AXES, PLAIN_ORDER, channel_degrees, channel_quaternions
+from app.formats.scene import Bone, Clip
 
-# FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx.
-EULER_ORDER = "ZYX"
+EULER_ORDER = PLAIN_ORDER
+"""FBX calls this order XYZ: x turns first, so the matrix is Rz Ry Rx. It is that of a pre-rotation."""
+ORDERS = ("ZYX", "YZX", "XZY", "ZXY", "YXZ", "XYZ")
+"""By the value of FBX's ``RotationOrder``."""
 STEADY_DEG, STEADY_CM = 1e-3, 1e-4
 """Change of an axis up to which reduced keys keep one: that much is rounding."""
 
@@ -21,10 +25,21 @@ _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
 
 
-def rotation_curves(clip: Clip) -> FloatArray:
-    """Euler angles (B, 3, F) in degrees, of the axes in `EULER_ORDER`, as they are written."""
-    angles = euler_degrees(clip.rotations_xyzw, EULER_ORDER)
+def rotation_curves(bones: Sequence[Bone], clip: Clip) -> FloatArray:
+    """Angles (B, 3, F) about X, Y and Z in degrees, each bone's in its own order and away from its rest, as they are
+    written."""
+    angles = channel_degrees(clip.rotations_xyzw, *_resting(bones))
     return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
+
+
+def curve_rotations(bones: Sequence[Bone], degrees: AnyFloatArray) -> FloatArray:
+    """Rotations (B, F, 4) of bones whose curves have the values (B, F, 3) of `rotation_curves`."""
+    return channel_quaternions(degrees, *_resting(bones))
+
+
+def _resting(bones: Sequence[Bone]) -> tuple[tuple[str, ...], FloatArray]:
+    """Orders and rests (B, 4) of bones."""
+    return tuple(bone.order for bone in bones), np.array([bone.rotation_xyzw for bone in bones], np.float64)
 
 
 def place_curves(clip: Clip, bone: int) -> AnyFloatArray:
@@ -49,15 +64,17 @@ class FbxLayerCurves:
         self._at: dict[bytes, tuple[tuple[Element, ...], tuple[Element, ...]]] = {}
         self._resting: dict[bytes, PackedArray] = {}
 
-    def add_clip(self, clip: Clip, bones: list[int], channels: dict[str, list[int]]) -> None:
-        """Animate the bones of a figure, and the channels of each of its morphs."""
+    def add_clip(
+        self, bones: Sequence[Bone], clip: Clip, models: Sequence[int], channels: Mapping[str, Sequence[int]]
+    ) -> None:
+        """Animate the models of a figure's bones, and the channels of each of its morphs."""
         keys = clip.keys
-        rotations = rotation_curves(clip)
-        for bone, model in enumerate(bones):
+        rotations = rotation_curves(bones, clip)
+        for bone, model in enumerate(models):
             frames = None if keys is None else keys.bones[bone]
             if bone in clip.translations_cm:
-                self._add(model, "Lcl Translation", "T", "XYZ", place_curves(clip, bone), frames)
-            self._add(model, "Lcl Rotation", "R", "XYZ", rotations[bone, ::-1], frames)
+                self._add(model, "Lcl Translation", "T", AXES, place_curves(clip, bone), frames)
+            self._add(model, "Lcl Rotation", "R", AXES, rotations[bone], frames)
         for name, weights in clip.morph_weights.items():
             percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
             frames = None if keys is None else keys.morphs[name]

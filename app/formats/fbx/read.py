@@ -1,27 +1,28 @@
 """Binary FBX file -> scene: for reading back what `app.formats.fbx.write` wrote.
 
-It understands what that writes: bones in centimetres without scaling, pivots or pre-rotations, directly under the
-scene or those of each figure under a Null, and linear keys on frames; the clip has what these curves are at every
-frame. Anything else is refused, never quietly misread.
+It understands what that writes: bones in centimetres without scaling or pivots, directly under the scene or those of
+each figure under a Null, and linear keys on frames; the clip has what these curves are at every frame. Anything else is
+refused, never quietly misread.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.errors import FileError
 from app.formats import euler
-from app.formats.fbx.curves import EULER_ORDER
+from app.formats.fbx.curves import EULER_ORDER, ORDERS
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 from app.formats.fbx.materials import roughness_of
 from app.formats.fbx.take import MOST_VALUES, FbxCurve, FbxTake, read_take
 from app.formats.files import read_file
+from app.formats.joint_angles import AXES, channel_quaternions
 from app.formats.scene import Bone, Clip, Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 
 MOST_BYTES = 2**30
@@ -29,9 +30,10 @@ _BLOCK = 16384
 """Frames times bones worked on at once, which stay in a core's cache."""
 
 _NOT_SUPPORTED = (
-    "PreRotation", "PostRotation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot",
-    "GeometricTranslation", "GeometricRotation", "RotationOrder",
+    "PostRotation", "RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot",
+    "GeometricTranslation", "GeometricRotation",
 )  # fmt: skip
+_OF_BONES = ("PreRotation", "RotationOrder")
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
@@ -83,10 +85,10 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
 
 def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, creator: str) -> Scene:
     """Scene below a node; below the file's root if there is none."""
-    bones, bone_of_model = _bones(graph, node)
+    bones, turns_from, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
     if node is not None:
-        translation, rotation = _placement(graph, node)
+        translation, rotation = _placement(graph, node, _OF_BONES)
         place = NodePlace(translation, euler.quaternions(rotation[::-1], EULER_ORDER))
         node_from_world[:] = np.linalg.inv(place.matrix)
         models = graph.below(node, "Model", "Mesh")
@@ -99,15 +101,16 @@ def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, cr
             for shape in graph.below(model, "Geometry")
             for channel in _channels(graph, shape)
         }
-        clip = _clip(graph, take, bones, bone_of_model, channels)
+        clip = _clip(graph, take, bones, turns_from, bone_of_model, channels)
     return Scene(bones, meshes, clip, creator, "" if node is None else node.name, place)
 
 
 # ------------------------------------------------------------------------------------------------------------ bones
 
 
-def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...], dict[int, int]]:
-    """Bones below a node with parents first, and the index of each model."""
+def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...], FloatArray, dict[int, int]]:
+    """Bones below a node with parents first, the rotations (B, 4) that their angles turn away from, and the index of
+    each model."""
     top = 0 if node is None else node.id
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
@@ -136,15 +139,36 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
                 found.append((graph.objects[key], index[parent_of[key]]))
     del index[top]
     places = [_placement(graph, model) for model, _ in found]
-    turns = euler.quaternions(np.array([rotation[::-1] for _, rotation in places]).reshape(-1, 3), EULER_ORDER)
-    rows = zip(found, places, np.ascontiguousarray(turns), strict=True)
-    return tuple(Bone(model.name, parent, place, turn) for (model, parent), (place, _), turn in rows), index
+    turning = [_turning(graph, model) for model, _ in found]
+    before = euler.quaternions(np.array([rotation[::-1] for _, rotation in turning]).reshape(-1, 3), EULER_ORDER)
+    degrees = np.array([rotation for _, rotation in places]).reshape(-1, 1, 3)
+    turns = channel_quaternions(degrees, [order for order, _ in turning], before)[:, 0]
+    rows = zip(found, places, turns, turning, strict=True)
+    bones = tuple(
+        Bone(model.name, parent, place, turn, np.eye(3)[[AXES.index(axis) for axis in order]])
+        for (model, parent), (place, _), turn, (order, _) in rows
+    )
+    return bones, before, index
 
 
-def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[FloatArray, FloatArray]:
-    """Local translation and Euler angles of a model that has nothing else."""
+def _turning(graph: ObjectGraph, model: FbxObject) -> tuple[str, FloatArray]:
+    """Order of a bone's angles, and the Euler angles of what they turn away from."""
     properties = properties_of(model.element)
-    for name in _NOT_SUPPORTED:
+    values = {name: numbers(properties.get(name, ())) for name in ("RotationActive", *_OF_BONES)}
+    if not any(values["RotationActive"]):
+        if any(map(any, values.values())):
+            raise FileError("fbx.unsupported", file=graph.file, what=f"inactive rotation of {model.name}")
+        return EULER_ORDER, np.zeros(3)
+    before, order = values["PreRotation"] or [0.0, 0.0, 0.0], int((*values["RotationOrder"], 0)[0])
+    if len(before) != 3 or not np.isfinite(before).all() or not 0 <= order < len(ORDERS):
+        raise FileError("fbx.unsupported", file=graph.file, what=f"rotation of {model.name}")
+    return ORDERS[order], np.array(before)
+
+
+def _placement(graph: ObjectGraph, model: FbxObject, without: Iterable[str] = ()) -> tuple[FloatArray, FloatArray]:
+    """Local translation and Euler angles of a model that has nothing else, nor any properties ``without``."""
+    properties = properties_of(model.element)
+    for name in (*_NOT_SUPPORTED, *without):
         if any(numbers(properties.get(name, ()))):
             raise FileError("fbx.unsupported", file=graph.file, what=f"{name} of {model.name}")
     if any(value != 1.0 for value in numbers(properties.get("Lcl Scaling", ()))):
@@ -161,7 +185,7 @@ def _placement(graph: ObjectGraph, model: FbxObject) -> tuple[FloatArray, FloatA
 def _mesh(
     graph: ObjectGraph, model: FbxObject, bone_of_model: dict[int, int], node_from_world: FloatArray
 ) -> SkinnedMesh:
-    if any(np.concatenate(_placement(graph, model))):
+    if any(np.concatenate(_placement(graph, model, _OF_BONES))):
         raise FileError("fbx.unsupported", file=graph.file, what=f"place of the mesh {model.name}")
     shapes = graph.below(model, "Geometry", "Mesh")
     if len(shapes) != 1:
@@ -309,6 +333,7 @@ def _clip(
     graph: ObjectGraph,
     take: FbxTake,
     bones: tuple[Bone, ...],
+    turns_from: FloatArray,
     bone_of_model: dict[int, int],
     name_of_channel: dict[int, str],
 ) -> Clip:
@@ -323,7 +348,7 @@ def _clip(
     weights: dict[str, FloatArray] = {}
     for (target, to_property), channels in take.curves.items():
         if target in bone_of_model and to_property == "Lcl Rotation":
-            turning.append((bone_of_model[target], channels[::-1]))
+            turning.append((bone_of_model[target], channels))
         elif target in bone_of_model:
             translations[bone_of_model[target]] = np.stack([curve.at(frames) for curve in channels], axis=1)
         elif target in name_of_channel:
@@ -331,12 +356,14 @@ def _clip(
             if name in weights and not np.array_equal(weights[name], weight):
                 raise FileError("fbx.contradiction", file=graph.file, detail=f"two different curves of {name}")
             weights[name] = weight
-    _turn(rotations, turning)
+    _turn(rotations, turning, [bone.order for bone in bones], turns_from)
     # In memory component after component: so they are computed with.
     return Clip(take.name, take.fps, frames, rotations.transpose(2, 1, 0), translations, weights)
 
 
-def _turn(rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]]) -> None:
+def _turn(
+    rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]], orders: Sequence[str], turns_from: FloatArray
+) -> None:
     """Set the rotations (4, B, F) of bones to what the curves of their angles say, some bones at a time."""
     frames = rotations.shape[-1]
     resting = [row for row in turning if all(curve.rests for curve in row[1])]
@@ -348,5 +375,8 @@ def _turn(rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]]) -> N
             for row, (_, curves) in enumerate(some):
                 for axis, curve in enumerate(curves):
                     angles[axis, row] = curve.values[:1] if count == 1 else curve.at(frames)
-            turns = euler.quaternions(np.moveaxis(angles, 0, -1), EULER_ORDER)
-            rotations[:, [bone for bone, _ in some]] = np.moveaxis(turns, -1, 0)
+            chosen = [bone for bone, _ in some]
+            turns = channel_quaternions(
+                np.moveaxis(angles, 0, -1), [orders[bone] for bone in chosen], turns_from[chosen]
+            )
+            rotations[:, chosen] = np.moveaxis(turns, -1, 0)

@@ -1,8 +1,9 @@
 """Scenes -> binary FBX 7.4 file.
 
 The layout is what the FBX SDK 2019.2, ufbx, Blender, assimp and three.js all read alike: no pivots, no scaling, bones
-as LimbNodes under one root, Euler angles in the default order, linear keys. Several scenes share one take; the
-bones and meshes of each are below a Null of its name at its place, which Blender makes the armature.
+as LimbNodes under one root, linear keys. A bone's rest is its pre-rotation, so that its curves are 0 there, and each
+has its own order of angles. Several scenes share one take; the bones and meshes of each are below a Null of its name at
+its place, which Blender makes the armature.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from app.formats.atomic import atomic_write
 from app.formats.euler import euler_degrees
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.assembly import Assembly
-from app.formats.fbx.curves import EULER_ORDER, FbxLayerCurves
+from app.formats.fbx.curves import EULER_ORDER, ORDERS, FbxLayerCurves
 from app.formats.fbx.encode import Element, element_pieces
 from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
 from app.formats.fbx.packed_meshes import PackedMesh, packed_mesh
@@ -69,7 +70,7 @@ def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
             if curves is None:
                 take, rate = scene.clip.name, scene.clip.fps
                 last_tick, curves = _add_take(graph, scene.clip)
-            curves.add_clip(scene.clip, figure.bone_ids, figure.channel_ids)
+            curves.add_clip(scene.bones, scene.clip, figure.bone_ids, figure.channel_ids)
     return (
         header(creator),
         Element("FileId", (encode.FILE_ID,)),
@@ -117,9 +118,9 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
         figure.node = graph.add("Model", scene.name, "Model", "Null", _placed(scene.place))
         graph.connect(figure.node, 0)
         world_from_node = scene.place.matrix
-    turned = euler_degrees(np.stack([bone.rotation_xyzw for bone in scene.bones])[None], EULER_ORDER)[:, ::-1, 0]
-    for bone, rotation_degrees in zip(scene.bones, turned, strict=True):
-        _add_bone(graph, figure, bone, rotation_degrees)
+    rests = euler_degrees(np.stack([bone.rotation_xyzw for bone in scene.bones])[None], EULER_ORDER)[:, ::-1, 0]
+    for bone, rest_degrees in zip(scene.bones, rests, strict=True):
+        _add_bone(graph, figure, bone, rest_degrees)
     if scene.meshes:
         binds = world_from_node @ _unconnected_binds(scene)
         mesh_ids = [_add_mesh(graph, figure, mesh, binds, world_from_node) for mesh in scene.meshes]
@@ -132,10 +133,16 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
     return figure
 
 
-def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rotation_degrees: AnyFloatArray) -> None:
+def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rest_degrees: AnyFloatArray) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
-    model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, rotation_degrees))
+    turning = (
+        # Without it the FBX SDK passes over the other two.
+        property_row("RotationActive", "bool", "", "", np.int32(1)),
+        property_row("RotationOrder", "enum", "", "", np.int32(ORDERS.index(bone.order))),
+        property_row("PreRotation", "Vector3D", "Vector", "", *map(float, rest_degrees)),
+    )
+    model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, np.zeros(3), turning))
     graph.connect(model, figure.node if bone.parent < 0 else figure.bone_ids[bone.parent])
     figure.bone_ids.append(model)
     graph.connect(attribute, model)
@@ -146,10 +153,13 @@ def _placed(place: NodePlace) -> tuple[Element, ...]:
     return _model(place.translation_cm, rotation)
 
 
-def _model(translation_cm: AnyFloatArray, rotation_degrees: AnyFloatArray) -> tuple[Element, ...]:
+def _model(
+    translation_cm: AnyFloatArray, rotation_degrees: AnyFloatArray, turning: tuple[Element, ...] = ()
+) -> tuple[Element, ...]:
     return (
         integer("Version", 232),
         property_block(
+            *turning,
             property_row("InheritType", "enum", "", "", np.int32(1)),
             property_row("DefaultAttributeIndex", "int", "Integer", "", np.int32(0)),
             _vector("Lcl Translation", translation_cm),

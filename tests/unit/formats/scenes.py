@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from fractions import Fraction
 
 import numpy as np
@@ -60,8 +61,9 @@ def world_from_bones(bones: tuple[Bone, ...], translations: np.ndarray, quaterni
 
 def _rest_bones(seed: int, rest_amplitude_rad: float) -> tuple[Bone, ...]:
     rest = rotations(seed, 1, len(BONES), rest_amplitude_rad)[0]
+    orders = list(itertools.permutations(np.eye(3)))
     return tuple(
-        Bone(name, parent, np.array(offset, dtype=float), rest[joint])
+        Bone(name, parent, np.array(offset, dtype=float), rest[joint], np.array(orders[joint % len(orders)]))
         for joint, (name, parent, offset) in enumerate(BONES)
     )
 

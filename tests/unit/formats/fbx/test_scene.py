@@ -193,19 +193,25 @@ def _with(*values: Property) -> Change:
     return lambda element: structs.replace(element, properties=values)
 
 
-def _with_p(*values: Property) -> Change:
-    return lambda block: structs.replace(block, children=(*(block.children or ()), Element("P", values)))
+def _with_p(*rows: tuple[Property, ...]) -> Change:
+    return lambda block: structs.replace(
+        block, children=(*(block.children or ()), *(Element("P", values) for values in rows))
+    )
 
 
 MODEL = "Objects/Model/Properties70"
 ROOT_ID, FIRST_CHILD_ID = np.int64(1000002), np.int64(1000004)
 FRAME_TICKS = 1_924_423_250  # at 24 frames/s
 TWO_SIZES = np.array([0, 1, -3, 0, 1, 2, -4], dtype=np.int32)
+NOT_IN_FORCE = ("RotationActive", "bool", "", "", np.int32(0))
+TURNED = ("PreRotation", "Vector3D", "Vector", "", 0.0, 90.0, 0.0)
 ODD = {
-    "a pre-rotation": (MODEL, _with_p("PreRotation", "V", "", "", 0.0, 90.0, 0.0), "unsupported"),
-    "another rotation order": (MODEL, _with_p("RotationOrder", "enum", "", "", np.int32(2)), "unsupported"),
-    "a scale": (MODEL, _with_p("Lcl Scaling", "L", "", "", 1.0, 2.0, 1.0), "unsupported"),
-    "a place of two numbers": (MODEL, _with_p("Lcl Translation", "L", "", "", 1.0, 2.0), "missing"),
+    "a post-rotation": (MODEL, _with_p(("PostRotation", "V", "", "", 0.0, 90.0, 0.0)), "unsupported"),
+    "a pre-rotation of two numbers": (MODEL, _with_p(("PreRotation", "V", "", "", 0.0, 90.0)), "unsupported"),
+    "a pre-rotation that is not in force": (MODEL, _with_p(NOT_IN_FORCE, TURNED), "unsupported"),
+    "an unknown rotation order": (MODEL, _with_p(("RotationOrder", "enum", "", "", np.int32(6))), "unsupported"),
+    "a scale": (MODEL, _with_p(("Lcl Scaling", "L", "", "", 1.0, 2.0, 1.0)), "unsupported"),
+    "a place of two numbers": (MODEL, _with_p(("Lcl Translation", "L", "", "", 1.0, 2.0)), "missing"),
     "too few vertices": ("Objects/Geometry/Vertices", _with(np.zeros(3)), "contradiction"),
     "a third of a vertex": ("Objects/Geometry/Vertices", _with(np.zeros(4)), "contradiction"),
     "vertices of text": ("Objects/Geometry/Vertices", _with("text"), "missing"),

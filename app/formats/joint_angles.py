@@ -1,0 +1,89 @@
+"""Angles of joints as animators see them: away from the rest pose, each joint about its axes in an order of its own."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, FloatArray
+from app.formats.euler import euler_degrees, quaternions
+
+AXES: Final = "XYZ"
+PLAIN_ORDER: Final = "ZYX"
+"""The order of a joint whose axes mean nothing, which FBX has by default."""
+_ORDERS: Final = tuple("".join(axes) for axes in itertools.permutations(AXES))
+_DIGITS: Final = 4
+"""Digits of sums of cosines: nearer ones are alike, so that rounding decides nothing."""
+
+
+def order_along(axes: AnyFloatArray | None) -> str:
+    """The order, as in `app.formats.euler`, whose axes are nearest to three axes.
+
+    Parameters
+    ----------
+    axes : ndarray, shape (3, 3), or None
+        A row per axis, either way round, from the parent on; None: `PLAIN_ORDER`.
+    """
+    if axes is None:
+        return PLAIN_ORDER
+    near = np.abs(np.asarray(axes, np.float64))
+    sums = [float(sum(near[row, AXES.index(axis)] for row, axis in enumerate(order))) for order in _ORDERS]
+    return _ORDERS[int(np.argmax(np.round(sums, _DIGITS)))]
+
+
+def channel_degrees(
+    rotations_xyzw: AnyFloatArray, orders: Sequence[str], rests_xyzw: AnyFloatArray | None = None
+) -> FloatArray:
+    """Angles of joints about their own X, Y and Z, unrolled along the frames.
+
+    Parameters
+    ----------
+    rotations_xyzw : ndarray, shape (F, J, 4)
+    orders : sequence of str
+        Of each joint.
+    rests_xyzw : ndarray, shape (J, 4), optional
+        Rotations at which all angles are 0; absent: unturned.
+
+    Returns
+    -------
+    ndarray, shape (J, 3, F), float64
+        Degrees.
+    """
+    frames, joints, _ = rotations_xyzw.shape
+    result = np.empty((joints, len(AXES), frames))
+    for order, chosen in _by_order(orders):
+        turned = rotations_xyzw[:, chosen]
+        if rests_xyzw is not None:
+            back = _left_products(np.asarray(rests_xyzw, np.float64)[chosen] * (-1.0, -1.0, -1.0, 1.0))
+            turned = np.einsum("jab,fjb->fja", back, turned)
+        found = euler_degrees(turned, order)
+        for place, axis in enumerate(order):
+            result[chosen, AXES.index(axis)] = found[:, place]
+    return result
+
+
+def channel_quaternions(
+    degrees: AnyFloatArray, orders: Sequence[str], rests_xyzw: AnyFloatArray | None = None
+) -> FloatArray:
+    """Inverse of `channel_degrees`: unit quaternions (J, F, 4) of angles (J, F, 3) about X, Y and Z."""
+    result = np.empty((*degrees.shape[:-1], 4))
+    for order, chosen in _by_order(orders):
+        turned = quaternions(degrees[chosen][..., [AXES.index(axis) for axis in order]], order)
+        if rests_xyzw is not None:
+            turned = np.einsum("jab,jfb->jfa", _left_products(np.asarray(rests_xyzw, np.float64)[chosen]), turned)
+        result[chosen] = turned
+    return result
+
+
+def _by_order(orders: Sequence[str]) -> list[tuple[str, list[int]]]:
+    """The joints of each order."""
+    return [(order, [joint for joint, own in enumerate(orders) if own == order]) for order in dict.fromkeys(orders)]
+
+
+def _left_products(rotations_xyzw: FloatArray) -> FloatArray:
+    """Matrices (J, 4, 4) that multiply quaternions from the left by the unit ones of some rotations (J, 4)."""
+    x, y, z, w = (rotations_xyzw / np.linalg.norm(rotations_xyzw, axis=-1, keepdims=True)).T
+    return np.array([[w, -z, y, x], [z, w, -x, y], [-y, x, w, z], [-x, -y, -z, w]]).transpose(2, 0, 1)
