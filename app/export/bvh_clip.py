@@ -8,13 +8,15 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.arrays import FloatArray
+from app.arrays import AnyFloatArray, FloatArray
 from app.export.joints import world_transforms
 from app.export.target import TargetSkeleton
 from app.formats.bvh.clip import BvhClip
+from app.formats.joint_angles import order_along
 from app.formats.scene import Clip, Scene
 from app.formats.unique_names import numbered
 from app.rig import quaternion
+from app.rig.characters.bone_placements import world_placements
 from app.rig.model import Skeleton
 from metadata.known_names import BoneNames
 from metadata.load import load_bone_names
@@ -24,11 +26,14 @@ OWN_VERTEX = 0.5
 _SHORTEST_CM = 1.0
 
 
-def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> BvhClip:
+def scene_bvh(
+    scene: Scene, names: Mapping[int, str] = MappingProxyType({}), t_pose: AnyFloatArray | None = None
+) -> BvhClip:
     """The skeleton from the bone that is moved (the hips) on, with the motion of all bones above it in its own.
 
     BVH moves its root only, so that what another bone is moved by is left out, and a bone that is but moved, such as a
-    socket, altogether.
+    socket, altogether. It has no rest but the pose in which all angles are 0, and no frames but the world's in that
+    pose, so bones have new frames: those of the world in the T-pose.
 
     Parameters
     ----------
@@ -36,6 +41,8 @@ def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> 
         With a clip.
     names : mapping of int to str
         By bone, for those that are to have another name than in the scene.
+    t_pose : ndarray, shape (B, 4), optional
+        Rotations of the bones on their parents in the T-pose; absent: the scene's rest.
     """
     clip = scene.clip
     if clip is None:
@@ -50,16 +57,35 @@ def scene_bvh(scene: Scene, names: Mapping[int, str] = MappingProxyType({})) -> 
     rotations[:, 0] = rotation
     offsets_cm = np.stack([np.asarray(scene.bones[bone].translation_cm, np.float64) for bone in chosen])
     offsets_cm[0] = 0.0
+    frames = _frames(scene, t_pose)
+    parents = [scene.bones[bone].parent if bone != first else -1 for bone in chosen]
+    above = np.stack([frames[parent] if parent >= 0 else quaternion.IDENTITY for parent in parents])
+    ends_cm = _end_sites_cm(scene, chosen)
+    axes = [scene.bones[bone].axes for bone in chosen]
     return BvhClip(
         # BVH takes no blanks in names.
         names=numbered("_".join(names.get(bone, scene.bones[bone].name).split()) or "bone" for bone in chosen),
-        parents=tuple(-1 if bone == first else place[scene.bones[bone].parent] for bone in chosen),
-        offsets_cm=offsets_cm,
-        end_sites_cm={place[bone]: end for bone, end in _end_sites_cm(scene, chosen).items()},
+        parents=tuple(place[parent] if parent >= 0 else -1 for parent in parents),
+        offsets_cm=quaternion.rotate(above, offsets_cm),
+        end_sites_cm={place[bone]: quaternion.rotate(frames[bone], end) for bone, end in ends_cm.items()},
         fps=clip.fps,
         root_translation_cm=translation_cm,
-        rotations_xyzw=rotations,
+        rotations_xyzw=quaternion.multiply(
+            quaternion.multiply(above, np.asarray(rotations, np.float64)), quaternion.conjugate(frames[chosen])
+        ),
+        orders=tuple(
+            order_along(None if own is None else quaternion.rotate(frames[bone], np.asarray(own, np.float64)))
+            for bone, own in zip(chosen, axes, strict=True)
+        ),
     )
+
+
+def _frames(scene: Scene, t_pose: AnyFloatArray | None) -> FloatArray:
+    """Rotations (B, 4) of the bones in the world, in the pose in which a file's angles are 0."""
+    rests = [bone.rotation_xyzw for bone in scene.bones]
+    local = np.asarray(rests if t_pose is None else t_pose, np.float64)
+    _, frames = world_placements([bone.parent for bone in scene.bones], np.zeros((len(local), 3)), local)
+    return frames
 
 
 def _first(scene: Scene, clip: Clip) -> int:

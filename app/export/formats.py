@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
+from app.arrays import AnyFloatArray
 from app.errors import UsageError
 from app.export.rig_options import Attachment
 from app.formats.scene import Scene, SkinnedMesh
@@ -18,7 +19,7 @@ Format: TypeAlias = str
 FileContent = Literal["character", "instrument"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WriteOptions:
     """Options of some file formats.
 
@@ -30,11 +31,14 @@ class WriteOptions:
         Other names than the scene's, by bone, for files that are chosen by the names of their bones.
     expressions : mapping of str to mapping of str to float
         Further expressions of a face, by weights of the scene's morphs.
+    t_pose : ndarray, shape (B, 4), or None
+        Rotations of the scene's bones on their parents in the T-pose.
     """
 
     sound: str | None = None
     bone_names: Mapping[int, str] = field(default_factory=dict)
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    t_pose: AnyFloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -118,7 +122,7 @@ def _write_bvh(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> Non
     from app.formats.bvh.write import write_bvh
 
     (scene,) = scenes
-    write_bvh(path, scene_bvh(scene, beside.bone_names))
+    write_bvh(path, scene_bvh(scene, beside.bone_names, beside.t_pose))
 
 
 def _write_glb(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:

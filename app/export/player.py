@@ -255,4 +255,5 @@ def write_options(request: ExportRequest, character: Character, target: TargetSk
         sound=sound_name(request.source) if request.sound else None,
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
         expressions=vrm_expressions(character),
+        t_pose=target.t_pose,
     )

@@ -1,9 +1,9 @@
 """BVH files as every reader takes them.
 
 The dialect that bvhio, bvh, pybvh, Blender, assimp and three.js read alike: position channels on the root only, whose
-own OFFSET is zero (some readers add it to the channels, others replace it), rotation channels Z X Y on every joint,
-the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File Formats
-Explained" (University of Sheffield, 2001).
+own OFFSET is zero (some readers add it to the channels, others replace it), three rotation channels on every joint, in
+an order of its own, the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture
+File Formats Explained" (University of Sheffield, 2001).
 """
 
 from __future__ import annotations
@@ -15,12 +15,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from app.arrays import AnyFloatArray
-from app.formats import euler
 from app.formats.atomic import atomic_write
 from app.formats.bvh.clip import POSITIONS, BvhClip
 from app.formats.fixed_point import table_text
+from app.formats.joint_angles import AXES, channel_degrees
 
 _ORDER = "ZXY"
+"""Order of joints that have none of their own."""
 _ROWS = 256
 """Frames whose text is made at once."""
 
@@ -64,18 +65,21 @@ def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
 
 def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
     """The channels frame by frame, with joints in this order."""
-    angles = euler.euler_degrees(clip.rotations_xyzw, _ORDER)
+    orders = _orders(clip)
+    angles = channel_degrees(clip.rotations_xyzw, orders)
+    channels = np.array([[AXES.index(axis) for axis in orders[joint]] for joint in order])
+    angles = angles[np.array(order)[:, None], channels]
     frames = angles.shape[-1]
     for first in range(0, frames, _ROWS):
         rows = slice(first, first + _ROWS)
         places = clip.root_translation_cm[rows]
-        turns = angles[order, :, rows].reshape(-1, len(places)).T
+        turns = angles[..., rows].reshape(-1, len(places)).T
         yield from table_text(np.concatenate([places, turns], axis=1, dtype=np.float64))
 
 
 def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:
     """Add the hierarchy, depth first, and say in which order the joints come."""
-    rotations = " ".join(f"{axis}rotation" for axis in _ORDER)
+    turning = [" ".join(f"{axis}rotation" for axis in order) for order in _orders(clip)]
     # What is still to be written, last first: a joint with its depth, or a closing brace of that depth.
     pending: list[tuple[int | None, int]] = [(0, 0)]
     while pending:
@@ -86,18 +90,22 @@ def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], ord
             continue
         order.append(joint)
         offset = np.zeros(3) if joint == 0 else clip.offsets_cm[joint]
-        channels = f"CHANNELS 6 {' '.join(POSITIONS)} {rotations}" if joint == 0 else f"CHANNELS 3 {rotations}"
+        placing = f"CHANNELS 3 {turning[joint]}" if joint else f"CHANNELS 6 {' '.join(POSITIONS)} {turning[joint]}"
         lines += [
             f"{indent}{'JOINT' if joint else 'ROOT'} {clip.names[joint]}",
             indent + "{",
             f"{indent}\tOFFSET {_vector(offset)}",
-            f"{indent}\t{channels}",
+            f"{indent}\t{placing}",
         ]
         if not children[joint]:
             end = _vector(clip.end_sites_cm[joint])
             lines += [f"{indent}\tEnd Site", indent + "\t{", f"{indent}\t\tOFFSET {end}", indent + "\t}"]
         pending.append((None, depth))
         pending += [(child, depth + 1) for child in reversed(children[joint])]
+
+
+def _orders(clip: BvhClip) -> tuple[str, ...]:
+    return clip.orders or (_ORDER,) * len(clip.names)
 
 
 def _vector(values: AnyFloatArray) -> str:
@@ -118,6 +126,8 @@ def _check(clip: BvhClip) -> None:
     frames = len(clip.rotations_xyzw)
     if clip.rotations_xyzw.shape != (frames, count, 4) or clip.root_translation_cm.shape != (frames, 3) or not frames:
         raise ValueError("rotations (F, J, 4) and root translations (F, 3) of at least one frame")
+    if any(sorted(order) != sorted(AXES) for order in clip.orders) or len(_orders(clip)) != count:
+        raise ValueError("one order of all three axes per joint, or none at all")
     if clip.translations_cm:
         raise ValueError("only the root moves")
     if np.shape(clip.offsets_cm) != (count, 3) or not np.isfinite(clip.offsets_cm).all() or clip.fps <= 0:

@@ -212,11 +212,13 @@ def test_each_turn_is_made_once(eyes: Eyes, skeleton: str) -> None:
         clip = scene_bvh(scene)
         for side in EYE_SIDES:
             at = list(clip.names).index({"ue5": f"eye_{side[0]}", "suisou": f"{side}Eye"}[skeleton])
-            whole = character_scene(eyes.character, eyes.motion, "x", "t", target_of(eyes.character, skeleton, "bones"))
-            assert whole.clip is not None
-            bone = [one.name for one in whole.bones].index(clip.names[at])
+            turned = character_scene(
+                eyes.character, eyes.motion, "x", "t", target_of(eyes.character, skeleton, "bones")
+            )
+            whole = scene_bvh(turned)
+            bone = whole.names.index(clip.names[at])
             np.testing.assert_allclose(
-                np.abs(np.sum(clip.rotations_xyzw[:, at] * whole.clip.rotations_xyzw[:, bone], axis=1)), 1.0, atol=1e-6
+                np.abs(np.sum(clip.rotations_xyzw[:, at] * whole.rotations_xyzw[:, bone], axis=1)), 1.0, atol=1e-6
             )
 
 

@@ -136,7 +136,8 @@ def _write_bvh(path: Path, fps: Fraction) -> Expected:
     offsets = np.array([bone.translation_cm for bone in scene.bones])
     ends = {joint: np.array([0.0, 2.0, 1.0]) for joint in set(range(len(names))) - set(parents)}
     root = scene.clip.translations_cm[0] + [0, 95, 0]
-    write_bvh(path, BvhClip(names, parents, offsets, ends, fps, root, scene.clip.rotations_xyzw))
+    orders = tuple(bone.order for bone in scene.bones)
+    write_bvh(path, BvhClip(names, parents, offsets, ends, fps, root, scene.clip.rotations_xyzw, orders=orders))
     clip = replace(scene.clip, translations_cm={0: root}, morph_weights={})
     return scenes.expected(replace(scene, clip=clip))
 
