@@ -65,11 +65,13 @@ def stub() -> ast.Module:
     return ast.parse(STUB.read_text(encoding="utf-8"))
 
 
+@cache
 def stub_classes() -> dict[str, ast.ClassDef]:
     """Its classes by name."""
     return {node.name: node for node in stub().body if isinstance(node, ast.ClassDef)}
 
 
+@cache
 def editor_properties(name: str, function: str) -> dict[str, str]:
     """The properties that a class's ``set_editor_property`` or ``get_editor_property`` knows, and their types."""
     found = {}
