@@ -176,6 +176,36 @@ class StepResults:
         self._before = {}
 
 
+class StepRuns:
+    """Runs of tables for what they are about, such as players: each goes on from the run of the same in former runs.
+
+    Parameters
+    ----------
+    former : StepRuns, optional
+        Of a state before, or of any other: they save work, and change no result.
+    """
+
+    def __init__(self, former: StepRuns | None = None) -> None:
+        self._former = {} if former is None else former._runs
+        self._runs: dict[tuple[StepTable, str], StepResults] = {}
+
+    def begin(self, table: StepTable, about: str = "", /, **given: object) -> StepResults:
+        """Make a run, as `StepTable.begin`; it takes the place of one of the same begun here."""
+        key = table, about
+        self._runs[key] = results = table.begin(self._former.get(key), **given)
+        return results
+
+    def of(self, table: StepTable, about: str = "") -> StepResults:
+        """Return a run that has begun. Raises KeyError."""
+        return self._runs[table, about]
+
+    def close(self) -> None:
+        """Forget the former runs, so that runs do not hold one another for ever."""
+        self._former = {}
+        for results in self._runs.values():
+            results.close()
+
+
 def _are_equal(before: Collection[object], now: Collection[object]) -> bool:
     """Return whether inputs are equal; the same objects, as nearly all are, are not compared."""
     if len(before) != len(now):

@@ -22,6 +22,7 @@ from app.plan.parameters import PlayerParameters
 from app.rig.grip.grip_pose import GripPose
 from app.rig.model import Character
 from app.rig.skeleton import forward
+from app.steps import StepRuns
 from instrument_maps.map_table import Posture
 from instrument_maps.model import InstrumentMap
 from metadata.model import Body
@@ -149,7 +150,7 @@ def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[Fingerin
     player_id, character, grip, body, posture = holding
     still = PlayerPlan(player_id, frame, held, (), (), (), (), (), (), ())
     parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0)
-    curves = prepare(still, parameters, instrument, character, grip, body, felt_beats=((0, 1),))
+    curves = prepare(StepRuns(), still, parameters, instrument, character, grip, body, felt_beats=((0, 1),))
     # One frame in the middle of each note.
     fps = Fraction(1, round(_NOTE_S / 2.0))
     motion = curves.motion(fps, 0, round((frame.end_s - frame.first_frame_s) * fps))

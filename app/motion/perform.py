@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 
@@ -45,7 +45,7 @@ from app.rig.grip.carriage import carrying
 from app.rig.grip.grip_pose import GripPose, StationBlend, giving_for
 from app.rig.model import Character
 from app.score.metre_map import FeltBeats
-from app.steps import StepResults
+from app.steps import StepRuns
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_expressions
 from metadata.model import Body, Expression, Posture
@@ -55,26 +55,6 @@ FEET_LEFT: Final = 0.1
 NOT_SHOWN = Envelopes.of(())
 OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive", "danced_feet")
 """Curves of `PerformanceCurves` that stand alone."""
-
-
-class CurveSteps(NamedTuple):
-    """Results of `FACE`, `LAYERS`, `GAZE` and `FINGERS`."""
-
-    face: StepResults
-    layers: StepResults
-    gaze: StepResults
-    fingers: StepResults
-
-    @classmethod
-    def begin(cls, before: CurveSteps | None, **given: object) -> CurveSteps:
-        """Make a run of them all, after the run before."""
-        tables = (FACE, LAYERS, GAZE, FINGERS)
-        return cls(*(table.begin(one, **given) for table, one in zip(tables, before or (None,) * 4, strict=True)))
-
-    def close(self) -> None:
-        """Forget the run before."""
-        for results in self:
-            results.close()
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +92,7 @@ class PerformanceCurves:
         The animator's curves.
     stopping : Envelopes
         How far a hand closes the bell.
-    steps : tuple of StepResults
+    runs : StepRuns
         That made the curves: those of events that an edit leaves alone are taken over.
     """
 
@@ -131,7 +111,7 @@ class PerformanceCurves:
     controls: dict[str, Curve]
     stations: dict[str, Curve]
     raised: Curve
-    steps: CurveSteps
+    runs: StepRuns
     dance: BodyLayer | None = None
     danced_feet: DancedFeet = field(default_factory=DancedFeet.none)
     inhaling: Envelopes = NOT_SHOWN
@@ -328,6 +308,7 @@ class PerformanceCurves:
 
 
 def prepare(
+    runs: StepRuns,
     plan: PlayerPlan,
     parameters: PlayerParameters,
     instrument_map: InstrumentMap,
@@ -337,15 +318,15 @@ def prepare(
     *,
     felt_beats: FeltBeats,
     expressions: Mapping[str, Expression] | None = None,
-    before: PerformanceCurves | None = None,
     dance: BodyLayer | None = None,
 ) -> PerformanceCurves:
     """Make a plan ready to be seen.
 
     Parameters set amplitude, posture, seed and the sizes of layers; ``grip`` is fitted for this character and
     instrument; a rest as long as a felt beat brings controls back to rest; expressions are the bundled ones by default.
-    Curves that are as in ``before`` (the player prior to an edit) are taken from there. ``dance`` is added to the body
-    by the parameters' amount, and takes the place of as much of the generated sway and shift of weight.
+    Curves that are as in the former runs of ``runs`` (`PerformanceCurves.runs` prior to an edit) are taken from there.
+    ``dance`` is added to the body by the parameters' amount, and takes the place of as much of the generated sway and
+    shift of weight.
     """
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
@@ -355,18 +336,12 @@ def prepare(
     parameters = limited_to_carriage(parameters, carriage)
     player = player_body(parameters, instrument_map, character, grip, body)
     feet = DancedFeet.none() if dance is None else dance.feet.giving_way(plan.gestures)
-    steps = _steps_of(
-        plan,
-        parameters,
-        acting,
-        player,
-        instrument_map,
-        body,
-        felt_beats=felt_beats,
-        before=before,
-        dances=dance is not None,
+    given = _given(
+        plan, parameters, acting, player, instrument_map, body, felt_beats=felt_beats, dances=dance is not None
     )
-    face, fingers = steps.face.of(FaceCurves), steps.fingers.of(fingers_of)
+    face, layers = runs.begin(FACE, **given).of(FaceCurves), runs.begin(LAYERS, **given).of(Layers)
+    gaze, hands = runs.begin(GAZE, **given).of(plan_gaze), runs.begin(FINGERS, **given)
+    fingers = hands.of(fingers_of)
     made = PerformanceCurves(
         plan=plan,
         instrument_map=instrument_map,
@@ -377,9 +352,9 @@ def prepare(
         body=body,
         expressions={name: known[name] for name in face.expressions},
         player=player,
-        layers=steps.layers.of(Layers),
+        layers=layers,
         face=face,
-        gaze=steps.gaze.of(plan_gaze),
+        gaze=gaze,
         controls=fingers.controls,
         stations=fingers.stations,
         raised=fingers.raised,
@@ -387,14 +362,14 @@ def prepare(
         danced_feet=feet,
         inhaling=NOT_SHOWN if dance is None else breath_envelopes(plan.breaths),
         stopping=bell_closing(plan.mutes, instrument_map.stopped),
-        additive=steps.fingers.of(Additive.of),
-        steps=steps,
+        additive=hands.of(Additive.of),
+        runs=runs,
     )
-    steps.close()
+    runs.close()
     return made
 
 
-def _steps_of(
+def _given(
     plan: PlayerPlan,
     parameters: PlayerParameters,
     acting: Acting,
@@ -403,20 +378,18 @@ def _steps_of(
     body: Body,
     *,
     felt_beats: FeltBeats,
-    before: PerformanceCurves | None,
     dances: bool,
-) -> CurveSteps:
-    """Begin the steps that make the curves, after those of the curves before."""
-    return CurveSteps.begin(
-        None if before is None else before.steps,
-        plan=plan,
-        embouchure_tension=parameters.embouchure_tension,
-        face_motion=body.face,
-        lungs=Lungs.of(parameters, instrument_map.air),
-        body=body,
-        felt_beats=felt_beats,
-        watching=Watching(parameters.seed, acting.gaze, acting.blink),
-        instrument=instrument_map,
-        farthest=player.farthest,
-        generated_feet=max(0.0, 1.0 - parameters.dance_amount / FEET_LEFT) if dances else 1.0,
-    )
+) -> dict[str, object]:
+    """Return what the steps that make the curves read."""
+    return {
+        "plan": plan,
+        "embouchure_tension": parameters.embouchure_tension,
+        "face_motion": body.face,
+        "lungs": Lungs.of(parameters, instrument_map.air),
+        "body": body,
+        "felt_beats": felt_beats,
+        "watching": Watching(parameters.seed, acting.gaze, acting.blink),
+        "instrument": instrument_map,
+        "farthest": player.farthest,
+        "generated_feet": max(0.0, 1.0 - parameters.dance_amount / FEET_LEFT) if dances else 1.0,
+    }

@@ -13,7 +13,7 @@ from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
 from app.rig.characters.character_library import bundled_characters, character_revision
-from app.steps import StepResults, StepTable
+from app.steps import StepRuns, StepTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 
@@ -29,14 +29,11 @@ class BodyProblems(NamedTuple):
         Note by note.
     unseen : Message or None
         Why the player cannot be seen.
-    reach : StepResults or None
-        Of `REACH`, for the next time.
     """
 
     lacking: tuple[Message, ...]
     unreached: tuple[Problem, ...] = ()
     unseen: Message | None = None
-    reach: StepResults | None = None
 
 
 def body_problems(
@@ -44,7 +41,7 @@ def body_problems(
     instrument: InstrumentMap,
     fingerings: tuple[FingeringEvent, ...],
     waiting: bool,
-    before: StepResults | None = None,
+    runs: StepRuns,
 ) -> BodyProblems:
     """Problems of a player's body.
 
@@ -54,8 +51,8 @@ def body_problems(
         Of the library.
     waiting : bool
         Whether another task is computing how the instrument is held.
-    before : StepResults or None
-        What was found before an edit.
+    runs : StepRuns
+        What was found in former runs is not looked for again.
     """
     try:
         held, lacking = suited_to(player, instrument)
@@ -65,10 +62,9 @@ def body_problems(
         ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
         missed = None if ours or not is_held(player, instrument) else missed_message(hold_of(player, held))
         revision = character_revision(player.character_id)
-        reach = REACH.begin(before, player=_posed(player), instrument=held, revision=revision, fingerings=fingerings)
-        unreached = reach.of(_reached).problems
-        reach.close()
-        return BodyProblems(lacking if missed is None else (*lacking, missed), unreached, reach=reach)
+        given = {"instrument": held, "revision": revision, "fingerings": fingerings}
+        unreached = runs.begin(REACH, player.id, player=_posed(player), **given).of(_reached).problems
+        return BodyProblems(lacking if missed is None else (*lacking, missed), unreached)
     except AppError as error:
         # A model or character that cannot be read is this player's problem; the others play on.
         return BodyProblems((error.message,), unseen=error.message)

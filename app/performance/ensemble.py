@@ -20,7 +20,7 @@ from app.plan.acting import with_style
 from app.plan.by_hand.mark_corrections import corrected_marks
 from app.plan.doubling import InstrumentChange, changes, first_played
 from app.plan.faces.glances import StagePlace
-from app.plan.generate import EnsemblePlan, EnsemblePlanning, MonophonicPart, Piece, frame_around
+from app.plan.generate import EnsemblePlanning, MonophonicPart, Piece, frame_around
 from app.plan.model import CONDUCTOR, PlayerPlan, Problem, TimeFrame, no_events
 from app.plan.music.dynamics_from_velocities import VelocityReading, read_velocities
 from app.plan.music.written_dynamics import written_dynamics
@@ -29,7 +29,7 @@ from app.project.model import Project
 from app.project.performers import Player
 from app.rig.characters.character_library import character_library
 from app.score.limits import too_long
-from app.steps import StepResults
+from app.steps import StepResults, StepRuns
 from instrument_maps.library import library
 from instrument_maps.map_table import Posture
 from instrument_maps.model import InstrumentMap
@@ -94,14 +94,12 @@ class Performance:
         self._problems = dict[str, tuple[Problem, ...]]()
         self.begun: EnsemblePlanning | None = None
         """Planning that is under way."""
-        self._finished: EnsemblePlan | None = None
-        """The plan of all, once it is made."""
-        known = dict[str, StepResults]() if self._before is None else self._before._players
-        self._players: dict[str, StepResults] = {
-            player.id: self._begun(player, known.get(player.id)) for player in project.players
-        }
-        self._whole: StepResults = WHOLE.begin(
-            None if self._before is None else self._before._whole,
+        self.planned: bool = False
+        """True if the plans are made already: asking for them then costs nothing."""
+        self._runs: StepRuns = StepRuns(None if self._before is None else self._before._runs)
+        self._players: dict[str, StepResults] = {player.id: self._begun(player) for player in project.players}
+        self._whole: StepResults = self._runs.begin(
+            WHOLE,
             clock=project.score.tempo_map,
             metre_map=project.metre_map,
             accompaniment=project.score.accompaniment,
@@ -109,13 +107,11 @@ class Performance:
             installed=self.metadata.expressions_by_name,
             own=project.expressions,
         )
-        self._lines = dict[str, StepResults]()
-        self._held = dict[str, StepResults]()
-        self._reach = dict[str, StepResults]()
 
-    def _begun(self, player: Player, before: StepResults | None) -> StepResults:
-        return PLAYED.begin(
-            before,
+    def _begun(self, player: Player) -> StepResults:
+        return self._runs.begin(
+            PLAYED,
+            player.id,
             part=self.project.part(player),
             own_parameters=player.parameters,
             name=player.name,
@@ -161,8 +157,9 @@ class Performance:
 
     def _line(self, player: Player, instrument: InstrumentMap) -> MonophonicPart:
         played = self._players[player.id]
-        self._lines[player.id] = LINE.begin(
-            None if self._before is None else self._before._lines.get(player.id),
+        begun = self._runs.begin(
+            LINE,
+            player.id,
             player_id=player.id,
             instrument=instrument,
             part=self.project.part(player),
@@ -170,7 +167,7 @@ class Performance:
             musician=player.doubles,
             **{name: played[name] for name in _PLAYED_BY_LINE},
         )
-        return self._lines[player.id].of(MonophonicPart)
+        return begun.of(MonophonicPart)
 
     def parameters(self, player: Player) -> PlayerParameters:
         """Effective parameters of a player: the player's own, adjusted by style and habits."""
@@ -209,12 +206,6 @@ class Performance:
         if conductor is not None:
             found[CONDUCTOR] = StagePlace(conductor.x_m, conductor.z_m, math.pi, CONDUCTOR_EYES_M)
         return found if self._before is None or self._before.places != found else self._before.places
-
-    @property
-    def _ensemble(self) -> EnsemblePlan:
-        self.prepare()
-        assert self._finished is not None
-        return self._finished
 
     def prepare(
         self,
@@ -255,7 +246,7 @@ class Performance:
                 progress(1.0 - len(left) / count)
                 planned(tuple(player.id for player in played))
             with self._lock:
-                self._end_planning(planning)
+                self._end_planning()
 
     def _begin_planning(self, stop_requested: StopRequested) -> EnsemblePlanning:
         self.unseen, self._plans, self._problems = {}, {}, {}
@@ -268,7 +259,7 @@ class Performance:
             rules=self.metadata.all_rules,
             gestures=self.metadata.gestures.items,
             places=self.places,
-            before=None if self._before is None else self._before._ensemble,
+            runs=self._runs,
             stop_requested=stop_requested,
         )
 
@@ -276,7 +267,7 @@ class Performance:
         self, planning: EnsemblePlanning, played: tuple[Player, ...], stop_requested: StopRequested
     ) -> None:
         """Plan everything that one musician plays, and find its problems."""
-        made = {player.id: planning.plan(player.id) for player in played if player.id in self._lines}
+        made = {player.id: planning.plan(player.id) for player in played if player.id in planning.player_ids}
         turns = (first_played(made), changes(made)) if len(made) > 1 else None
         for player in played:
             # Hands are posed to find out what they reach: with many players it takes as long as planning.
@@ -285,14 +276,11 @@ class Performance:
             self._problems[player.id] = self._problems_of(player, plan)
             self._plans[player.id] = plan
 
-    def _end_planning(self, planning: EnsemblePlanning) -> None:
-        made = planning.finished()
+    def _end_planning(self) -> None:
         self._plans = {player.id: self._plans[player.id] for player in self.project.players}
         _CHECKED.update(player.parameters.choreography for player in self.project.players)
-        self._finished, self.begun = made, None
-        for results in (self._whole, *self._players.values(), *self._lines.values(), *self._held.values()):
-            results.close()
-        self._before = None
+        self._runs.close()
+        self.planned, self.begun, self._before = True, None, None
 
     def prepare_within(self, cpu_s: float) -> bool:
         """Make all plans unless that takes the calling thread longer; whether they are made.
@@ -326,14 +314,15 @@ class Performance:
         if turns is None:
             return plan
         first, found = turns
-        self._held[player.id] = HELD.begin(
-            None if self._before is None else self._before._held.get(player.id),
+        held = self._runs.begin(
+            HELD,
+            player.id,
             plan=plan,
             first=first,
             found=found,
             names={one: self.project.player(one).name for one in made},
         )
-        return self._held[player.id].of(with_parts)
+        return held.of(with_parts)
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
         """Problems of a player's plan, and what the player lacks for it."""
@@ -341,14 +330,11 @@ class Performance:
         if lacking:
             self.unseen[player.id] = lacking[0]
         else:
-            known = None if self._before is None else self._before._reach.get(player.id)
             instrument, waiting = self.instrument(player), player.id in self.waiting
-            found = body_problems(player, instrument, plan.fingerings, waiting, known)
+            found = body_problems(player, instrument, plan.fingerings, waiting, self._runs)
             lacking, unreached = found.lacking + unfit_choreography(player, self.time_frame), found.unreached
             if found.unseen is not None:
                 self.unseen[player.id] = found.unseen
-            if found.reach is not None:
-                self._reach[player.id] = found.reach
         lacking += unknown_acting(player, self.metadata)
         frame = self.time_frame
         reported = tuple(Problem(message, None, frame.first_frame_s, frame.end_s) for message in lacking) + unreached
@@ -387,11 +373,6 @@ class Performance:
             return sum(len(line.notes) for line in self.lines)
         known = {line.player_id: line for line in before.lines}
         return sum(work_of(line, known.get(line.player_id)) for line in self.lines)
-
-    @property
-    def planned(self) -> bool:
-        """True if the plans are made already: asking for them then costs nothing."""
-        return self._finished is not None
 
     def is_planned(self, player_id: str) -> bool:
         """Return whether a player's plan is made already; the others' may not be."""

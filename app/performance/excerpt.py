@@ -15,6 +15,7 @@ from app.errors import StopRequested, raise_if_stopped
 from app.performance.ensemble import Performance
 from app.plan.model import PlayerPlan, Problem, no_events
 from app.project.performers import Player
+from app.steps import StepRuns
 
 BEFORE_S: Final = 24.0
 AFTER_S: Final = 36.0
@@ -40,8 +41,8 @@ class PerformanceExcerpt(Performance):
     def __init__(self, whole: Performance, around_s: float) -> None:
         # The same project, instruments, characters and metadata, and the same steps as far as they are done.
         vars(self).update(vars(whole))
-        self._planning, self._before, self._finished, self.begun = RLock(), None, None, None
-        self.unseen, self._plans, self._problems, self._held, self._reach = {}, {}, {}, {}, {}
+        self._planning, self._before, self._runs, self.begun = RLock(), None, StepRuns(), None
+        self.unseen, self._plans, self._problems = {}, {}, {}
         frame = whole.time_frame
         first_s, end_s = max(around_s - BEFORE_S, frame.first_frame_s), min(around_s + AFTER_S, frame.end_s)
         assert whole.begun is not None

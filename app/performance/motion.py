@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import lru_cache
 from typing import Final
 
@@ -13,7 +12,6 @@ from app.errors import Progress
 from app.identity_cache import IdentityCache
 from app.motion.doubling import Doubling, doubled
 from app.motion.generated_channel import generated
-from app.motion.gestures.dance_layer import BodyLayer
 from app.motion.model import Motion, joined
 from app.motion.perform import PerformanceCurves, prepare
 from app.performance.cast import Performer, performer_of, performers_of
@@ -23,12 +21,8 @@ from app.performance.motion_copies import made_by_copies, shares
 from app.performance.span import FrameSpan
 from app.plan.doubling import changes, first_played
 from app.plan.model import PlayerPlan
-from app.plan.parameters import PlayerParameters
-from app.rig.grip.grip_pose import GripPose
-from app.rig.model import Character
 from app.score.metre_map import FeltBeats
-from instrument_maps.model import InstrumentMap
-from metadata.model import Body, Expression
+from app.steps import StepRuns
 
 RATE_HZ: Final = 25.0
 MOST_SAMPLES: Final = 200_000
@@ -77,8 +71,8 @@ def _alone(
     parameters = performance.parameters(player)
     felt_beats, expressions = _same(performance.piece.metre_map.felt_beats), performance.expressions
     return _PLAYING.helped(
-        _prepared,
-        before,
+        prepare,
+        StepRuns(None if before is None else before.runs),
         plan,
         parameters,
         performer.instrument,
@@ -87,33 +81,6 @@ def _alone(
         performer.body,
         felt_beats=felt_beats,
         expressions=expressions,
-        dance=dance,
-    )
-
-
-def _prepared(
-    before: PerformanceCurves | None,
-    plan: PlayerPlan,
-    parameters: PlayerParameters,
-    instrument: InstrumentMap,
-    character: Character,
-    grip: GripPose,
-    body: Body,
-    *,
-    felt_beats: FeltBeats,
-    expressions: Mapping[str, Expression],
-    dance: BodyLayer | None,
-) -> PerformanceCurves:
-    return prepare(
-        plan,
-        parameters,
-        instrument,
-        character,
-        grip,
-        body,
-        felt_beats=felt_beats,
-        expressions=expressions,
-        before=before,
         dance=dance,
     )
 

@@ -6,14 +6,13 @@ import math
 from bisect import bisect_left
 from collections.abc import Mapping
 from copy import copy
-from itertools import chain
 from operator import attrgetter
-from typing import Final, NamedTuple
+from typing import Final
 
 import msgspec
 
 from app.errors import StopRequested, raise_if_stopped
-from app.plan.breath.staggered_breaths import Breathed, breathed_of, shared_line
+from app.plan.breath.staggered_breaths import Breathed, SharedLine, breathed_of, shared_line
 from app.plan.by_hand.corrected_events import sound_corrections
 from app.plan.by_hand.corrections import Correction, RemoveEvent, SetBreath, SetCue, of_kinds
 from app.plan.by_hand.mark_corrections import mark_corrections
@@ -33,7 +32,7 @@ from app.plan.parameters import PlayerParameters, parameters_deciding
 from app.plan.player import AMONG_OTHERS, PLAYER
 from app.score.model import Note
 from app.score.tempo import TempoMap
-from app.steps import StepResults, StepTable, reading
+from app.steps import StepResults, StepRuns, StepTable, reading
 from instrument_maps.model import InstrumentMap
 from metadata.gestures import Gesture
 from metadata.library import bundled_gestures, bundled_rules
@@ -41,7 +40,7 @@ from metadata.load import load_expressions
 from metadata.model import Expression
 from metadata.rules import Rule
 
-__all__ = ["EnsemblePlan", "EnsemblePlanning", "MonophonicPart", "Piece", "frame_around"]
+__all__ = ["EnsemblePlanning", "MonophonicPart", "Piece", "frame_around"]
 
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
@@ -86,33 +85,6 @@ def usual_preroll(beat_s: float) -> float:
     return max(PREROLL_BEATS, float(min(math.ceil(COME_UP_S / beat_s - 1e-6), MOST_PREROLL_BEATS)))
 
 
-class EnsemblePlan(NamedTuple):
-    """The plans of an ensemble, and the steps that made them.
-
-    Attributes
-    ----------
-    plans : dict of str to PlayerPlan
-        By player id.
-    shared : StepResults
-        Of `ENSEMBLE`.
-    lines, shared_lines, among, players : dict of str to StepResults
-        Of `LINE`, `SHARED_LINE`, `AMONG_OTHERS` and `PLAYER` by player id.
-    """
-
-    plans: dict[str, PlayerPlan]
-    shared: StepResults
-    lines: dict[str, StepResults]
-    shared_lines: dict[str, StepResults]
-    among: dict[str, StepResults]
-    players: dict[str, StepResults]
-
-    def close(self) -> None:
-        """Forget the runs before."""
-        tables = self.lines, self.shared_lines, self.among, self.players
-        for results in (self.shared, *chain.from_iterable(table.values() for table in tables)):
-            results.close()
-
-
 class EnsemblePlanning:
     """Plans of an ensemble in the making, one player after another in any order: the plans are the same in each.
 
@@ -126,8 +98,8 @@ class EnsemblePlanning:
         What players show and do by rules, and what rules and the animator may name: the bundled ones by default.
     places : mapping of str to StagePlace, optional
         Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
-    before : EnsemblePlan, optional
-        Of the same ensemble before an edit: what has not changed is taken from there, to the object.
+    runs : StepRuns, optional
+        What has not changed since its former runs is taken from there, to the object.
     stop_requested : callable
         Asked between two players.
 
@@ -148,10 +120,10 @@ class EnsemblePlanning:
         rules: tuple[Rule, ...] | None = None,
         gestures: Mapping[str, Gesture] | None = None,
         places: Mapping[str, StagePlace] | None = None,
-        before: EnsemblePlan | None = None,
+        runs: StepRuns | None = None,
         stop_requested: StopRequested = lambda: False,
     ) -> None:
-        self._known = known = _NO_ENSEMBLE if before is None else before
+        self._runs = StepRuns() if runs is None else runs
         everyone: dict[str, object] = {"piece": piece, "frame": frame, "seed": seed, "stage": places or {}}
         everyone |= {
             "faces": load_expressions() if expressions is None else expressions,
@@ -161,29 +133,30 @@ class EnsemblePlanning:
         playable: dict[str, StepResults] = {}
         for line in lines:
             raise_if_stopped(stop_requested)
-            playable[line.player_id] = LINE.begin(known.lines.get(line.player_id), **everyone, **_fields(line))
-        shared = _shared_by_all(lines, playable, everyone, known)
+            playable[line.player_id] = self._runs.begin(LINE, line.player_id, **everyone, **_fields(line))
+        shared = _shared_by_all(lines, playable, everyone, self._runs)
         everyone |= {name: shared[name] for name in ("fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
         everyone |= {"piece": shared["piece_felt"], "piece_ending": shared["ending"]}
         self._everyone = everyone
-        apart = _shared_lines(playable, everyone, known)
-        self._made = EnsemblePlan({}, shared, playable, apart, {}, {})
-        self._together = [results.of(shared_line) for results in apart.values()]
+        self._musicians: tuple[str, ...] = shared["musicians"]
+        self._playable, self._plans = playable, dict[str, PlayerPlan]()
+        self._together = _shared_lines(playable, everyone, self._runs)
         self._usual_pitches = [results.of(mean_pitch) for results in playable.values()]
-        self._numbers = {line.player_id: number for number, line in enumerate(lines)}
+        self.player_ids = tuple(line.player_id for line in lines)
         self._lines, self._stop_requested, self._clock = lines, stop_requested, piece.clock
         self._breathed: list[Breathed] = []
+        self._begun = dict[str, StepResults]()
 
     def plan(self, player_id: str) -> PlayerPlan:
         """Plan a player, if that is not done yet. Raises Cancelled."""
-        if player_id not in self._made.plans:
-            number = self._numbers[player_id]
+        if player_id not in self._plans:
+            number = self.player_ids.index(player_id)
             while len(self._breathed) < number:
                 raise_if_stopped(self._stop_requested)
-                self._breathed.append(self._begun(len(self._breathed)).of(breathed_of))
+                self._breathed.append(self._player(len(self._breathed)).of(breathed_of))
             raise_if_stopped(self._stop_requested)
-            self._made.plans[player_id] = self._begun(number).of(PlayerPlan)
-        return self._made.plans[player_id]
+            self._plans[player_id] = self._player(number).of(PlayerPlan)
+        return self._plans[player_id]
 
     def excerpt(self, first_s: float, end_s: float) -> EnsemblePlanning:
         """Planning of the same players from only those notes that begin in a span, and the cues there. What all share
@@ -195,38 +168,38 @@ class EnsemblePlanning:
         other._everyone = everyone = {**self._everyone, "cue_events": near}
         span = clock.ticks(first_s), clock.ticks(end_s)
         other._lines = tuple(_within(line, *span) for line in self._lines)
-        playable = {line.player_id: LINE.begin(None, **everyone, **_fields(line)) for line in other._lines}
-        apart = _shared_lines(playable, everyone, _NO_ENSEMBLE)
-        other._known, other._breathed = _NO_ENSEMBLE, []
-        other._made = EnsemblePlan({}, self._made.shared, playable, apart, {}, {})
-        other._together = [results.of(shared_line) for results in apart.values()]
+        other._runs, other._breathed, other._plans, other._begun = StepRuns(), [], {}, {}
+        other._playable = {
+            line.player_id: other._runs.begin(LINE, line.player_id, **everyone, **_fields(line))
+            for line in other._lines
+        }
+        other._together = _shared_lines(other._playable, everyone, other._runs)
         return other
 
-    def finished(self) -> EnsemblePlan:
-        """Plan the remaining players, and return the plan of all. Raises Cancelled."""
-        plans = {player_id: self.plan(player_id) for player_id in self._numbers}
-        self._made.close()
-        return self._made._replace(plans=plans)
+    def finished(self) -> dict[str, PlayerPlan]:
+        """Plan the remaining players, and return the plans of all. Raises Cancelled."""
+        return {player_id: self.plan(player_id) for player_id in self.player_ids}
 
-    def _begun(self, number: int) -> StepResults:
+    def _player(self, number: int) -> StepResults:
         """Begin the steps of a player's plan, after those whose breaths are placed already."""
-        part, made, known = self._lines[number], self._made, self._known
-        player_id, results, musicians = part.player_id, made.lines[part.player_id], made.shared["musicians"]
-        if player_id in made.players:
-            return made.players[player_id]
+        part = self._lines[number]
+        player_id, results = part.player_id, self._playable[part.player_id]
+        if player_id in self._begun:
+            return self._begun[player_id]
         others = (*self._together[:number], *self._together[number + 1 :])
         neighbours = {"shared_line": self._together[number], "others": others}
         own = {**self._everyone, **neighbours, "breathed": tuple(self._breathed[:number])}
         own |= {"times": results.of(note_times), "player_id": player_id}
-        among = made.among[player_id] = AMONG_OTHERS.begin(known.among.get(player_id), **own)
-        begun = made.players[player_id] = PLAYER.begin(
-            known.players.get(player_id),
+        among = self._runs.begin(AMONG_OTHERS, player_id, **own)
+        begun = self._begun[player_id] = self._runs.begin(
+            PLAYER,
+            player_id,
             **own | _fields(part) | {"notes": results["played_notes"], "corrections": results["sound_corrections"]},
             **{name: among[name] for name in AMONG_OTHERS.functions},
             usual_pitch=self._usual_pitches[number],
             reported=results["reported"],
             written=results.of(written_marks),
-            alone=musicians.count(part.musician or player_id) == 1,
+            alone=self._musicians.count(part.musician or player_id) == 1,
         )
         return begun
 
@@ -235,13 +208,13 @@ def _shared_by_all(
     lines: tuple[MonophonicPart, ...],
     playable: Mapping[str, StepResults],
     everyone: Mapping[str, object],
-    known: EnsemblePlan,
+    runs: StepRuns,
 ) -> StepResults:
     """Begin the steps that concern all players."""
     stage = everyone["stage"]
     assert isinstance(stage, Mapping)
-    return ENSEMBLE.begin(
-        known.shared,
+    return runs.begin(
+        ENSEMBLE,
         **everyone,
         all_times=tuple(results.of(note_times) for results in playable.values()),
         leading=tuple(results.of(_leading) for results in playable.values()),
@@ -251,13 +224,13 @@ def _shared_by_all(
 
 
 def _shared_lines(
-    playable: Mapping[str, StepResults], everyone: Mapping[str, object], known: EnsemblePlan
-) -> dict[str, StepResults]:
-    """Begin the steps of what others know of each player."""
-    return {
-        player_id: SHARED_LINE.begin(known.shared_lines.get(player_id), **everyone, times=results.of(note_times))
+    playable: Mapping[str, StepResults], everyone: Mapping[str, object], runs: StepRuns
+) -> list[SharedLine]:
+    """Return what others know of each player."""
+    return [
+        runs.begin(SHARED_LINE, player_id, **everyone, times=results.of(note_times)).of(shared_line)
         for player_id, results in playable.items()
-    }
+    ]
 
 
 def _within(part: MonophonicPart, first_tick: float, end_tick: float) -> MonophonicPart:
@@ -357,4 +330,3 @@ ENSEMBLE: Final = StepTable(
     last_s=_last_s,
 )
 """The steps that concern all players; given are the piece, every line's times, and what of it cues depend on."""
-_NO_ENSEMBLE: Final = EnsemblePlan({}, StepResults(ENSEMBLE, {}, None), {}, {}, {}, {})

@@ -17,6 +17,7 @@ from app.project.edit.corrections import with_corrections
 from app.project.model import Project
 from app.project.performers import Player
 from app.score.metre_map import FeltBeats
+from app.steps import StepRuns
 
 
 def playing_of(performance: Performance, player: Player, before: PerformanceCurves | None = None) -> PerformanceCurves:
@@ -37,10 +38,10 @@ def perform(
     frames: int | None = None,
     first_frame: int = 0,
 ) -> Motion:
-    """One player's motion, to the end of the performance or so many frames; ``player`` is what `prepare` asks for."""
+    """One player's motion, to the end or so many frames; ``player``: the rest of what `prepare` needs."""
     if frames is None:
         frames = max(0, frame_count(plan.time_frame, fps) - first_frame)
-    return prepare(plan, *player, felt_beats=felt_beats).motion(fps, first_frame, frames)
+    return prepare(StepRuns(), plan, *player, felt_beats=felt_beats).motion(fps, first_frame, frames)
 
 
 def in_seventh(project: Project, player: Player) -> Project:

@@ -172,4 +172,4 @@ def make_plans(
     piece: Piece, lines: tuple[MonophonicPart, ...], frame: TimeFrame, seed: int = 0, **options: Any
 ) -> dict[str, PlayerPlan]:
     """Plan every line of the ensemble, in order; options are those of `EnsemblePlanning`."""
-    return EnsemblePlanning(piece, lines, frame, seed, **options).finished().plans
+    return EnsemblePlanning(piece, lines, frame, seed, **options).finished()

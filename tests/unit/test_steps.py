@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import weakref
 from functools import partial
 from graphlib import CycleError
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.arrays import IntArray
-from app.steps import StepTable, reading
+from app.steps import StepRuns, StepTable, reading
 
 DONE: list[str] = []
 
@@ -108,6 +109,35 @@ def test_runs_do_not_hold_one_another() -> None:
     DONE.clear()
     second.of(made_text)
     assert DONE == ["text"]
+
+
+def test_runs_go_on_from_those_of_the_same_table_about_the_same() -> None:
+    others = StepTable(pair=made_pair)
+    former = StepRuns()
+    for table, about in ((STEPS, "a"), (STEPS, "b"), (others, "a")):
+        former.begin(table, about, value=1, name="x")["pair"]
+    DONE.clear()
+    runs = StepRuns(former)
+    assert runs.begin(STEPS, "a", value=1, name="x")["pair"] is former.of(STEPS, "a")["pair"]
+    assert runs.begin(others, "a", value=1)["pair"] is former.of(others, "a")["pair"]
+    assert DONE == []
+    runs.begin(STEPS, "c", value=1, name="x")["pair"]
+    assert DONE == ["pair"]
+    with pytest.raises(KeyError):
+        runs.of(STEPS, "b")
+    begun = runs.begin(STEPS, "a", value=2, name="x")
+    assert runs.of(STEPS, "a") is begun
+
+
+def test_runs_that_are_closed_do_not_hold_their_former() -> None:
+    former = StepRuns()
+    pair = weakref.ref(former.begin(STEPS, value=1, name="x"))
+    runs = StepRuns(former)
+    runs.begin(STEPS, value=2, name="x")["pair"]
+    del former
+    assert pair() is not None
+    runs.close()
+    assert pair() is None
 
 
 def test_steps_that_cannot_be_wired_are_refused() -> None:

@@ -33,6 +33,7 @@ from app.project.model import Project
 from app.score.metre_map import Metre, MetreMap
 from app.score.model import ControllerCurve, Note
 from app.score.tempo import TempoChange, TempoMap
+from app.steps import StepRuns
 from instrument_maps.load import bundled_maps
 from tests.property.performance.edits import QUARTER, piece
 from tests.support.plan import make_plans, time_frame
@@ -194,7 +195,8 @@ def test_a_semitone_that_breaks_a_figure_moves_the_breaths_after_an_edit_too(ind
     notes[index] = msgspec.structs.replace(notes[index], pitch=notes[index].pitch + semitones)
     edited = msgspec.structs.replace(line, notes=tuple(notes))
     frame = time_frame((line,), clock)
-    before = EnsemblePlanning(whole, (line,), frame).finished()
+    runs = StepRuns()
+    before = EnsemblePlanning(whole, (line,), frame, runs=runs).finished()
     cold = make_plans(whole, (edited,), frame)
-    assert EnsemblePlanning(whole, (edited,), frame, before=before).finished().plans == cold
-    assert before.plans["p"].breaths != cold["p"].breaths
+    assert EnsemblePlanning(whole, (edited,), frame, runs=StepRuns(runs)).finished() == cold
+    assert before["p"].breaths != cold["p"].breaths

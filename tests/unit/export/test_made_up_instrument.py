@@ -24,6 +24,7 @@ from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.fit import fit_hold
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
+from app.steps import StepRuns
 from instrument_maps.load import load_map
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body
@@ -52,7 +53,14 @@ class Played:
         self.plan: PlayerPlan = plan_of(fingerings(rows, NOTE_S))
         parameters = PlayerParameters(seed=1)
         self.playing: PerformanceCurves = prepare(
-            self.plan, parameters, self.instrument, self.character, self.hold, load_body(), felt_beats=((0, 480),)
+            StepRuns(),
+            self.plan,
+            parameters,
+            self.instrument,
+            self.character,
+            self.hold,
+            load_body(),
+            felt_beats=((0, 480),),
         )
         self.motion: Motion = self.playing.motion(FPS, 0, int((rows[-1][1] + 3.0) * FPS))
         self.measures = self._measured()

@@ -14,6 +14,7 @@ from app.motion.perform import prepare
 from app.plan.by_hand.events import PoseEvent
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
+from app.steps import StepRuns
 from tests.unit.motion.events import REASON, TICKS, breath
 from tests.unit.motion.test_perform import BODY, CHARACTER, FPS, HOLD, MAP, made, piece, times, world
 
@@ -73,7 +74,7 @@ def test_the_trunk_is_not_taken_back_against_what_the_animator_holds() -> None:
     times_s = np.arange(15.0, 17.0, 1.0 / float(FPS))
 
     def further(plan: PlayerPlan) -> np.ndarray:
-        curves = prepare(plan, PlayerParameters(), MAP, CHARACTER, HOLD, BODY, felt_beats=((0, TICKS),))
+        curves = prepare(StepRuns(), plan, PlayerParameters(), MAP, CHARACTER, HOLD, BODY, felt_beats=((0, TICKS),))
         return np.broadcast_to(curves.frames(times_s).levels.further, len(times_s))
 
     assert np.array_equal(further(msgspec.structs.replace(piece(), poses=(held,))), further(piece()))

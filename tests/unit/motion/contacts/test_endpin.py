@@ -16,6 +16,7 @@ from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.grip_files import hold_for
+from app.steps import StepRuns
 from instrument_maps.hold import Carriage
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import Endpin
@@ -78,7 +79,7 @@ def test_what_hangs_before_a_standing_player_has_its_pin_pushed_in() -> None:
     drawn = {}
     for posture in ("standing", "seated"):
         parameters = PlayerParameters(posture=posture)
-        playing = prepare(plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
+        playing = prepare(StepRuns(), plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
         drawn[posture] = playing.motion(Fraction(24), 0, 3).controls.get("endpin")
     assert drawn["standing"] is None
     assert drawn["seated"] is not None

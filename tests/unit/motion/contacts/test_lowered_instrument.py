@@ -23,6 +23,7 @@ from app.rig.grip.fitting.grip_files import hold_for
 from app.rig.grip.grip_pose import GripPose, hand_targets
 from app.rig.model import Character
 from app.rig.skeleton import JointTransforms, forward
+from app.steps import StepRuns
 from instrument_maps.load import bundled_maps
 from instrument_maps.map_table import Posture
 from instrument_maps.model import InstrumentMap
@@ -89,7 +90,7 @@ def case(instrument_id: str, posture: Posture, character_id: str) -> Case:
     # The head looks about meanwhile, by chance: each case has another seed.
     seed = CASES.index((instrument_id, posture, character_id)) % SEEDS
     parameters = PlayerParameters(amplitude=0.0, posture=posture, sway=0.0, weight_shift=0.0, seed=seed)
-    playing = prepare(plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
+    playing = prepare(StepRuns(), plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
     return Case(instrument, character, hold, playing.motion(FPS, 0, round(3.0 * FPS)))
 
 

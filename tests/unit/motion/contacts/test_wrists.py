@@ -25,6 +25,7 @@ from app.rig.grip.fitting.grip_files import hold_for
 from app.rig.grip.grip_pose import hand_targets
 from app.rig.ik import arm
 from app.rig.skeleton import forward
+from app.steps import StepRuns
 from instrument_maps.load import bundled_maps
 from instrument_maps.map_table import Posture
 from metadata.load import load_body, load_skeleton
@@ -47,7 +48,7 @@ def _shown(instrument_id: str, character_id: str, posture: Posture) -> tuple[Per
     notes = fingerings([(0.5 * k, 0.5 * k + 0.5, {}) for k in range(int(2 * END_S))])
     plan = plan_of(notes, first_frame_s=0.0, cues=(cue(5.0), cue(11.0)), gestures=heights)
     parameters = PlayerParameters(amplitude=1.0, posture=posture)
-    curves = prepare(plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
+    curves = prepare(StepRuns(), plan, parameters, instrument, character, hold, body, felt_beats=((0, 480),))
     return curves, curves.motion(FPS, 0, round(END_S * FPS))
 
 

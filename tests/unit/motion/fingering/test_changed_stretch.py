@@ -18,6 +18,7 @@ from app.motion.perform import PerformanceCurves, prepare
 from app.performance.ensemble import Performance
 from app.plan.model import FingeringEvent
 from app.plan.parameters import PlayerParameters
+from app.steps import StepRuns
 from instrument_maps.library import find_map
 from tests.bench.performance.large import large_project
 from tests.unit.motion.test_perform import BODY, CHARACTER, HOLD, MAP, piece
@@ -136,7 +137,8 @@ def test_with_another_seed_the_same_plan_is_looked_at_otherwise() -> None:
     def made(seed: int, before: PerformanceCurves | None = None) -> PerformanceCurves:
         parameters = PlayerParameters(seed=seed)
         beats = ((0, BEAT_TICKS),)
-        return prepare(plan, parameters, MAP, CHARACTER, HOLD, BODY, felt_beats=beats, before=before)
+        runs = StepRuns(None if before is None else before.runs)
+        return prepare(runs, plan, parameters, MAP, CHARACTER, HOLD, BODY, felt_beats=beats)
 
     times_s = np.arange(0.0, 20.0, 0.05)
     before = made(1)

@@ -13,6 +13,7 @@ from app.motion.perform import PerformanceCurves, prepare
 from app.plan.parameters import PlayerParameters
 from app.rig import quaternion
 from app.rig.grip.grip_pose import hand_targets
+from app.steps import StepRuns
 from tests.unit.motion.events import TICKS
 from tests.unit.motion.test_perform import BODY, CHARACTER, FPS, HOLD, MAP, made, piece, times, world
 
@@ -30,6 +31,7 @@ def dance(seed: int = 1) -> BodyLayer:
 
 def playing(layer: BodyLayer | None, **parameters: object) -> PerformanceCurves:
     return prepare(
+        StepRuns(),
         piece(),
         PlayerParameters(**parameters),
         MAP,

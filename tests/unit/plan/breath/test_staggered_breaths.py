@@ -20,6 +20,7 @@ from app.plan.music.fermatas import Fermata
 from app.plan.music.piece import line_times
 from app.plan.parameters import PlayerParameters
 from app.score.metre_map import Metre
+from app.steps import StepRuns
 from tests.support.plan import PlainClock, line_of, make_plans, piece_of, time_frame, valves
 
 Q = 480
@@ -114,21 +115,23 @@ def test_what_others_keep_clear_of_is_found_again_only_for_who_breathes_elsewher
         for number, rows in enumerate(parts, 1)
     ]
     piece, frame = piece_of(clock, METRES), time_frame(tuple(lines), clock)
-    before = EnsemblePlanning(piece, tuple(lines), frame).finished()
+    runs = StepRuns()
+    before = EnsemblePlanning(piece, tuple(lines), frame, runs=runs).finished()
     note = lines[0].notes[9]
-    events = before.plans["p1"].fingerings
+    events = before["p1"].fingerings
     other = next(event.label for event in events if event.label != events[9].label)
     ASKED.clear()
     monkeypatch.setattr(staggered_breaths, "caught_in_unison", counting)
     lines[0] = msgspec.structs.replace(lines[0], corrections=(PinFingering(note.id, other),))
-    after = EnsemblePlanning(piece, tuple(lines), frame, before=before).finished()
+    runs = StepRuns(runs)
+    after = EnsemblePlanning(piece, tuple(lines), frame, runs=runs).finished()
     assert not ASKED
     lines[2] = msgspec.structs.replace(lines[2], corrections=(SetBreath(lines[2].notes[9].id, -240),))
-    last = EnsemblePlanning(piece, tuple(lines), frame, before=after).finished()
-    elsewhere = [n for n in range(5) if caught(last.plans[f"p{n + 1}"]) != caught(after.plans[f"p{n + 1}"])]
+    last = EnsemblePlanning(piece, tuple(lines), frame, runs=StepRuns(runs)).finished()
+    elsewhere = [n for n in range(5) if caught(last[f"p{n + 1}"]) != caught(after[f"p{n + 1}"])]
     assert elsewhere[0] == 2
     assert len(ASKED) == sum(4 - n for n in elsewhere) < 10
-    assert last.plans == make_plans(piece, tuple(lines), frame)
+    assert last == make_plans(piece, tuple(lines), frame)
 
 
 SCALE = (60, 62, 64, 65, 67, 69, 71, 72, 74, 76, 77, 79, 81, 83, 84)
