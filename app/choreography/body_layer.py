@@ -27,17 +27,17 @@ from app.rig.sole import SIDES
 FPS: Final = Fraction(30)
 """Sampling rate of a layer: its motion is below 4 Hz."""
 MOST: Final = {
-    "side_m": 0.09,
+    "side_m": 0.11,
     "ahead_m": 0.06,
     "up_m": 0.012,
     "hips_forward_rad": float(np.deg2rad(7.0)),
-    "hips_turn_rad": float(np.deg2rad(14.0)),
+    "hips_turn_rad": float(np.deg2rad(16.0)),
     "hips_left_rad": float(np.deg2rad(9.0)),
     "trunk_forward_rad": float(np.deg2rad(6.0)),
-    "trunk_turn_rad": float(np.deg2rad(12.0)),
+    "trunk_turn_rad": float(np.deg2rad(12.5)),
     "trunk_left_rad": float(np.deg2rad(8.0)),
     "head_forward_rad": float(np.deg2rad(8.0)),
-    "head_turn_rad": float(np.deg2rad(14.0)),
+    "head_turn_rad": float(np.deg2rad(16.0)),
     "head_left_rad": float(np.deg2rad(8.0)),
 }
 """Most that a player at full amount moves to either side: on feet that stay, and with a bell that rises and sinks by no

@@ -46,8 +46,11 @@ TOES_CHANCE: Final = 0.4
 PHRASE_BEATS: Final = 8
 USUAL: Final = 0.9
 """Share of the steps that go no farther than `AHEAD_M` and `OUT_M` when a dance is made smaller."""
-AHEAD_M, OUT_M, IN_M = 0.09, 0.09, 0.03
-"""Farthest places of a foot: ahead and back, to its own side, and towards the other foot."""
+AHEAD_M, BACK_M, OUT_M, IN_M = 0.11, 0.02, 0.11, 0.03
+"""Farthest places of a foot: ahead, back (with its heel down under a bent knee), to its own side, and towards the other
+foot."""
+SPREAD: Final = 0.35
+"""Power of a place's distance, as a share of the farthest, with which it is kept."""
 LEAST_SIZE: Final = 0.65
 """Size of the shortest step, as a share of that of a usual one."""
 MIDDLE_S: Final = 0.6
@@ -182,7 +185,6 @@ def _stepped(
     steps = [chosen[place] for place in sorted(chosen)]
     usual_m = float(np.median([step.way_m for step in steps])) or 1.0
     far_m = np.quantile(np.abs([step.place_m for step in steps]), USUAL, axis=0)
-    shares = np.minimum(1.0, np.array((OUT_M, AHEAD_M)) / np.maximum(far_m, 1e-6))
     rows: list[_Row] = []
     last_s = {0: -np.inf, 1: -np.inf}
     for place, step in zip(sorted(chosen), steps, strict=True):
@@ -193,7 +195,7 @@ def _stepped(
         if air_s < LEAST_AIR_S or lands_s - last_s[step.foot] < SAME_FOOT_S:
             continue
         size = (LEAST_SIZE + (1.0 - LEAST_SIZE) * min(1.0, step.way_m / usual_m)) * min(1.0, (air_s / AIR_S) ** 2)
-        rows.append(_Row(step.foot, "step", lands_s - air_s, lands_s, size, _near(step, shares)))
+        rows.append(_Row(step.foot, "step", lands_s - air_s, lands_s, size, _near(step, far_m)))
         last_s[step.foot] = lands_s
     return rows
 
@@ -212,12 +214,18 @@ def _is_late(time_s: float, place: int, places_s: FloatArray) -> bool:
     return bool(places_s[place + 1] - time_s < LATE * (places_s[place + 1] - places_s[place]))
 
 
-def _near(step: _Touchdown, shares: FloatArray) -> tuple[float, float]:
-    """Place of a foot (left, ahead): as in the dance, made smaller, and never before the other foot."""
-    left_m, ahead_m = (shares * step.place_m).tolist()
+def _near(step: _Touchdown, far_m: FloatArray) -> tuple[float, float]:
+    """Place of a foot (left, ahead): as in the dance, made smaller, and never before the other foot.
+
+    Most steps of a dance go a little way and few go far: of those the nearer are made smaller by less, so that they are
+    seen.
+    """
+    most_m = np.minimum((OUT_M, AHEAD_M), far_m)
+    shares = np.minimum(1.0, np.abs(step.place_m) / np.maximum(far_m, 1e-6)) ** SPREAD
+    left_m, ahead_m = (most_m * np.sign(step.place_m) * shares).tolist()
     out_m = left_m if step.foot == 0 else -left_m
     out_m = float(np.clip(out_m, -IN_M, OUT_M))
-    return (out_m if step.foot == 0 else -out_m), float(np.clip(ahead_m, -AHEAD_M, AHEAD_M))
+    return (out_m if step.foot == 0 else -out_m), float(np.clip(ahead_m, -BACK_M, AHEAD_M))
 
 
 def _with_marks(

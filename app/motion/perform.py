@@ -29,7 +29,7 @@ from app.motion.faces.morph_weights import FaceSizes, face_morphs, face_sizes
 from app.motion.fingering.finger_curves import sampled
 from app.motion.fingering.fingers import FINGERS, fingers_of
 from app.motion.gestures.body_layers import QUIET_AIR, StyleShares, body_motion
-from app.motion.gestures.dance_layer import BodyLayer, breath_envelopes, giving_way, with_dance
+from app.motion.gestures.dance_layer import BodyLayer, breath_envelopes, giving_way, leaning_less, with_dance
 from app.motion.gestures.danced_feet import DancedFeet, with_danced, with_danced_feet
 from app.motion.gestures.feet import feet_moved
 from app.motion.gestures.held_still import with_holds
@@ -149,7 +149,7 @@ class PerformanceCurves:
             placed=self.placed(times_s),
             raised=self.raised.sample(times_s),
             danced=self._danced(times_s),
-            stepped=self.danced_feet.sample(times_s, steps=self.player.stands_free),
+            stepped=self._stepped(times_s),
             stowed=None if self.stowed is None else self.stowed.sample(times_s),
             added=self.additive.sample(times_s),
             stopping=self.stopping.sample(times_s) if len(self.stopping.height) else None,
@@ -159,6 +159,10 @@ class PerformanceCurves:
         if self.dance is None:
             return None
         return giving_way(self.dance.sample(times_s), self.inhaling.sample(times_s))
+
+    def _stepped(self, times_s: FloatArray) -> dict[str, FloatArray]:
+        stepped = self.danced_feet.sample(times_s, steps=self.player.stands_free)
+        return leaning_less(stepped, self.inhaling.sample(times_s)) if stepped else stepped
 
     def curves(self, frames: PlayedFrames) -> ContactCurves:
         """Inputs of the contact solvers for frames from any source."""
@@ -170,7 +174,7 @@ class PerformanceCurves:
         if frames.danced is not None:
             amount, free = self.parameters.dance_amount, self.player.stands_free
             moved = with_dance(moved, frames.danced, amount, self.body, legs=free)
-            moved = with_danced_feet(moved, frames.stepped, amount, steps=free)
+            moved = with_danced_feet(moved, frames.stepped, amount, self.body, steps=free)
         if added:
             moved = with_added(moved, added, self.body, self.player.place.knee_rad)
         if frames.stopping is not None:

@@ -71,6 +71,8 @@ class Member:
     stand_m : (3,) float64 or None
         Top of the stand on which the instrument lies while the musician plays another, in the player's frame; None: no
         stand.
+    dances_on_foot : bool
+        True if legs are to be seen: those of a dancer, or of a player who dances and stands.
     """
 
     player_id: str
@@ -79,6 +81,7 @@ class Member:
     seat_m: FloatArray | None
     musician_id: str
     stand_m: FloatArray | None = None
+    dances_on_foot: bool = False
 
     @property
     def has_body(self) -> bool:
@@ -101,7 +104,7 @@ def dancer_kit(dancer: Dancer) -> RenderAssets:
 
 def dancing_member(dancer: Dancer, assets: RenderAssets) -> Member:
     """A dancer at their place."""
-    return Member(dancer.id, assets, placed(dancer.stage), None, dancer.id)
+    return Member(dancer.id, assets, placed(dancer.stage), None, dancer.id, dances_on_foot=True)
 
 
 def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | None:
@@ -122,7 +125,13 @@ def member_of(player: Player, assets: RenderAssets, musician_id: str = "", stand
     musician_id = musician_id or player.id
     posture = body_of(player).postures[assets.map.hold.possible(player.parameters.posture)]
     seat_m = seat(assets.character.skeleton, posture) if musician_id == player.id else None
-    return Member(player.id, assets, placed(player.stage), seat_m, musician_id, stand_m)
+    on_foot = dances(player) and posture.seat_height_shank <= 0.0
+    return Member(player.id, assets, placed(player.stage), seat_m, musician_id, stand_m, on_foot)
+
+
+def dances(player: Player) -> bool:
+    """Return whether a player dances while playing."""
+    return bool(player.parameters.choreography) and player.parameters.dance_amount > 0.0
 
 
 def placed(stage: StagePosition) -> FloatArray:

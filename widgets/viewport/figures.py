@@ -11,11 +11,21 @@ from app.project.model import Project
 from app.project.performers import Dancer, Player
 from app.rig.characters.character_library import character_revision
 from instrument_maps.library import library
-from widgets.viewport.cast import Member, RenderAssets, Stage, dancer_kit, dancing_member, kit_of, member_of, stand_of
+from widgets.viewport.cast import (
+    Member,
+    RenderAssets,
+    Stage,
+    dancer_kit,
+    dances,
+    dancing_member,
+    kit_of,
+    member_of,
+    stand_of,
+)
 from widgets.viewport.geometry import Crowd
 from widgets.viewport.shapes import Shapes, crowd_of, shapes_of
 
-CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, float], ...]
+CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, float, bool], ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,12 +58,13 @@ def cast_key(project: Project) -> CastKey:
             player.stage.x_m,
             player.stage.z_m,
             player.stage.turn_rad,
+            dances(player),
         )
         for player in project.players
     ) + tuple(
         (
             *(dancer.id, dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id), False),
-            *(dancer.stage.x_m, dancer.stage.z_m, dancer.stage.turn_rad),
+            *(dancer.stage.x_m, dancer.stage.z_m, dancer.stage.turn_rad, True),
         )
         for dancer in project.dancers
     )

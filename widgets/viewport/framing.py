@@ -181,15 +181,18 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """The box around players from the hips up, in the middle whatever they hold out; dancers from the floor up."""
+    """The box around players from the hips up, in the middle whatever they hold out; from the floor up of those who
+    dance."""
     low, high = bounds(stage, rows)
     if any(stage.members[row].assets.held is None for row in rows):
         return low, high
+    on_foot = any(stage.members[row].dances_on_foot for row in rows)
     heads_m = np.array([stage.joint_m(row, "head") for row in rows])
     hips_m = min(float(stage.joint_m(row, "hips")[1]) for row in rows)
     for axis in (0, 2):
         low[axis], high[axis] = heads_m[:, axis].min() - _BUST_M, heads_m[:, axis].max() + _BUST_M
-    low[1] = hips_m
+    if not on_foot:
+        low[1] = hips_m
     return low, high
 
 

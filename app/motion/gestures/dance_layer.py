@@ -9,7 +9,7 @@ where the layer is made (`app.choreography.body_layer`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final
 
@@ -17,9 +17,8 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.body_motion import BodyMotion
-from app.motion.by_hand.pose_corrections import within
 from app.motion.curves.curve import Envelopes
-from app.motion.gestures.danced_feet import DancedFeet
+from app.motion.gestures.danced_feet import GROWTH, DancedFeet, within_range
 from app.plan.by_hand.pose_corrections import NECK_SHARES, TRUNK_SHARES
 from app.plan.model import BreathEvent
 from metadata.model import Body
@@ -36,6 +35,8 @@ SINKS_M: Final = 0.014
 """Distance by which the bent knees of a dancer lower the hips, which go up and down from there by less."""
 BREATH_ROOM: Final = 0.9
 """Hips and trunk nod so much less while the player breathes in: the breath has to be seen ..."""
+BREATH_TURN_ROOM: Final = 0.6
+"""... and turn and lean aside by so much less ..."""
 BREATH_EASE_S: Final = 0.35
 """... and it comes to that within this time, and goes back in as much."""
 LEGS_EASE_M: Final = 0.008
@@ -77,6 +78,7 @@ class BodyLayer:
 
 
 _NODS: Final = [CHANNELS.index(f"{part}_forward_rad") for part in ("hips", "trunk")]
+_TURNS: Final = [CHANNELS.index(f"{part}_{angle}_rad") for part in ("hips", "trunk") for angle in ("turn", "left")]
 
 
 def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
@@ -94,7 +96,18 @@ def giving_way(dance: FloatArray, to_breath: FloatArray) -> FloatArray:
     """A dance (F, 12) that gives way to breaths, (F,) of 0..1."""
     given = dance.copy()
     given[:, _NODS] *= (1.0 - to_breath)[:, None]
+    given[:, _TURNS] *= _turned_less(to_breath)[:, None]
     return given
+
+
+def leaning_less(danced: Mapping[str, FloatArray], to_breath: FloatArray) -> dict[str, FloatArray]:
+    """Samples of feet that dance (`DancedFeet.sample`), whose hips and trunk give way to breaths as in `giving_way`."""
+    less = {"leans": danced["leans"] * _turned_less(to_breath)} if "leans" in danced else {}
+    return {**danced, **less}
+
+
+def _turned_less(to_breath: FloatArray) -> FloatArray:
+    return np.asarray(1.0 - BREATH_TURN_ROOM / BREATH_ROOM * to_breath)
 
 
 def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body, *, legs: bool) -> BodyMotion:
@@ -113,7 +126,8 @@ def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body,
     legs : bool
         False: the hips stay where they are.
     """
-    of = dict(zip(CHANNELS, (amount * dance).T, strict=True))
+    sizes = np.array([amount if name.endswith("forward_rad") else amount**GROWTH for name in CHANNELS])
+    of = dict(zip(CHANNELS, (sizes * dance).T, strict=True))
     angles = {"forward": dict(motion.forward_rad), "turn": dict(motion.turn_rad), "left": dict(motion.left_rad)}
     for angle, joints in angles.items():
         hips = of[f"hips_{angle}_rad"] if legs else np.zeros(len(dance))
@@ -123,8 +137,7 @@ def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body,
             for joint, share in shares.items():
                 limits = body.limits[joint]
                 limit_deg = {"forward": limits.flexion_deg, "turn": limits.twist_deg, "left": limits.sideways_deg}
-                low, high = np.deg2rad(limit_deg[angle])
-                joints[joint] = joints[joint] + within(share * offset, high - joints[joint], joints[joint] - low)
+                joints[joint] = within_range(joints[joint], share * offset, limit_deg[angle])
     moved = replace(
         motion,
         forward_rad=angles["forward"],

@@ -14,15 +14,17 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.motion.body_motion import BodyMotion
+from app.motion.by_hand.pose_corrections import within
 from app.motion.curves.curve import minimum_jerk, rows_changed_s
 from app.plan.by_hand.pose_corrections import TRUNK_SHARES
 from app.plan.kinds import answered_by
 from app.plan.model import GestureEvent
+from metadata.model import Body
 
 MoveKind = Literal["step", "heel", "toes"]
 MOVE_KINDS: Final[tuple[MoveKind, ...]] = get_args(MoveKind)
 
-LIFT_M: Final = 0.06
+LIFT_M: Final = 0.08
 """Height of the ball of a foot half way of the largest step, at full amount."""
 HEEL_RAD: Final = float(np.deg2rad(24.0))
 """Angle of the heel above the ball in the largest step or lifted heel."""
@@ -36,27 +38,27 @@ PEELS_S: Final = 0.12
 """Time from the heel's leaving the ground to the ball's, and from the ball's landing to the heel's."""
 PEELED: Final = 0.35
 """Share of a step in which the heel still rises, and in which it sinks again."""
-OVER_M: Final = 0.065
+OVER_M: Final = 0.08
 """Way of the hips over the foot that carries the weight."""
 OVER_S: Final = 0.3
 """Time in which the weight goes there, and back."""
-ROLL_RAD, TURN_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(5.0))
+ROLL_RAD, TURN_RAD = float(np.deg2rad(8.0)), float(np.deg2rad(8.0))
 """Angles by which the hips are lower and farther ahead on the side of the foot that carries nothing."""
-LEAN_RAD, COUNTER_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(4.0))
+LEAN_RAD, COUNTER_RAD = float(np.deg2rad(7.0)), float(np.deg2rad(6.0))
 """Lean of the chest to the foot that carries the weight, and its turn away from it, against that of the hips."""
 LIGHT: Final = 0.6
 """Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
-SINKS_M: Final = 0.028
+SINKS_M: Final = 0.038
 """Way of the hips down as a foot takes the weight on a beat."""
 SINK_S: Final = (0.1, 0.32)
 """Time from the beginning of that way to the beat, and from the beat to its end; a third of this is the way down."""
 FOLLOWS: Final = 0.4
 """Share of the way of each foot that the hips go along."""
-IN_HIPS: Final = ("over", "sunk")
+IN_HIPS: Final = ("over", "sunk", "leans")
 """Samples that move hips, not feet."""
 CLEAR_S: Final = 0.3
 """Time for which feet stand before and after what the animator has them do."""
-GROWTH: Final = 0.55
+GROWTH: Final = 0.45
 """Power of the amount with which feet move: half of a dance shows in them too."""
 
 
@@ -111,8 +113,8 @@ class DancedFeet:
         """Sample the feet at ascending times; parts at rest are left out.
 
         ``left_heel`` and ``left_toes`` (radians), ``left_up``, ``left_ahead`` and ``left_aside`` (metres, to the left)
-        are parts of a foot; ``over`` is the weight that goes to the left foot, -1..1, ``sunk`` the give of
-        the knees, 0..1. Without ``steps`` feet stay at their place.
+        are parts of a foot; ``over`` is the weight that goes to the left foot, -1..1, ``leans`` as much as hips and
+        trunk turn and lean with it, ``sunk`` the give of the knees, 0..1. Without ``steps`` feet stay at their place.
         """
         found: dict[str, FloatArray] = {}
         if not len(times_s) or not len(self):
@@ -137,6 +139,8 @@ class DancedFeet:
                 over = (2.0 * side - 1.0) * (1.0 if kind == "step" else LIGHT)
                 _add(found, "over", size * over * _bump(times_s, span_s[0] - OVER_S, *span_s, OVER_S))
                 _add(found, "sunk", size * _sunk(times_s, span_s[1]))
+        if "over" in found:
+            found["leans"] = found["over"]
         return {name: values for name, values in found.items() if np.any(values)}
 
     def lifted_s(self, side: Literal["left", "right"]) -> list[tuple[float, float]]:
@@ -200,7 +204,9 @@ def with_danced(
     return feet
 
 
-def with_danced_feet(motion: BodyMotion, danced: Mapping[str, FloatArray], amount: float, *, steps: bool) -> BodyMotion:
+def with_danced_feet(
+    motion: BodyMotion, danced: Mapping[str, FloatArray], amount: float, body: Body, *, steps: bool
+) -> BodyMotion:
     """The body with its feet dancing.
 
     Parameters
@@ -209,17 +215,20 @@ def with_danced_feet(motion: BodyMotion, danced: Mapping[str, FloatArray], amoun
         As of `DancedFeet.sample`.
     amount : float
         0..1.
+    body : Body
+        With the ranges of the joints.
     """
     if not danced or amount <= 0.0:
         return motion
     size, feet = amount**GROWTH, with_danced(motion.feet, danced, amount)
     nothing = np.zeros(len(motion.hips_side_m))
-    over, sunk = (size * danced.get(name, nothing) for name in IN_HIPS)
-    roll_rad, turn_rad = (ROLL_RAD * over, TURN_RAD * over) if steps else (nothing, nothing)
+    over, sunk, leans = (size * danced.get(name, nothing) for name in IN_HIPS)
+    roll_rad, turn_rad = (ROLL_RAD * leans, TURN_RAD * leans) if steps else (nothing, nothing)
     left_rad, turned_rad = dict(motion.left_rad), dict(motion.turn_rad)
     for joint, share in TRUNK_SHARES.items():
-        left_rad[joint] = left_rad[joint] + share * (LEAN_RAD * over + roll_rad)
-        turned_rad[joint] = turned_rad[joint] - share * (COUNTER_RAD * over + turn_rad)
+        limits = body.limits[joint]
+        left_rad[joint] = within_range(left_rad[joint], share * (LEAN_RAD * leans + roll_rad), limits.sideways_deg)
+        turned_rad[joint] = within_range(turned_rad[joint], -share * (COUNTER_RAD * leans + turn_rad), limits.twist_deg)
     motion = replace(motion, feet=feet, left_rad=left_rad, turn_rad=turned_rad)
     if not steps:
         return motion
@@ -235,6 +244,12 @@ def with_danced_feet(motion: BodyMotion, danced: Mapping[str, FloatArray], amoun
         hips_roll_rad=motion.hips_roll_rad - roll_rad,
         hips_turn_rad=motion.hips_turn_rad + turn_rad,
     )
+
+
+def within_range(angle_rad: FloatArray, further_rad: FloatArray, range_deg: tuple[float, float]) -> FloatArray:
+    """An angle (F,) that goes further, softly no farther than the range of its joint."""
+    low, high = np.deg2rad(range_deg)
+    return np.asarray(angle_rad + within(further_rad, high - angle_rad, angle_rad - low))
 
 
 def _put(found: dict[str, FloatArray], name: str, moves: _Moves, times_s: FloatArray) -> None:

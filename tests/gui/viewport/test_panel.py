@@ -29,7 +29,7 @@ from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
 from app.project.camera_bookmarks import VIEWS
 from app.project.casting import StagePosition
-from app.project.edit.dancers import add_dancer, place_dancers
+from app.project.edit.dancers import add_dancer, place_dancers, set_body_dance
 from app.project.edit.piece import new_piece
 from app.project.model import Project
 from tests.gui.conftest import planned_quartet, quartet_project
@@ -796,6 +796,16 @@ def test_the_front_view_is_a_bust_with_the_player_in_the_middle(viewport: Viewpo
         assert head[0] == pytest.approx(SIZE[0] / 2, abs=0.04 * SIZE[0])
         assert 0.0 < head[1] < 0.5 * SIZE[1]
         assert feet[1] > SIZE[1]
+    # Of a player who dances the feet are seen too.
+    player = session.project.players[0]
+    session.attempt(Message("edit.parameter"), lambda project: set_body_dance(project, (player.id,), "salsa"))
+    session.set_players((player.id,))
+    session.viewport.set_view("ensemble")
+    session.viewport.set_view("front")
+    stage = viewport.scene.stage
+    assert stage is not None
+    (head, feet), _ = viewport.camera.project([stage.joint_m(0, "head"), stage.joint_m(0, "leftFoot")], *SIZE)
+    assert 0.0 < head[1] < feet[1] < SIZE[1]
 
 
 def test_a_key_shows_the_hands_from_the_other_side(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
