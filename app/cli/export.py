@@ -206,9 +206,9 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("unreal.stage")
     if arguments.stage and not any(kind.stage for kind in requested(formats)):
         raise UsageError("stage.formats", possible=names_where(lambda kind: kind.stage))
-    if arguments.keys == "reduced" and arguments.unreal is not None:
+    if arguments.keys != "every" and arguments.unreal is not None:
         raise UsageError("unreal.keys")
-    if arguments.keys == "reduced" and not any(kind.reduces_keys for kind in requested(formats)):
+    if arguments.keys != "every" and not any(kind.reduces_keys for kind in requested(formats)):
         raise UsageError("keys.formats", possible=names_where(lambda kind: kind.reduces_keys))
     refuse_attachment(formats, arguments.instrument)
     return formats

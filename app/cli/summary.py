@@ -42,7 +42,7 @@ def summary(report: Report, folder: Path) -> list[str]:
             place=_from_start(report.first_frame_s),
         )
     ]
-    if report.keys == "reduced":
+    if report.keys != "every":
         lines += [said("export_report.reduced_keys", share=100.0 * share_of_keys(report))]
     return [*lines, *_judgement(report)]
 

@@ -11,6 +11,7 @@ from app.export.instrument import instrument_scene
 from app.export.request import CastDancing, CastMusician, ExportRequest
 from app.export.scene_keys import keyed_character, keyed_instrument
 from app.export.target import TargetSkeleton, instrument_path
+from app.formats.keys import KeyChoice
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
@@ -63,4 +64,6 @@ def _animation_scene(
     request: ExportRequest, character: Character, motion: Motion, name: str, target: TargetSkeleton
 ) -> Scene:
     scene = humanoid_scene(character, motion, name, request.creator, target)
-    return keyed_character(scene, request.keys, request.formats, character, target)
+    # Viewers turn the keys of an animation to the rest of their figure, and not all do so with slopes.
+    keys: KeyChoice = "every" if request.keys == "every" else "linear"
+    return keyed_character(scene, keys, request.formats, character, target)

@@ -52,14 +52,17 @@ def keyed_character(
         return scene
     joints = JointPlayback(ScenePlayback(scene, scene.clip), target, character)
     hanging = {bone: models[number].meshes for bone, number in target.sockets.items()}
-    return reduced(scene, character_marks(joints, character, hanging), PLACE_MM, _by_pose(formats))
+    return reduced(
+        scene, character_marks(joints, character, hanging), PLACE_MM, _by_pose(formats), curved=keys == "reduced"
+    )
 
 
 def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:
     """An instrument's scene with its keys."""
     if keys == "every" or scene.clip is None:
         return scene
-    return reduced(scene, part_marks(ScenePlayback(scene, scene.clip)), INSTRUMENT_MM, _by_pose(formats))
+    marks = part_marks(ScenePlayback(scene, scene.clip))
+    return reduced(scene, marks, INSTRUMENT_MM, _by_pose(formats), curved=keys == "reduced")
 
 
 def _by_pose(formats: frozenset[Format]) -> bool:

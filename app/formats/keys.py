@@ -1,4 +1,4 @@
-"""Keys that are not on every frame: where they are, how they are chosen, and what is between them.
+"""Keys that are not on every frame: where they are, how linear ones are chosen, and what is between these.
 
 Every program interpolates linear keys alike: numbers (places, weights, Euler angles) along a straight line, quaternions
 at constant angular speed. So keys are frames of a clip at which its own values are written, and what a program shows at
@@ -15,9 +15,9 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, SingleArray
 
-KeyChoice = Literal["every", "reduced"]
-"""A key on every frame, or as few as keep everything within a bound."""
-KEY_CHOICES: Final[tuple[KeyChoice, ...]] = ("every", "reduced")
+KeyChoice = Literal["every", "reduced", "linear"]
+"""A key on every frame, or as few as keep everything within a bound: joined by cubics, or by straight lines."""
+KEY_CHOICES: Final[tuple[KeyChoice, ...]] = ("every", "reduced", "linear")
 
 _LEAST_CHUNK, _MOST_CHUNK, _AT_ONCE = 64, 512, 8192
 """Frames that are walked through one after another, and how many numbers at once: all chunks of all curves."""
@@ -38,12 +38,15 @@ class Keys:
         Of all morphs together, for formats in which the morphs of a mesh share their keys.
     pose : ndarray of int or None
         Of all bones together, for formats in which they share their keys; None: on every frame there.
+    curved : bool
+        Whether cubics (`app.formats.cubics`) join the keys of `bones`. All other keys are linear.
     """
 
     bones: tuple[AnyIntArray, ...]
     morphs: Mapping[str, AnyIntArray] = field(default_factory=dict)
     face: AnyIntArray = field(default_factory=lambda: np.zeros(1, np.intp))
     pose: AnyIntArray | None = None
+    curved: bool = False
 
     def beside(self, other: Keys) -> Keys:
         """These keys, and behind those of the bones those of other bones, which move no morphs."""

@@ -95,6 +95,17 @@ def at(times, values, t, mix=lerp):
     return mix(values[lo], values[hi], (t - times[lo]) / (times[hi] - times[lo]))
 
 
+def spline(times, keys, t, mix):
+    """Value of a glTF cubic spline at t (held outside); a key is (slope in, value, slope out). Appendix C of glTF 2.0."""
+    if t <= times[0] or t >= times[-1]:
+        return keys[0 if t <= times[0] else -1][1]
+    k = next(i for i in range(len(times) - 1) if t < times[i + 1])
+    d = times[k + 1] - times[k]
+    u = (t - times[k]) / d
+    a, b, c, e = 2 * u ** 3 - 3 * u ** 2 + 1, d * (u ** 3 - 2 * u ** 2 + u), 3 * u ** 2 - 2 * u ** 3, d * (u ** 3 - u ** 2)
+    return [a * p + b * m + c * q + e * n for p, m, q, n in zip(keys[k][1], keys[k][2], keys[k + 1][1], keys[k + 1][0])]
+
+
 # ------------------------------------------------------------------ built-in FBX structure check
 class FbxError(Exception):
     pass
@@ -319,7 +330,7 @@ def eval_gltf(path, times, unit=100.0, names=None):
         return list(x) if n == 1 else [list(x[k:k + n]) for k in range(0, len(x), n)]
     nodes = js['nodes']
     par = {c: i for i, n in enumerate(nodes) for c in n.get('children', [])}
-    tr = {}
+    tr, cubic = {}, set()
     dur, fps = 0.0, None
     anims = js.get('animations', [])
     if anims:
@@ -327,6 +338,9 @@ def eval_gltf(path, times, unit=100.0, names=None):
         for c in an['channels']:
             s = an['samplers'][c['sampler']]
             ti = read(s['input']); va = read(s['output'])
+            if s.get('interpolation') == 'CUBICSPLINE':
+                va = [va[q:q + 3] for q in range(0, len(va), 3)]
+                cubic.add((c['target']['node'], c['target']['path']))
             if c['target']['path'] == 'weights':
                 k = len(va) // len(ti); va = [va[q:q + k] for q in range(0, len(va), k)]
             tr[(c['target']['node'], c['target']['path'])] = (ti, va)
@@ -345,7 +359,7 @@ def eval_gltf(path, times, unit=100.0, names=None):
                 if 'matrix' in n:
                     m = [n['matrix'][4 * c + r] for r in range(4) for c in range(4)]
                 else:
-                    g = lambda k, d, mix=lerp: at(*tr[(i, k)], t, mix) if (i, k) in tr else n.get(k, d)
+                    g = lambda k, d, mix=lerp: (spline if (i, k) in cubic else at)(*tr[(i, k)], t, mix) if (i, k) in tr else n.get(k, d)
                     m = trs(g('translation', [0, 0, 0]), g('rotation', [0, 0, 0, 1], nlerp), g('scale', [1, 1, 1]))
                 world[i] = mul(w(par[i]), m) if i in par else m
             return world[i]

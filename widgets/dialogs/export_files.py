@@ -136,7 +136,7 @@ class ExportDialog(WorkingDialog):
         self._formats = FormatChooser()
         self._bvh_names = self.texted(_profiles(), items="export_dialog.same_as_skeleton")
         self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
-        key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys")
+        key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys", "export_dialog.linear_keys")
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)

@@ -1,4 +1,4 @@
-"""The curves of an FBX file: linear keys on every frame, or at the frames of `Keys`."""
+"""The curves of an FBX file: linear keys on every frame, or linear or cubic ones at the frames of `Keys`."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IntArray, SingleArray
+from app.formats.cubics import span_slopes
 from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.encode import Element, PackedArray, pack_array
 from app.formats.fbx.sections import integer, property_block, property_row
@@ -23,6 +24,9 @@ STEADY_DEG, STEADY_CM = 1e-3, 1e-4
 # Linear keys. The bits beside "linear" (4) and the tangent data are those that every reader has met before.
 _KEY_FLAGS = np.array([0x6104], dtype=np.int32)
 _KEY_DATA = np.array([0.0, 0.0, 9.419963346924634e-30, 0.0], dtype=np.float32)
+CUBIC, OWN_SLOPES = 0x8, 0x400 | 0x800
+"""Bits of a cubic key, and of one with slopes of its own on both sides; FBX SDK, ``FbxAnimCurveDef``."""
+LINEAR = 0x4
 
 
 def rotation_curves(bones: Sequence[Bone], clip: Clip) -> FloatArray:
@@ -48,6 +52,18 @@ def place_curves(clip: Clip, bone: int) -> AnyFloatArray:
     return places if clip.keys is None else steady(places, STEADY_CM)
 
 
+def _cubic(slopes: FloatArray) -> tuple[Element, ...]:
+    """Elements of cubic keys (K) whose spans (K - 1, 2) begin and end with these slopes per second."""
+    data = np.tile(_KEY_DATA, (len(slopes) + 1, 1))
+    data[:-1, :2] = slopes
+    flags = np.full(len(data), CUBIC | OWN_SLOPES, np.int32)
+    return (
+        Element("KeyAttrFlags", (pack_array(flags),)),
+        Element("KeyAttrDataFloat", (pack_array(data.ravel()),)),
+        Element("KeyAttrRefCount", (pack_array(np.ones(len(data), np.int32)),)),
+    )
+
+
 def steady(curves: AnyFloatArray, least: float) -> AnyFloatArray:
     """Curves (..., F) of which those that change by no more than ``least`` keep their first value."""
     rests = np.ptp(curves, axis=-1, keepdims=True) <= least
@@ -69,12 +85,13 @@ class FbxLayerCurves:
     ) -> None:
         """Animate the models of a figure's bones, and the channels of each of its morphs."""
         keys = clip.keys
+        slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         rotations = rotation_curves(bones, clip)
         for bone, model in enumerate(models):
             frames = None if keys is None else keys.bones[bone]
             if bone in clip.translations_cm:
-                self._add(model, "Lcl Translation", "T", AXES, place_curves(clip, bone), frames)
-            self._add(model, "Lcl Rotation", "R", AXES, rotations[bone], frames)
+                self._add(model, "Lcl Translation", "T", AXES, place_curves(clip, bone), frames, slopes_fps)
+            self._add(model, "Lcl Rotation", "R", AXES, rotations[bone], frames, slopes_fps)
         for name, weights in clip.morph_weights.items():
             percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
             frames = None if keys is None else keys.morphs[name]
@@ -89,8 +106,10 @@ class FbxLayerCurves:
         channels: str | tuple[str, ...],
         values: AnyFloatArray,
         frames: AnyIntArray | None,
+        slopes_fps: float = 0.0,
     ) -> None:
-        """Animate one property; `values` has a row of frames per channel, with keys at some frames or at all."""
+        """Animate one property; `values` has a row of frames per channel, with keys at some frames or at all; cubic
+        ones at a frame rate, linear ones at none."""
         defaults = [
             property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
             for channel, row in zip(channels, values, strict=True)
@@ -98,11 +117,13 @@ class FbxLayerCurves:
         node = self._assembly.add("AnimationCurveNode", name, "AnimCurveNode", "", (property_block(*defaults),))
         self._assembly.connect(node, self._layer)
         self._assembly.connect(node, target, target_property)
-        for channel, row in zip(channels, values.astype(np.float32), strict=True):
+        for channel, exact, row in zip(channels, values, values.astype(np.float32), strict=True):
             at = None
             if frames is not None:
-                at = frames[:1] if (row[frames] == row[0]).all() else frames
+                at = frames[:1] if (row[slice(None) if slopes_fps else frames] == row[0]).all() else frames
             before, after = self._times(at)
+            if slopes_fps and at is not None and len(at) > 1:
+                after = _cubic(span_slopes(exact[:, None], at)[..., 0] * slopes_fps)
             keys = Element("KeyValueFloat", (self._keys(row if at is None else row[at]),))
             children = (Element("Default", (float(row[0]),)), *before, keys, *after)
             curve = self._assembly.add("AnimationCurve", "", "AnimCurve", "", children)

@@ -1,4 +1,4 @@
-"""The animation of a binary FBX file as our writer makes it: one take, linear keys on frames."""
+"""The animation of a binary FBX file as our writer makes it: one take, linear or cubic keys on frames."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray, IntArray
 from app.errors import FileError
+from app.formats.cubics import cubic_values
 from app.formats.fbx import ticks
+from app.formats.fbx.curves import CUBIC, LINEAR, OWN_SLOPES
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 
@@ -17,6 +19,7 @@ MOST_VALUES = 2**25
 """Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer."""
 _MOST_FRAMES = 2**20
 """Some hours: few keys may claim to be a long clip."""
+_KEY_PARTS = ("right slope", "next left slope", "weights", "velocities")
 _ANIMATED = {
     "Lcl Rotation": ("LimbNode", 3),
     "Lcl Translation": ("LimbNode", 3),
@@ -25,20 +28,24 @@ _ANIMATED = {
 
 
 class FbxCurve(NamedTuple):
-    """Frames of a curve's keys and their values, as stored in the file."""
+    """Frames of a curve's keys and their values, as stored in the file; and slopes (K - 1, 2) per frame at the begin
+    and the end of each span of cubic keys, None of linear ones."""
 
     frames: IntArray
     values: AnyFloatArray
+    slopes: FloatArray | None = None
 
     @property
     def rests(self) -> bool:
         """True if it has one value at all frames."""
-        return bool((self.values == self.values[0]).all())
+        return self.slopes is None and bool((self.values == self.values[0]).all())
 
     def at(self, frames: int) -> FloatArray:
-        """Its values at all frames: straight lines between the keys, at rest before and after them."""
+        """Its values at all frames: lines or cubics between the keys, at rest before and after them."""
         if len(self.frames) == frames:
             return self.values.astype(np.float64)
+        if self.slopes is not None:
+            return cubic_values(self.values.astype(np.float64), self.slopes, self.frames, frames)
         found: FloatArray = np.interp(np.arange(frames), self.frames, self.values)
         return found
 
@@ -94,7 +101,8 @@ def _curves(
                     known[id(key_ticks)] = key_ticks, _key_frames(graph, key_ticks, frame_ticks, fps)
                 if len(values) != len(key_ticks):
                     raise FileError("fbx.contradiction", file=graph.file, detail=f"times and values of {node.name}")
-                channels.append(FbxCurve(known[id(key_ticks)][1], values))
+                slopes = _slopes(graph, curve.element, len(values), fps)
+                channels.append(FbxCurve(known[id(key_ticks)][1], values, slopes))
             targets = [(target, to) for target, to in graph.parents.get(node.id, ()) if to]
             if len(targets) != 1 or not channels:
                 raise FileError("fbx.missing", file=graph.file, what=f"target or curve of {node.name}")
@@ -102,6 +110,18 @@ def _curves(
     if not result:
         raise FileError("fbx.missing", file=graph.file, what="animation curve")
     return result
+
+
+def _slopes(graph: ObjectGraph, curve: Element, count: int, fps: Fraction) -> FloatArray | None:
+    """Slopes of cubic keys as of `FbxCurve`; None of linear ones."""
+    flags = graph.integers(curve, "KeyAttrFlags")
+    if len(flags) == 1 and flags[0] & LINEAR:
+        return None
+    data = graph.stored(curve, "KeyAttrDataFloat", len(_KEY_PARTS)).astype(np.float64)
+    own = CUBIC | OWN_SLOPES
+    if len(flags) != count or len(data) != count or ((flags & own) != own).any():
+        raise FileError("fbx.unsupported", file=graph.file, what="keys that are neither linear nor cubic")
+    return data[:-1, :2] / float(fps)
 
 
 def _key_frames(graph: ObjectGraph, key_ticks: IntArray, frame_ticks: IntArray, fps: Fraction) -> IntArray:

@@ -148,4 +148,5 @@ def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
 
 def channel_values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
     """Values (F, W) of a channel at all frames: its keys, where it has one on each."""
-    return channel.values if len(channel.times_s) == len(times_s) else sampled(channel, times_s)
+    on_every_frame = len(channel.times_s) == len(times_s) and channel.interpolation == "LINEAR"
+    return channel.values if on_every_frame else sampled(channel, times_s)

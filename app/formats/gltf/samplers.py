@@ -9,6 +9,7 @@ import pygltflib as gltf
 
 from app.arrays import AnyIntArray, SingleArray
 from app.formats.continuous import continuous
+from app.formats.cubics import span_slopes
 from app.formats.gltf.document import GlbDocument
 from app.formats.scene import Clip, Scene, SkinnedMesh
 
@@ -40,28 +41,44 @@ class Samplers:
     def add_clip(self, scene: Scene, clip: Clip, first: int, mesh_nodes: Sequence[int]) -> None:
         """Add what the bones of a scene, from the node `first` on, and the meshes on their nodes do."""
         keys = clip.keys
+        slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         for bone in range(len(scene.bones)):
             frames = None if keys is None else keys.bones[bone]
             if bone in clip.translations_cm:
                 places = (np.asarray(clip.translations_cm[bone]) * METRES).astype(np.float32)
-                self.add(first + bone, "translation", places, frames)
-            self.add(first + bone, "rotation", continuous(clip.rotations_xyzw[:, bone]), frames)
+                self.add(first + bone, "translation", places, frames, slopes_fps=slopes_fps)
+            turned = continuous(clip.rotations_xyzw[:, bone])
+            self.add(first + bone, "rotation", turned, frames, slopes_fps=slopes_fps)
         for node, mesh in zip(mesh_nodes, scene.meshes, strict=True):
             if weights_move(clip, mesh):
                 weights = _weights(clip, (morph.name for morph in mesh.morphs))
                 frames = None if keys is None else keys.face
                 self.add(node, "weights", weights, frames, flat=True)
 
-    def add(self, node: int, path: str, values: SingleArray, frames: AnyIntArray | None, flat: bool = False) -> None:
-        """Animate one property; `values` has a row per frame, with keys at some frames or at all."""
+    def add(
+        self,
+        node: int,
+        path: str,
+        values: SingleArray,
+        frames: AnyIntArray | None,
+        *,
+        flat: bool = False,
+        slopes_fps: float = 0.0,
+    ) -> None:
+        """Animate one property; `values` has a row per frame, with keys at some frames or at all; cubic ones at a frame
+        rate, linear ones at none."""
+        interpolation = gltf.ANIM_LINEAR
         if frames is not None:
-            frames = frames[:1] if (values[frames] == values[0]).all() else frames
-            values = values[frames]
+            seen = values if slopes_fps else values[frames]
+            frames = frames[:1] if (seen == values[0]).all() else frames
+            if slopes_fps and len(frames) > 1:
+                interpolation = gltf.ANIM_CUBICSPLINE
+                values = _with_slopes(values, frames, slopes_fps)
+            else:
+                values = values[frames]
         times = self._input(frames)
         output = self._document.accessor("keys", values, flat=flat)
-        self._animation.samplers.append(
-            gltf.AnimationSampler(input=times, output=output, interpolation=gltf.ANIM_LINEAR)
-        )
+        self._animation.samplers.append(gltf.AnimationSampler(input=times, output=output, interpolation=interpolation))
         target = gltf.AnimationChannelTarget(node=node, path=path)
         self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
 
@@ -72,6 +89,16 @@ class Samplers:
             seconds = self._seconds if frames is None else self._seconds[frames]
             self._times[known] = self._document.accessor("times", seconds, bounds=True)
         return self._times[known]
+
+
+def _with_slopes(values: SingleArray, frames: AnyIntArray, fps: float) -> SingleArray:
+    """Rows (3 K, W) of cubic keys: of each the slope per second that it is reached with, its value, and the slope that
+    it is left with."""
+    slopes = span_slopes(values.astype(np.float64), frames) * fps
+    rows = np.zeros((len(frames), 3, values.shape[1]), np.float32)
+    rows[:, 1] = values[frames]
+    rows[1:, 0], rows[:-1, 2] = slopes[:, 1], slopes[:, 0]
+    return rows.reshape(-1, values.shape[1])
 
 
 def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:

@@ -220,6 +220,7 @@ ODD = {
     "keys between frames": ("Objects/AnimationCurve/KeyTime", _with(np.arange(4)), "unsupported"),
     "keys beyond the end": ("Objects/AnimationCurve/KeyTime", _with(np.arange(4) * 2 * FRAME_TICKS), "unsupported"),
     "keys in disorder": ("Objects/AnimationCurve/KeyTime", _with(FRAME_TICKS * np.array([0, 2, 1, 3])), "unsupported"),
+    "keys that are steps": ("Objects/AnimationCurve/KeyAttrFlags", _with(np.array([2], np.int32)), "unsupported"),
     "a missing key": ("Objects/AnimationCurve/KeyValueFloat", _with(np.zeros(3, np.float32)), "contradiction"),
     "a bone that is its own grandchild": ("Connections/C", _with("OO", ROOT_ID, FIRST_CHILD_ID), "contradiction"),
     "a connection without ends": ("Connections/C", _with("OO"), "missing"),

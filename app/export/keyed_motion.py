@@ -1,0 +1,227 @@
+"""Motion of a scene's bones and of the marks on them, as it is meant and as programs show it from a few keys."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, SingleArray
+from app.export.key_reduction_landmarks import SkinnedMarks, rigid_links
+from app.export.playback import METRES
+from app.formats.continuous import continuous
+from app.formats.cubics import curved_values
+from app.formats.euler import matrices
+from app.formats.fbx.curves import curve_rotations, place_curves, rotation_curves
+from app.formats.keys import KeySpans
+from app.formats.scene import Clip, Scene
+
+ROTATION_RAD = float(np.radians(0.25))
+"""Bound of a bone's rotation."""
+_CHAIN, _CURVED_CHAIN = 1.2, 2.0
+"""Root of the sum of squares that the bones of a chain may have, as a multiple of the bound, with lines and with
+cubics: they are seldom all off at once and to the same side, and cubics are so at few frames of a span."""
+_BOX, _CURVED_BOX = float(np.sqrt(2.0)), 1.0
+"""Each number of a rotation or place may be off by its tolerance over this."""
+_SAMPLES = 16
+_STILL = 1e-7
+
+
+class KeyedMotion:
+    """Motion of a scene's bones and of the marks on them.
+
+    Attributes
+    ----------
+    moving : (N,) int
+        Bones that do anything; the rows of the other arrays are of these.
+    rotations : (N, F, 4) float32
+    angles : (N, F, 3) float32
+        Degrees, as in FBX.
+    places_m : mapping of int to (F, 3) float64
+        By row; of the bones that leave their place.
+    curved : bool
+        Whether cubics join the keys.
+    """
+
+    def __init__(self, scene: Scene, clip: Clip, marks: SkinnedMarks, most_m: float, curved: bool = False) -> None:
+        self.marks, self.frames, self.most_m, self.curved = marks, clip.frames, most_m, curved
+        self.parents = [bone.parent for bone in scene.bones]
+        rotations = continuous(clip.rotations_xyzw)
+        places_m = {
+            bone: np.ascontiguousarray(place_curves(clip, bone).T, np.float64) * METRES for bone in clip.translations_cm
+        }
+        moves = (np.abs(rotations - rotations[:1]) > _STILL).any(axis=(0, 2))
+        for bone, values in places_m.items():
+            moves[bone] |= bool((values != values[0]).any())
+        self.moving = np.flatnonzero(moves)
+        self.rotations = np.ascontiguousarray(rotations[:, moves].transpose(1, 0, 2))
+        self._turning = [scene.bones[bone] for bone in self.moving.tolist()]
+        self.angles = rotation_curves(scene.bones, clip)[moves].transpose(0, 2, 1).astype(np.float32)
+        self.places_m = {row: places_m[bone] for row, bone in enumerate(self.moving.tolist()) if bone in places_m}
+        still_m = np.stack([np.asarray(bone.translation_cm, np.float64) for bone in scene.bones]) * METRES
+        for bone, values in places_m.items():
+            still_m[bone] = values[0]
+        self._links, self._carried = rigid_links(marks, self.parents, self.moving, matrices(rotations[0]), still_m)
+        rest = np.zeros(clip.frames)
+        self.weights = np.array([clip.morph_weights.get(name, rest) for name in marks.morphs], np.float64)
+        self.weights = self.weights.reshape(-1, clip.frames)
+        assert clip.keys is not None
+        face = np.zeros((1, clip.frames), bool)
+        face[0, clip.keys.face] = True
+        self._face_weights = KeySpans.of(face).straight(self.weights.T[None])[0].T
+        self._drawn: list[FloatArray] = []
+        self._drawn_m: dict[int, FloatArray] = {}
+        self.chains = marks.hang_on(self.parents)[:, self.moving]
+        """True for each mark (K,) that hangs on a moving bone (N,)."""
+        self.reach_m = self._reach_m()
+
+    # How much each bone may be off
+
+    def _reach_m(self) -> AnyFloatArray:
+        """Return how far marks are from each moving bone (N,) that they hang on."""
+        frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
+        marks_m = self.places_of_marks(*self.meant(frames))
+        result = np.zeros(len(self.moving))
+        for row, bone in enumerate(self.moving.tolist()):
+            away_m = np.linalg.norm(marks_m[self.chains[:, row]] - marks_m[bone], axis=-1)
+            result[row] = away_m.max(initial=0.0)
+        return result
+
+    def scaled(self) -> list[tuple[AnyIntArray, SingleArray]]:
+        """Rows of bones, and their numbers (n, F, D) over what each may be off; those that leave their place apart."""
+        turns = np.concatenate([2.0 * self.rotations, np.radians(self.angles)], axis=2)
+        over, within = (_CURVED_CHAIN, _CURVED_BOX) if self.curved else (_CHAIN, _BOX)
+        changes = _changes(turns) / _BOX
+        place_changes = np.zeros(len(self.moving))
+        for row, places_m in self.places_m.items():
+            place_changes[row] = _changes(places_m[None])[0]
+        turned = np.cbrt(np.maximum(self.reach_m, _STILL) * changes**2)
+        placed = np.cbrt(place_changes**2)
+        chain = np.sqrt(np.maximum(self.chains @ (turned**2 + placed**2), _STILL**2))
+        least = np.where(self.chains, over * self.most_m / chain[:, None], np.inf).min(axis=0)
+        tolerance = np.minimum(ROTATION_RAD, least * turned / np.maximum(self.reach_m, _STILL))
+        tolerance_m = np.minimum(self.most_m, least * placed)
+        tolerance = np.where(changes > 0.0, tolerance, ROTATION_RAD) / within
+        turns /= tolerance[:, None, None].astype(np.float32)
+        result: list[tuple[AnyIntArray, SingleArray]] = []
+        leaving = np.isin(np.arange(len(self.moving)), list(self.places_m))
+        for rows in (np.flatnonzero(~leaving), np.flatnonzero(leaving)):
+            numbers = turns[rows]
+            if leaving[rows].any():
+                off_m = np.where(place_changes > 0.0, tolerance_m, self.most_m)[rows] / within
+                places = np.stack([self.places_m[row] - self.places_m[row][0] for row in rows.tolist()])
+                numbers = np.concatenate([numbers, (places / off_m[:, None, None]).astype(np.float32)], axis=2)
+            if len(rows):
+                result.append((rows, numbers))
+        return result
+
+    # What a program shows
+
+    def places_of_marks(
+        self, turned: AnyFloatArray, places_m: Mapping[int, AnyFloatArray], weights: AnyFloatArray
+    ) -> AnyFloatArray:
+        """Places of the marks (K, f, 3) at some frames, metres.
+
+        Parameters
+        ----------
+        turned : (N, f, 4)
+            Rotations of the moving bones.
+        places_m : mapping of int to (f, 3)
+            By row, of those that leave their place.
+        weights : (M, f)
+            Of the marks' morphs.
+        """
+        local = matrices(turned).astype(np.float32)
+        placed_m = {row: values.astype(np.float32) for row, values in places_m.items()}
+        result = np.zeros((self.marks.count, turned.shape[1], 3), np.float32)
+        placed: list[tuple[AnyFloatArray, AnyFloatArray]] = []
+        for row, link in enumerate(self._links):
+            turn: AnyFloatArray = local[row]
+            place_m: AnyFloatArray = placed_m.get(row, link.place_m)
+            if link.turn is not None:
+                turn, place_m = link.turn @ turn, _applied(link.turn, place_m) + link.offset_m
+            if link.above >= 0:
+                above, above_m = placed[link.above]
+                turn, place_m = above @ turn, above_m + _applied(above, place_m)
+            placed.append((turn, place_m))
+        placed.append((np.eye(3, dtype=np.float32), np.zeros(3, np.float32)))
+        for row, carried in self._carried.items():
+            turn, place_m = placed[row]
+            points = carried.points_m
+            if carried.shapes_m.any():
+                shaped = points[:, None] + np.tensordot(
+                    carried.shapes_m, weights.astype(np.float32), axes=(0, 0)
+                ).swapaxes(1, 2)
+                moved = _applied(turn, shaped)
+            else:
+                moved = (points @ turn.reshape(-1, 3).T).reshape(len(points), -1, 3)
+            result[carried.marks] += moved + carried.shares[:, None, None] * place_m
+        return result
+
+    def meant(self, frames: AnyIntArray) -> KeyedPoses:
+        """Exact motion at some frames."""
+        places_m = {row: values[frames] for row, values in self.places_m.items()}
+        return KeyedPoses(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
+
+    def shown(self, frames: AnyIntArray, spans: KeySpans, by_angles: bool) -> KeyedPoses:
+        """Motion at some frames between keys in a program that interpolates angles or quaternions."""
+        angles = spans.straight(self.angles) if by_angles else None
+        turned = spans.turned(self.rotations) if angles is None else curve_rotations(self._turning, angles)
+        places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
+        return KeyedPoses(turned, places_m, self._face_weights[:, frames])
+
+    def draw(self, kept: BoolArray, rows: AnyIntArray) -> None:
+        """Draw the cubics of some bones through their keys among all (N, F); nothing where lines join them."""
+        if not self.curved:
+            return
+        if not self._drawn:
+            self._drawn = [np.empty(self.rotations.shape), np.empty(self.angles.shape)]
+        for drawn, values in zip(self._drawn, (self.rotations, self.angles), strict=True):
+            drawn[rows] = curved_values(values[rows], kept[rows])
+        for row in rows.tolist():
+            if row in self.places_m:
+                self._drawn_m[row] = curved_values(self.places_m[row][None], kept[row, None])[0]
+
+    def drawn(self, frames: AnyIntArray, by_angles: bool) -> KeyedPoses:
+        """Motion at some frames as it was drawn; see `shown`."""
+        turned = self._drawn[by_angles][:, frames]
+        if by_angles:
+            turned = curve_rotations(self._turning, turned)
+        else:
+            turned /= np.linalg.norm(turned, axis=-1, keepdims=True)
+        places_m = {row: values[frames] for row, values in self._drawn_m.items()}
+        return KeyedPoses(turned, places_m, self._face_weights[:, frames])
+
+
+class KeyedPoses(NamedTuple):
+    """Rotations (N, f, 4) and, by row, places (f, 3) of the moving bones, and weights (M, f) of the marks' morphs."""
+
+    turned: AnyFloatArray
+    places_m: Mapping[int, AnyFloatArray]
+    weights: AnyFloatArray
+
+
+def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
+    """Frames after frames."""
+    return KeyedPoses(
+        np.concatenate([one.turned for one in shown], axis=1),
+        {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
+        np.concatenate([one.weights for one in shown], axis=1),
+    )
+
+
+def _applied(turns: AnyFloatArray, vectors: AnyFloatArray) -> AnyFloatArray:
+    """Vectors (..., f, 3), or (3,), turned."""
+    if vectors.ndim == 1 and turns.ndim == 3:
+        return np.asarray((turns.reshape(-1, 3) @ vectors).reshape(-1, 3))
+    return np.asarray(np.einsum("...ij,...j->...i", turns, vectors))
+
+
+def _changes(values: AnyFloatArray) -> AnyFloatArray:
+    """Return how many keys curves (N, F, D) need: the mean root of how much they change direction from frame to
+    frame."""
+    if values.shape[1] < 3:
+        return np.zeros(len(values))
+    seconds = np.diff(values, 2, axis=1)
+    return np.asarray(np.sqrt(np.sqrt(np.einsum("nfd,nfd->nf", seconds, seconds))).mean(axis=1), np.float64)

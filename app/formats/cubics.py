@@ -1,0 +1,193 @@
+"""Cubic curves through few keys: each span between two keys is the cubic that is nearest to the motion's own frames.
+
+A span begins and ends on the values of its keys and with slopes of its own, found by least squares from the frames
+between them. So keys are frames of a clip as elsewhere (`app.formats.keys`), and their slopes follow from the clip.
+The basis is Hermite's; source: Khronos, "glTF 2.0 Specification", appendix C.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, IntArray
+
+_FIRST = 64
+"""Frames of the spans that are tried at first."""
+_LONGEST = 192
+"""Frames of a span: a hand that is still has one every few seconds."""
+_AT_ONCE = 2**20
+"""Numbers worked on at once."""
+_PASSES = 8
+
+
+@cache
+def _basis(length: int) -> tuple[FloatArray, FloatArray]:
+    """Effects (L + 1, 2) of both slopes, as differences from the straight line's, and their least squares (2, L + 1);
+    slopes are changes over the whole span."""
+    share = np.arange(length + 1) / length
+    effects = np.stack([share**3 - 2.0 * share**2 + share, share**3 - share**2], axis=1)
+    if length == 1:
+        return effects, np.zeros((2, 2))
+    return effects, np.asarray(np.linalg.pinv(effects), np.float64)
+
+
+def span_slopes(values: AnyFloatArray, keys: AnyIntArray) -> FloatArray:
+    """Slopes (K - 1, 2, D) at the begin and the end of each span between keys (K,) of a curve (F, D), per frame."""
+    lanes = np.zeros(len(keys) - 1, np.intp)
+    result = np.empty((len(keys) - 1, 2, values.shape[1]))
+    curve = np.asarray(values)[None]
+    for length, some in _by_length(np.diff(keys)):
+        result[some] = _fitted(curve, lanes[some], keys[:-1][some], length)[1]
+    return result
+
+
+def curved_values(values: AnyFloatArray, kept: BoolArray) -> FloatArray:
+    """Numbers (L, F, D) that cubics between some frames (L, F) of curves have; after its last key a curve rests."""
+    frames = np.arange(values.shape[1])
+    last = np.where(kept, frames, 0).max(axis=1)
+    rows = np.arange(len(values))[:, None]
+    result: FloatArray = np.asarray(values, np.float64)[rows, np.minimum(frames, last[:, None])]
+    lanes, starts, lengths = _spans(kept)
+    for length, some in _by_length(lengths):
+        shown, _ = _fitted(values, lanes[some], starts[some], length)
+        result[lanes[some, None], starts[some, None] + np.arange(length + 1)] = shown
+    return result
+
+
+def cubic_values(values: FloatArray, slopes: FloatArray, keys: AnyIntArray, frames: int) -> FloatArray:
+    """Numbers (F,) at all frames of cubics with values (K,) and slopes (K - 1, 2) per frame between keys (K,); a curve
+    rests before and after them."""
+    at = np.arange(frames)
+    before = np.clip(np.searchsorted(keys, at, side="right") - 1, 0, len(keys) - 2)
+    lengths = (keys[before + 1] - keys[before]).astype(np.float64)
+    share = np.clip((at - keys[before]) / lengths, 0.0, 1.0)
+    first, last = values[before], values[before + 1]
+    begin, end = (slopes[before] * lengths[:, None]).T
+    bend = share * (share - 1.0) * ((share - 1.0) * (begin - (last - first)) + share * (end - (last - first)))
+    found: FloatArray = first + (last - first) * share + bend
+    return found
+
+
+def cubic_keys(values: AnyFloatArray) -> BoolArray:
+    """Few frames whose values, joined by cubics, are nowhere more than 1 off in any number.
+
+    Parameters
+    ----------
+    values : ndarray, shape (L, F, D)
+        Curves of D numbers each, divided by what they may be off.
+
+    Returns
+    -------
+    ndarray of bool, shape (L, F)
+        The first frame is among them, and the last unless the curve stays near its first value.
+
+    Notes
+    -----
+    Spans are halved until each is near enough, all of one length at once. Then keys are taken away as long as what is
+    left is near enough: one alone, or one of two whose middle does as well.
+    """
+    lanes, frames, _ = values.shape
+    kept = np.zeros((lanes, frames), bool)
+    kept[:, 0] = True
+    moves = np.flatnonzero((np.abs(values - values[:, :1]) > 1.0).any(axis=(1, 2)))
+    if not len(moves):
+        return kept
+    found = _halved(values[moves])
+    for _ in range(_PASSES):
+        taken = sum(_without_every_second(values[moves], found, first) for first in (0, 1))
+        taken += sum(_with_one_of_two(values[moves], found, first) for first in range(3))
+        if not taken:
+            break
+    kept[moves] = found
+    return kept
+
+
+def _halved(values: AnyFloatArray) -> BoolArray:
+    """Keys (L, F) between which all spans are near enough."""
+    lanes, frames, _ = values.shape
+    borders = np.unique([*range(0, frames, _FIRST), frames - 1])
+    kept = np.zeros((lanes, frames), bool)
+    kept[:, borders] = True
+    row, start = (one.ravel() for one in np.meshgrid(np.arange(lanes), borders[:-1], indexing="ij"))
+    end = np.tile(borders[1:], lanes)
+    while len(row):
+        divided = (end - start > 1) & _far(values, row, start, end - start)
+        row, start, end = row[divided], start[divided], end[divided]
+        middle = (start + end) // 2
+        kept[row, middle] = True
+        row, start, end = np.tile(row, 2), np.concatenate([start, middle]), np.concatenate([middle, end])
+    return kept
+
+
+def _without_every_second(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
+    """Take away every second key that the curve does not need, in place; how many these are."""
+    lanes, frames = np.nonzero(kept)
+    rank = np.arange(len(lanes)) - np.searchsorted(lanes, np.arange(len(kept)))[lanes]
+    inner = np.zeros(len(lanes), bool)
+    inner[1:-1] = (lanes[1:-1] == lanes[:-2]) & (lanes[1:-1] == lanes[2:]) & (rank[1:-1] % 2 == first)
+    tried = np.flatnonzero(inner)
+    tried = tried[frames[tried + 1] - frames[tried - 1] <= _LONGEST]
+    start = frames[tried - 1]
+    needless = tried[~_far(values, lanes[tried], start, frames[tried + 1] - start)]
+    kept[lanes[needless], frames[needless]] = False
+    return len(needless)
+
+
+def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
+    """Put one key in the middle of two, of every three, where that does; in place; how many keys fewer these are."""
+    lanes, frames = np.nonzero(kept)
+    rank = np.arange(len(lanes)) - np.searchsorted(lanes, np.arange(len(kept)))[lanes]
+    inner = np.zeros(len(lanes), bool)
+    inner[1:-2] = (lanes[1:-2] == lanes[:-3]) & (lanes[1:-2] == lanes[3:]) & (rank[1:-2] % 3 == first)
+    tried = np.flatnonzero(inner)
+    start, middle, end = frames[tried - 1], (frames[tried] + frames[tried + 1]) // 2, frames[tried + 2]
+    near = (middle - start <= _LONGEST) & (end - middle <= _LONGEST)
+    tried, start, middle, end = tried[near], start[near], middle[near], end[near]
+    near = ~_far(values, lanes[tried], start, middle - start)
+    tried, middle, end = tried[near], middle[near], end[near]
+    near = ~_far(values, lanes[tried], middle, end - middle)
+    tried, middle = tried[near], middle[near]
+    kept[lanes[tried], frames[tried]] = kept[lanes[tried], frames[tried + 1]] = False
+    kept[lanes[tried], middle] = True
+    return len(tried)
+
+
+def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths: AnyIntArray) -> BoolArray:
+    """Return which spans (S,) are more than 1 off somewhere."""
+    result = np.zeros(len(lanes), bool)
+    for length, some in _by_length(lengths):
+        step = max(1, _AT_ONCE // ((length + 1) * values.shape[2]))
+        for part in (some[first : first + step] for first in range(0, len(some), step)):
+            frames = starts[part, None] + np.arange(length + 1)
+            shown, _ = _fitted(values, lanes[part], starts[part], length)
+            result[part] = (np.abs(shown - values[lanes[part, None], frames]) > 1.0).any(axis=(1, 2))
+    return result
+
+
+def _fitted(
+    values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, length: int
+) -> tuple[FloatArray, FloatArray]:
+    """Values (S, length + 1, D) of the cubics of spans of one length, and their slopes (S, 2, D) per frame."""
+    effects, squares = _basis(length)
+    own = values[lanes[:, None], starts[:, None] + np.arange(length + 1)]
+    change = own[:, -1:] - own[:, :1]
+    straight = own[:, :1] + change * (np.arange(length + 1) / length).astype(own.dtype)[:, None]
+    bent = squares.astype(own.dtype) @ (own - straight)
+    return np.asarray(straight + effects.astype(own.dtype) @ bent), np.asarray((change + bent) / length, np.float64)
+
+
+def _spans(kept: BoolArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Curve, first frame and length of every span between two keys of one curve."""
+    lanes, frames = np.nonzero(kept)
+    same = np.flatnonzero(lanes[1:] == lanes[:-1])
+    return lanes[same], frames[same], frames[same + 1] - frames[same]
+
+
+def _by_length(lengths: AnyIntArray) -> Iterator[tuple[int, IntArray]]:
+    """Numbers of the spans of each length."""
+    order = np.argsort(lengths, kind="stable")
+    found, starts = np.unique(lengths[order], return_index=True)
+    yield from zip(found.tolist(), np.split(order, starts[1:]), strict=False)

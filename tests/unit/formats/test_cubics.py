@@ -1,0 +1,86 @@
+"""Cubics through few keys, against scipy's, and the choice of the keys."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline
+
+from app.formats.cubics import cubic_keys, cubic_values, curved_values, span_slopes
+
+FRAMES = 400
+
+
+def _waves(lanes: int = 3, numbers: int = 2) -> np.ndarray:
+    random = np.random.default_rng(8)
+    at = np.arange(FRAMES)
+    speed, phase = random.uniform(0.02, 0.09, (2, lanes, numbers, 3)), random.uniform(0, 6, (lanes, numbers, 3))
+    return np.stack([np.sin(speed[0] * frame + phase).sum(axis=-1) for frame in at], axis=1) * 20.0
+
+
+def _by_scipy(values: np.ndarray, slopes: np.ndarray, keys: np.ndarray) -> np.ndarray:
+    found = np.full(FRAMES, values[keys[-1]])
+    for span, (first, last) in enumerate(itertools.pairwise(keys)):
+        at = np.arange(first, last + 1)
+        found[at] = CubicHermiteSpline([first, last], values[[first, last]], slopes[span])(at)
+    return found
+
+
+def test_curves_are_scipys_through_keys_and_slopes() -> None:
+    values = _waves()
+    kept = np.random.default_rng(9).random((len(values), FRAMES)) < 0.1
+    kept[:, 0] = True
+    drawn = curved_values(values, kept)
+    for lane, row in enumerate(kept):
+        keys = np.flatnonzero(row)
+        slopes = span_slopes(values[lane], keys)
+        for number in range(values.shape[2]):
+            meant = _by_scipy(values[lane, :, number], slopes[..., number], keys)
+            np.testing.assert_allclose(drawn[lane, :, number], meant, atol=1e-9)
+            own = cubic_values(values[lane, keys, number], slopes[..., number], keys, FRAMES)
+            np.testing.assert_allclose(own, meant, atol=1e-9)
+
+
+def test_slopes_are_the_best_there_are() -> None:
+    """No other slopes of a span leave a smaller sum of squares."""
+    values = _waves(1, 1)[0]
+    keys = np.array([10, 31])
+    (slopes,) = span_slopes(values, keys)
+    at = np.arange(10, 32)
+
+    def left(begin: float, end: float) -> float:
+        return float(((CubicHermiteSpline(keys, values[keys, 0], [begin, end])(at) - values[at, 0]) ** 2).sum())
+
+    best = left(*slopes[:, 0])
+    for nudge in ((1e-3, 0), (-1e-3, 0), (0, 1e-3), (0, -1e-3)):
+        assert left(slopes[0, 0] + nudge[0], slopes[1, 0] + nudge[1]) > best
+
+
+def test_keys_keep_every_number_within_its_bound_and_are_few() -> None:
+    values = _waves()
+    kept = cubic_keys(values)
+    assert np.abs(curved_values(values, kept) - values).max() <= 1.0 + 1e-9
+    assert kept[:, [0, -1]].all()
+    assert kept.sum(axis=1).max() < 0.12 * FRAMES
+
+
+def test_a_cubic_needs_its_ends_only() -> None:
+    at = np.arange(129.0)
+    values = (0.001 * at**3 - 0.2 * at**2 + at)[None, :, None]
+    assert np.flatnonzero(cubic_keys(values)[0]).tolist() == [0, 128]
+
+
+def test_what_stays_near_its_first_value_has_one_key() -> None:
+    values = np.concatenate([0.9 * np.sin(np.arange(90.0)), np.zeros(30)])[None, :, None]
+    kept = cubic_keys(values)
+    assert np.flatnonzero(kept[0]).tolist() == [0]
+    assert not curved_values(values, kept).any()
+
+
+@pytest.mark.parametrize("frames", [1, 2, 3, 64, 65, 66])
+def test_short_clips(frames: int) -> None:
+    values = 30.0 * np.random.default_rng(frames).normal(size=(2, frames, 3))
+    kept = cubic_keys(values)
+    assert np.abs(curved_values(values, kept) - values).max() <= 1.0 + 1e-9
