@@ -52,7 +52,7 @@ def takes_of(
                 colour="",
                 device=journal.header.port,
                 recorded=journal.header.started,
-                wiring=mapping,
+                mapping=mapping,
                 cleaning=Cleaning(),
                 tempo_map=tempo_map,
                 start_us=first_us,

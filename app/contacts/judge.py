@@ -29,14 +29,14 @@ class ContactJudge:
 
     Parameters
     ----------
-    playing : PerformanceCurves
+    curves : PerformanceCurves
     character : Character
     model : InstrumentModel
     """
 
     def __init__(self, curves: PerformanceCurves, character: Character, model: InstrumentModel) -> None:
         plan, instrument = curves.plan, curves.instrument_map
-        self._playing, self._model = curves, model
+        self._curves, self._model = curves, model
         self._character = with_lip_landmarks(character, instrument, curves.body)
         self._missed = missed_mm(curves.player.grip)
         self._starts_s = np.array([event.start_s for event in plan.grips])
@@ -54,21 +54,21 @@ class ContactJudge:
         whatever part of it a motion is."""
         rate = float(motion.fps)
         step = max(1, round(rate / JUDGED_PER_S))
-        before = round((motion.first_frame_s - self._playing.plan.time_frame.first_frame_s) * rate)
+        before = round((motion.first_frame_s - self._curves.plan.time_frame.first_frame_s) * rate)
         frames = np.arange(-before % step, motion.frames, step)
         if not len(frames):
             return ()
         times_s = motion.first_frame_s + frames / rate
         found = list(self._feet(motion, frames, times_s))
         first = int(np.searchsorted(self._until_s, times_s[0], side="right"))
-        notes = self._playing.plan.grips[first : int(np.searchsorted(self._starts_s, times_s[-1], side="right")) + 1]
+        notes = self._curves.plan.grips[first : int(np.searchsorted(self._starts_s, times_s[-1], side="right")) + 1]
         sounds = NoteFrames(times_s, notes).sounding
         if sounds.any():
             found += self._playing_contacts(motion, frames[sounds], times_s[sounds], NoteFrames(times_s[sounds], notes))
         return tuple(found)
 
     def _feet(self, motion: Motion, frames: IndexArray, times_s: FloatArray) -> Iterator[Break]:
-        place, meant_m = self._playing.player.place, self._playing.ankles_m(times_s)
+        place, meant_m = self._curves.player.place, self._curves.ankles_m(times_s)
         ankles = {side: limb.end for side, limb in place.legs.items()}
         joints = forward(
             self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], sorted(ankles.values())
@@ -80,7 +80,7 @@ class ContactJudge:
     def _playing_contacts(
         self, motion: Motion, frames: IndexArray, times_s: FloatArray, notes: NoteFrames
     ) -> Iterator[Break]:
-        instrument = self._playing.instrument_map
+        instrument = self._curves.instrument_map
         joints = forward(self._character.skeleton, motion.rotations[frames], motion.hips_m[frames], self._joints)
         morphs = {name: values[frames] for name, values in motion.morphs.items()}
         marks_m = landmark_positions(self._character, self._marks, joints, morphs)
@@ -96,10 +96,10 @@ class ContactJudge:
             # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
             off_lips = (lips_m * 1000.0 > LIPS_MM) & ~notes.within(self._breaths_s)
             yield from runs(("lips", "", ""), times_s, lips_m, off_lips)
-        placed = self._playing.placed(times_s)
-        stopped, stopping = instrument.stopped, self._playing.stopping.sample(times_s)
+        placed = self._curves.placed(times_s)
+        stopped, stopping = instrument.stopped, self._curves.stopping.sample(times_s)
         off: dict[str, BoolArray] = {}
-        for hand in self._playing.player.grip.hands:
+        for hand in self._curves.player.grip.hands:
             wrist_m = joints.of(self._wrists[hand.side])[0]
             gaps_m = hand_gaps_m(hand, wrist_m, place_m, turn, controls, placed)
             if stopped is not None and hand.side == stopped.hand and stopping.any():
@@ -109,9 +109,9 @@ class ContactJudge:
             off[hand.side] = gaps_m * 1000.0 > MOVED_MM
             broken = gaps_m * 1000.0 > min(bounds_mm, default=GRIP_MM)
             yield from runs(("hand", hand.side, ""), times_s, gaps_m, broken)
-            if hand.motion is not None and hand.motion.control in self._playing.controls:
+            if hand.motion is not None and hand.motion.control in self._curves.controls:
                 control = hand.motion.control
-                asked = {**controls, control: self._playing.controls[control].sample(times_s)}
+                asked = {**controls, control: self._curves.controls[control].sample(times_s)}
                 asked_m, _ = hand_targets(hand, place_m, turn, asked, placed)
                 gaps_m = hand_gaps_m(hand, asked_m, place_m, turn, controls, placed)
                 yield from runs(("short", hand.side, control), times_s, gaps_m, gaps_m > SLIDE_M)

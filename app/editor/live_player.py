@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from app.editor.session import Session
 from app.performance.cast import performers_of
-from app.performance.motion import playing_of
+from app.performance.motion import performance_curves
 from app.performance.play_along import PlayAlong
 from app.plan.by_hand.events import AdditiveEvent, PoseEvent
 from app.score.take import ControllerMapping
@@ -91,8 +91,8 @@ class LivePlayer(QObject):
             # Who cannot be seen is among the problems.
             self._play_along = None
             for performer in performers_of(performance, (player,)).made.values():
-                playing, rules = playing_of(performance, performer, danced=False), performance.metadata.all_rules
-                self._play_along = PlayAlong(playing, rules=rules)
+                curves = performance_curves(performance, performer, danced=False)
+                self._play_along = PlayAlong(curves, rules=performance.metadata.all_rules)
                 self._session.live_players.begin(self._play_along)
             self._of = of
         held = (plan.poses, plan.additive)

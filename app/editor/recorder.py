@@ -89,7 +89,7 @@ class _Running:
     player_id: str
     start_s: float
     loop_s: tuple[float, float] | None
-    wiring: ControllerMapping
+    mapping: ControllerMapping
     project: Project
     passes: int = 1
     first_s: float | None = None
@@ -208,7 +208,7 @@ class Recorder(QObject):
         self._settings.set_midi_device(self._state.port, "breath", "")
         self._know(self._state.port)
 
-    def set_wiring(self, mapping: ControllerMapping) -> None:
+    def set_mapping(self, mapping: ControllerMapping) -> None:
         """Say with what the device sends breath and bite, as it was learned or chosen."""
         for name, value in (("channel", str(mapping.channel)), ("breath", mapping.breath), ("bite", mapping.bite)):
             self._settings.set_midi_device(self._state.port, name, value)
@@ -231,9 +231,11 @@ class Recorder(QObject):
             latency_s = 0.0
         # Also where the settings were edited to nan or an hour.
         latency_s = latency_s if abs(latency_s) <= LARGEST_LATENCY_S else 0.0
-        self._state.set(controller=controller, latency_s=latency_s, wiring=self._wiring(port, controllers[controller]))
+        self._state.set(
+            controller=controller, latency_s=latency_s, mapping=self._mapping(port, controllers[controller])
+        )
 
-    def _wiring(self, port: str, controller: Controller) -> ControllerMapping:
+    def _mapping(self, port: str, controller: Controller) -> ControllerMapping:
         """Return the controllers that send breath and bite: as set for the device, else as usual for its kind."""
         said = {name: self._settings.midi_device(port, name) for name in ("channel", "breath", "bite")}
         try:
@@ -305,7 +307,7 @@ class Recorder(QObject):
         self._session.notice(reason, Severity.ERROR)
 
     def _on_received(self, events: Events) -> None:
-        mapping = self._state.wiring
+        mapping = self._state.mapping
         breath = self._state.breath
         for ns, raw in zip(events.times_ns, events.messages, strict=True):
             message = decoded(raw.hex())
@@ -371,7 +373,7 @@ class Recorder(QObject):
         )
         elsewhere = second_path(path, *self._files.recovery_stems).absolute()
         self._running = _Running(
-            path, elsewhere, player_id, start_s, session.loop_s, self._state.wiring, session.project
+            path, elsewhere, player_id, start_s, session.loop_s, self._state.mapping, session.project
         )
         self._link.start(path, header, elsewhere)
         self._sound.set_recording((lead_s, start_s))
@@ -475,7 +477,7 @@ class Recorder(QObject):
         takes = takes_of(
             journal,
             running.project.score.tempo_map,
-            running.wiring,
+            running.mapping,
             tr("recorder.take"),
             running.start_s,
             taken=_names(self._session.project, running.player_id),

@@ -27,7 +27,7 @@ class RecordingState(State):
         Why the device, or every device, cannot be had.
     controller : str
         Id of the preset in ``metadata/controllers``.
-    wiring : ControllerMapping
+    mapping : ControllerMapping
         With what the device sends breath and bite.
     armed : str
         Id of the player to record; empty: the active one.
@@ -72,7 +72,7 @@ class RecordingState(State):
         self.connection: Connection = "none"
         self.refusal: Message | None = None
         self.controller = ""
-        self.wiring = ControllerMapping()
+        self.mapping = ControllerMapping()
         self.armed = ""
         self.running = False
         self.start_s = 0.0

@@ -24,7 +24,7 @@ from app.formats.json_data import decode_json
 from app.motion.model import Motion
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance
-from app.performance.motion import player_motion, playing_of
+from app.performance.motion import performance_curves, player_motion
 from app.performance.span import whole_span
 from app.plan.model import BreathEvent, FingeringEvent
 from app.project.model import Project
@@ -173,7 +173,9 @@ def measure_player(performance: Performance, performer: Performer, motion: Motio
     names: list[str] = [name for name in ("head", *_CHEST, *_SHOULDERS, "hips") if name in skeleton.names]
     joints = forward(skeleton, motion.rotations, motion.hips_m, [skeleton.index(name) for name in names])
     places: dict[str, FloatArray] = {name: joints.of(skeleton.index(name))[0] for name in names}
-    breaks = ContactJudge(playing_of(performance, performer), performer.character, performer.model).breaks(motion)
+    breaks = ContactJudge(performance_curves(performance, performer), performer.character, performer.model).breaks(
+        motion
+    )
     notes = [note for note in plan.fingerings if times_s[0] <= note.start_s and note.end_s <= times_s[-1]]
     return VariantPlayerMeasures(
         player=performer.player.name,

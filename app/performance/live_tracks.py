@@ -16,7 +16,7 @@ from app.performance.chunks import Chunk, FrameGrid
 from app.performance.dances import Dancing, dancing_of, layer_is_made
 from app.performance.ensemble import Performance
 from app.performance.excerpt import PerformanceExcerpt
-from app.performance.motion import playing_of
+from app.performance.motion import performance_curves
 from app.plan.model import PlayerPlan, Problem
 from app.project.performers import Dancer, Player
 
@@ -111,7 +111,7 @@ class LiveTrack:
         else:
             self.performer = found.made[self.player.id]
             basis = self.basis if isinstance(self.basis, PerformanceCurves) else None
-            self.prepared = playing_of(performance, self.performer, basis)
+            self.prepared = performance_curves(performance, self.performer, basis)
         return self.prepared
 
     def judge_contacts(self, index: int, motion: Motion) -> bool:

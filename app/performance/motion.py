@@ -37,7 +37,7 @@ _PLAYING: IdentityCache[PerformanceCurves] = IdentityCache(8)
 _DOUBLED: IdentityCache[tuple[Doubling, ...]] = IdentityCache(8)
 
 
-def playing_of(
+def performance_curves(
     performance: Performance, performer: Performer, before: PerformanceCurves | None = None, *, danced: bool = True
 ) -> PerformanceCurves:
     """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``.
@@ -106,14 +106,14 @@ def player_motion(
         Those that have nothing else to do, this process's among them: copies of it make their share, where that is
         worth it.
     """
-    playing = playing_of(performance, performer)
+    curves = performance_curves(performance, performer)
     first, *others = shares(span.count, cores)
 
     def make(part: range) -> Motion:
         pieces = []
         for start in part[::CHUNK]:
             end = min(start + CHUNK, part.stop)
-            pieces.append(playing.motion(span.fps, span.first + start, end - start))
+            pieces.append(curves.motion(span.fps, span.first + start, end - start))
             if part is first:
                 progress((end - part.start) / len(part))
         return joined(pieces)
@@ -126,7 +126,7 @@ def generated_channel(performance: Performance, player_id: str, channel: str) ->
     """Times and values of a channel, in its unit, without the animator's curves. Raises AppError where the player
     cannot be seen."""
     performer = performer_of(performance, performance.project.player(player_id))
-    curves = playing_of(performance, performer, danced=False)
+    curves = performance_curves(performance, performer, danced=False)
     frame = curves.plan.time_frame
     count = int(min(RATE_HZ * (frame.end_s - frame.first_frame_s) + 2.0, MOST_SAMPLES))
     times_s = np.linspace(frame.first_frame_s, frame.end_s, count)

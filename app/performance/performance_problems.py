@@ -13,7 +13,7 @@ from app.errors import Argument, Message
 from app.motion.model import Motion
 from app.performance.cast import Performer, performers_of
 from app.performance.ensemble import Performance
-from app.performance.motion import CHUNK, playing_of
+from app.performance.motion import CHUNK, performance_curves
 from app.performance.span import whole_span
 from app.plan.model import Problem
 from app.plan.problem_lines import Wording, problem_lines, problems_in_bars
@@ -80,12 +80,12 @@ def _judged(
 ) -> dict[str, tuple[Problem, ...]]:
     """Problems of a musician's players, who share what is made of each piece of the performance."""
     fps, every = looked
-    playing = [playing_of(performance, one) for one in performers]
-    judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(playing, performers, strict=True)]
+    everyone = [performance_curves(performance, one) for one in performers]
+    judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(everyone, performers, strict=True)]
     breaks: list[list[Break]] = [[] for _ in performers]
     count, chunk = whole_span(performance.time_frame, fps).count, CHUNK // every * every
     for first in range(0, count, chunk):
-        for curves, judge, mine in zip(playing, judges, breaks, strict=True):
+        for curves, judge, mine in zip(everyone, judges, breaks, strict=True):
             mine += judge.breaks(curves.motion(fps, first, min(chunk, count - first), every))
     return {
         one.player.id: _problems(performance, one.player, mine) for one, mine in zip(performers, breaks, strict=True)
@@ -170,7 +170,7 @@ def reported_lines(
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:
     """Problems of plan and body, and the contacts that some frames of a player's motion break, by time."""
-    judge = ContactJudge(playing_of(performance, performer), performer.character, performer.model)
+    judge = ContactJudge(performance_curves(performance, performer), performer.character, performer.model)
     return _problems(performance, performer.player, judge.breaks(motion))
 
 

@@ -48,14 +48,15 @@ class PlayAlong:
 
     Parameters
     ----------
-    playing : PerformanceCurves
-        Who plays, on what and in which posture (`app.performance.motion.playing_of`); its notes are not looked at.
+    curves : PerformanceCurves
+        Who plays, on what and in which posture (`app.performance.motion.performance_curves`); its notes are not
+        looked at.
     rules : tuple of Rule, optional
         When faces show; the bundled ones without it.
     """
 
     def __init__(self, curves: PerformanceCurves, rules: tuple[Rule, ...] | None = None) -> None:
-        self._whole = self._playing = curves
+        self._whole = self._curves = curves
         self._hands = LiveHands(curves)
         self._breath = LiveBreath(curves, rules)
         self._look = LiveLook(curves)
@@ -72,7 +73,7 @@ class PlayAlong:
     @property
     def player_id(self) -> str:
         """Return who plays."""
-        return self._playing.player_id
+        return self._curves.player_id
 
     @property
     def lying(self) -> dict[str, tuple[SingleArray, SingleArray]]:
@@ -189,7 +190,7 @@ class PlayAlong:
         now_s = self._time(time_s)
         self._at_s = self._at_s if at_s is None else at_s
         curves, given = self._solved(now_s)
-        player, now = self._playing.player, curves[:1]
+        player, now = self._curves.player, curves[:1]
         motion = poses(player, replace(now, body=body_with_help(player, now.body, given)), ONE_FRAME, now_s)
         return Pose.of(motion, 0)
 
@@ -209,10 +210,10 @@ class PlayAlong:
         here_s = np.full(FRAMES, self._at_s)
         levels = replace(breathing.levels, held=self._poses.sample(here_s))
         added = self._additive.sample(here_s)
-        curves = self._playing.curves(
+        curves = self._curves.curves(
             PlayedFrames(times_s, levels, look, breathing.face, hands.controls, hands.placed, hands.raised, added=added)
         )
-        return curves, self._help.at(now_s, hands.arrived_s, needs(self._playing.player, curves))
+        return curves, self._help.at(now_s, hands.arrived_s, needs(self._curves.player, curves))
 
     def _time(self, time_s: float) -> float:
         self._now_s = max(time_s, self._now_s)

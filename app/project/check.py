@@ -172,7 +172,7 @@ def take_faults(take: Take, place: str) -> Iterator[Fault]:
     yield from text_faults(f"{place}.recorded", take.recorded)
     if take.colour and not COLOUR.fullmatch(take.colour):
         yield f"{place}.colour", 'must be empty or like "#3366cc"'
-    yield from faults_of_bounds(f"{place}.wiring.channel", take.wiring.channel, (0, 16))
+    yield from faults_of_bounds(f"{place}.wiring.channel", take.mapping.channel, (0, 16))
     for field, bounds in limits.CLEANING.items():
         yield from faults_of_bounds(f"{place}.cleaning.{field}", getattr(take.cleaning, field), bounds)
     yield from faults_at_key(place, tempo_faults(take.tempo_map.changes))

@@ -71,7 +71,7 @@ class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     align: float = 0.0
 
 
-class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
+class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True, rename={"mapping": "wiring"}):
     """One pass of a recording.
 
     Attributes
@@ -99,7 +99,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     colour: str
     device: str
     recorded: str
-    wiring: ControllerMapping
+    mapping: ControllerMapping
     cleaning: Cleaning
     tempo_map: TempoMap
     start_us: int
@@ -115,7 +115,7 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True):
     @cached_property
     def played(self) -> Played:
         """Notes and curves of the events; a take with another name or cleaning was played the same."""
-        return _PLAYED.step(_played, self.times_us, self.messages, self.wiring, self.end_us)
+        return _PLAYED.step(_played, self.times_us, self.messages, self.mapping, self.end_us)
 
     @property
     def start_tick(self) -> float:
@@ -157,7 +157,7 @@ class Played:
         Performance time. A note that was held at the end ends with the take.
     pitches, velocities : int64
     curves : mapping of CurveKind to Controlled
-        ``breath`` and ``bite`` by the take's wiring, the others as they came.
+        ``breath`` and ``bite`` by the take's mapping, the others as they came.
     """
 
     onsets_s: FloatArray

@@ -62,9 +62,9 @@ def rows() -> tuple[ActionRow[Any], ...]:
     own: tuple[ActionRow[Any], ...] = (
         *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *marks.ACTIONS, *fingerings.ACTIONS),
         *(*events.ACTIONS, *edit.FELT_BEATS, *players.ACTIONS, *timeline.ACTIONS, *viewport.ACTIONS),
-        *(*camera_bookmarks.ACTIONS, *video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS),
-        *(*generate.ACTIONS, *problems.ACTIONS, *characters.ACTIONS, *piece_metadata.ACTIONS, *help.ACTIONS),
-        *application.ACTIONS,
+        *camera_bookmarks.ACTIONS,
+        *(*video.ACTIONS, *playback.ACTIONS, *record.ACTIONS, *takes.ACTIONS, *generate.ACTIONS, *problems.ACTIONS),
+        *(*characters.ACTIONS, *piece_metadata.ACTIONS, *help.ACTIONS, *application.ACTIONS),
     )
     found = extended(own, "actions", lambda row: row.id)
     # Those of features stand before the last two, which close.

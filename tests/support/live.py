@@ -22,7 +22,7 @@ from app.rig.grip.grip_pose import StationBlend
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoMap
 from instrument_maps.load import bundled_maps
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 QUARTER = 480
 FPS = 60
@@ -117,7 +117,7 @@ def line(instrument_id: str, count: int, seed: int = 1) -> Notes:
 def playing_alone(instrument_id: str, notes: Notes) -> PerformanceCurves:
     """One player's playing."""
     performance = performance_of(instrument_id, notes)
-    return playing_of(performance, performance.project.players[0])
+    return performance_curves(performance, performance.project.players[0])
 
 
 def played(playing: PerformanceCurves, notes: Notes) -> Played:

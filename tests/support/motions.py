@@ -74,7 +74,7 @@ def know_motion(monkeypatch: pytest.MonkeyPatch, plans: Callable[[], Collection[
         return known.made[key]
 
     def judged(judging: ContactJudge, motion: Motion) -> tuple[Break, ...]:
-        known, key = _KNOWN.get(judging._playing), (id(motion), id(judging._model))
+        known, key = _KNOWN.get(judging._curves), (id(motion), id(judging._model))
         if known is None or not any(motion is one for one in known.made.values()):
             return judge(judging, motion)
         if key not in known.breaks:

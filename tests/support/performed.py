@@ -20,9 +20,11 @@ from app.score.metre_map import FeltBeats
 from app.steps import StepRuns
 
 
-def playing_of(performance: Performance, player: Player, before: PerformanceCurves | None = None) -> PerformanceCurves:
+def performance_curves(
+    performance: Performance, player: Player, before: PerformanceCurves | None = None
+) -> PerformanceCurves:
     """The player's plan, ready to be seen."""
-    return motion.playing_of(performance, performer_of(performance, player), before)
+    return motion.performance_curves(performance, performer_of(performance, player), before)
 
 
 def player_motion(performance: Performance, player: Player, span: FrameSpan) -> Motion:

@@ -151,7 +151,7 @@ class LatencyDialog(Retranslated, QDialog):
 
     def _on_received(self, events: Events) -> None:
         if self._running:
-            channel = self._session.recording.wiring.channel
+            channel = self._session.recording.mapping.channel
             self._events += [
                 (ns, raw)
                 for ns, raw in zip(events.times_ns, events.messages, strict=True)
@@ -166,7 +166,7 @@ class LatencyDialog(Retranslated, QDialog):
             self._positions.append((ns, position_s))
         last = sum(click_s <= position_s for click_s in CLICKS_S) - 1
         self.chart.show_click(last - LEAD, last >= 0 and position_s - CLICKS_S[last] < _FLASH_S)
-        found = hits(events_on_time_line(self._events, self._positions), self._session.recording.wiring.breath)
+        found = hits(events_on_time_line(self._events, self._positions), self._session.recording.mapping.breath)
         # A click that may still be hit is not missed.
         over = sum(click_s + LATEST_S <= position_s for click_s in CLICKS_S)
         self.chart.show_measured(measured_latency(CLICKS_S[LEAD : max(over, LEAD)], found))

@@ -49,7 +49,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         Record from this device; empty: from none.
     controller_chosen(str)
         The device is of this kind.
-    wiring_chosen(object)
+    mapping_chosen(object)
         It sends breath and bite so: an `app.score.take.ControllerMapping`.
     latency_asked()
         Find out how late it comes.
@@ -57,7 +57,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
 
     chosen = Signal(str)
     controller_chosen = Signal(str)
-    wiring_chosen = Signal(object)
+    mapping_chosen = Signal(object)
     latency_asked = Signal()
 
     def __init__(self, session: Session, playback: Playback, parent: QWidget | None = None) -> None:
@@ -148,12 +148,12 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self.controller_chosen.emit(controller)
 
     def _wire(self, **values: object) -> None:
-        wiring = msgspec.structs.replace(self._session.recording.wiring, **values)
-        if wiring.bite == wiring.breath:
+        mapping = msgspec.structs.replace(self._session.recording.mapping, **values)
+        if mapping.bite == mapping.breath:
             # One message cannot tell of both.
-            wiring = msgspec.structs.replace(wiring, bite="none")
+            mapping = msgspec.structs.replace(mapping, bite="none")
         self._reported.clear()
-        self.wiring_chosen.emit(wiring)
+        self.mapping_chosen.emit(mapping)
 
     def beep(self) -> None:
         """Play a short tone, or say why there is none."""
@@ -313,7 +313,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
 
     def _show_kind(self) -> None:
         recording = self._session.recording
-        wiring, speaks_ja = recording.wiring, language() == "ja"
+        mapping, speaks_ja = recording.mapping, language() == "ja"
         controllers = load_controllers()
         self._kind.set_options(
             [Option(id, found.title.ja if speaks_ja else found.title.en) for id, found in controllers.items()]
@@ -325,12 +325,12 @@ class MidiDevicesDialog(Retranslated, QDialog):
                 *(Option(str(n), str(n)) for n in range(1, _CHANNELS + 1)),
             ]
         )
-        self._channel.show_option(str(wiring.channel))
+        self._channel.show_option(str(mapping.channel))
         self._breath.set_options([Option(source, source_name(source)) for source in _BREATHS])
-        self._breath.show_option(wiring.breath)
-        bites = [source for source in dict.fromkeys((*_BITES, wiring.bite)) if source != wiring.breath]
+        self._breath.show_option(mapping.breath)
+        bites = [source for source in dict.fromkeys((*_BITES, mapping.bite)) if source != mapping.breath]
         self._bite.set_options([Option(source, source_name(source)) for source in bites])
-        self._bite.show_option(wiring.bite)
+        self._bite.show_option(mapping.bite)
         self._device.setEnabled(bool(recording.port))
 
     def retranslate(self) -> None:

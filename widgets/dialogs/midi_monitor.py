@@ -65,19 +65,19 @@ class MidiMonitor(Retranslated, QWidget):
         recording.changed.connect(self._changed)
         session.pitch_display.changed.connect(self._show)
         session.theme_changed.connect(self._show)
-        self._port, self._bite_source = recording.port, recording.wiring.bite
+        self._port, self._bite_source = recording.port, recording.mapping.bite
         self.retranslate()
 
     def _on_received(self, events: Events) -> None:
         for raw in events.messages:
             self._log.add(raw)
             self._channel = (raw[0] & 0x0F) + 1
-        wiring = self._session.recording.wiring
+        mapping = self._session.recording.mapping
         for raw in events.messages:
             message = decoded(raw.hex())
-            if message is not None and is_wired(message, wiring):
+            if message is not None and is_wired(message, mapping):
                 self._bite_now = next(
-                    (value for kind, value in curve_values(message, wiring) if kind == "bite"), self._bite_now
+                    (value for kind, value in curve_values(message, mapping) if kind == "bite"), self._bite_now
                 )
         self._show_soon()
 
@@ -87,9 +87,9 @@ class MidiMonitor(Retranslated, QWidget):
             self._port = recording.port
             self._log.clear()
             self._channel, self._bite_now = 0, 0.0
-        if recording.wiring.bite != self._bite_source:
+        if recording.mapping.bite != self._bite_source:
             # How far it was bitten was said with another message.
-            self._bite_source, self._bite_now = recording.wiring.bite, 0.0
+            self._bite_source, self._bite_now = recording.mapping.bite, 0.0
         self._show()
 
     def _show_soon(self) -> None:
@@ -101,8 +101,8 @@ class MidiMonitor(Retranslated, QWidget):
         self._note.setText("–" if recording.pitch is None else self._pitch(recording.pitch))
         _fill(self._breath, recording.breath)
         _fill(self._bite, self._bite_now)
-        self._bite.setEnabled(recording.wiring.bite != "none")
-        requested = recording.wiring.channel
+        self._bite.setEnabled(recording.mapping.bite != "none")
+        requested = recording.mapping.channel
         is_other = bool(self._channel and requested and self._channel != requested)
         if is_other:
             text = self.tr("midi_monitor.plays_on_channel_but_only")

@@ -115,11 +115,11 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
         return hands
     if view == "mouth":
         held = stage.node_matrix(row)
-        kit = stage.members[row].assets
-        lips = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
+        assets = stage.members[row].assets
+        lips = held[:, :3] @ np.asarray(assets.map.mouthpiece.position_m) + held[:, 3]
         # Lips and eyes both, and in a long rest, when the instrument is lowered, still the face.
-        head = stage.joints[row, kit.character.skeleton.index("head")]
-        size = face_size(kit.character)
+        head = stage.joints[row, assets.character.skeleton.index("head")]
+        size = face_size(assets.character)
         face: FloatArray = head[:, :3] @ (size * np.array([0.0, 0.02, 0.09])) + head[:, 3]
         near = float(np.clip(1.0 - (np.linalg.norm(lips - face) / size - 0.1) / 0.15, 0.0, 1.0))
         mouth: FloatArray = (1.0 - 0.6 * near) * face + 0.6 * near * lips
@@ -163,13 +163,13 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     """The box around players with their instruments, from the floor up."""
     points = []
     for row in rows:
-        kit = stage.members[row].assets
-        points.append(stage.joints[row, 1 : len(kit.character.skeleton.names), :, 3])
+        assets = stage.members[row].assets
+        points.append(stage.joints[row, 1 : len(assets.character.skeleton.names), :, 3])
         head_m = stage.joint_m(row, "head")
-        points.append(head_m[None] + [0.0, (face_size(kit.character) - 1.0) * HEAD_M, 0.0])
-        if kit.held is None:
+        points.append(head_m[None] + [0.0, (face_size(assets.character) - 1.0) * HEAD_M, 0.0])
+        if assets.held is None:
             continue
-        low, high = model_bounds(kit.instrument)
+        low, high = model_bounds(assets.instrument)
         corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
         held = stage.node_matrix(row)
         points.append(corners @ held[:, :3].T + held[:, 3])

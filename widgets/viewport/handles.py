@@ -58,14 +58,14 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
         return ()
     frame = stage.members[row].world_from_player
     left, up, ahead = frame[:, 0], frame[:, 1], frame[:, 2]
-    kit = stage.members[row].assets
+    assets = stage.members[row].assets
     held = stage.node_matrix(row)
-    bell_m = held[:, :3] @ _bell(kit.instrument) + held[:, 3]
-    rim_m = held[:, :3] @ np.asarray(kit.map.mouthpiece.position_m) + held[:, 3]
-    head = stage.joints[row, kit.character.skeleton.index("head")]
+    bell_m = held[:, :3] @ _bell(assets.instrument) + held[:, 3]
+    rim_m = held[:, :3] @ np.asarray(assets.map.mouthpiece.position_m) + held[:, 3]
+    head = stage.joints[row, assets.character.skeleton.index("head")]
     crown_m = head[:, :3] @ np.array([0.0, 0.2, 0.02]) + head[:, 3]
     hips_m = stage.joint_m(row, "hips")
-    chest = "upperChest" if "upperChest" in kit.character.skeleton.names else "spine"
+    chest = "upperChest" if "upperChest" in assets.character.skeleton.names else "spine"
     breast_m = stage.joint_m(row, chest) + 0.12 * ahead
     return (
         Handle("bell", bell_m, _turns(bell_m - rim_m, up_deg=-left, left_deg=up), (("roll_deg", ROLL_ARM_M * left),)),

@@ -54,36 +54,36 @@ class AirStock(NamedTuple):
     room: Room
 
 
-def air_stock(line: Breather, score: BreathScore, given: GivenBreaths, spare: dict[int, BreathEvent]) -> AirStock:
+def air_stock(breather: Breather, score: BreathScore, given: GivenBreaths, spare: dict[int, BreathEvent]) -> AirStock:
     """The air there is."""
-    times, lung_s = line.times, score.lung_s
-    used, steady_used, refill = air_taken(line, score, given, spare)
+    times, lung_s = breather.times, score.lung_s
+    used, steady_used, refill = air_taken(breather, score, given, spare)
     length_s = catch_lengths_s(score.steady, times, score.rests.sounding_tick)
     for index, event in spare.items():
-        length_s[index] = _lasts_s(score, line, event)
+        length_s[index] = _lasts_s(score, breather, event)
     if score.gaps is not None:
         length_s = np.where(score.gaps.played, score.gaps.length_s, length_s)
-        drop_s, dropped = np.zeros(len(line.notes)), np.zeros(len(line.notes), np.int64)
+        drop_s, dropped = np.zeros(len(breather.notes)), np.zeros(len(breather.notes), np.int64)
     else:
         drop_s, dropped = drop_lengths_s(score.steady, times)
-    if line.parameters.circular_breathing:
+    if breather.parameters.circular_breathing:
         used = with_circular_breathing(used, lung_s, refill)
         steady_used = with_circular_breathing(steady_used, lung_s, refill)
     air_s = levels(used, lung_s, refill) * lung_s
-    room = Room(length_s, drop_s, dropped).with_marks(line.marked, times)
+    room = Room(length_s, drop_s, dropped).with_marks(breather.marked, times)
     return AirStock(used, steady_used, refill, air_s, room)
 
 
 def air_taken(
-    line: Breather, score: BreathScore, given: GivenBreaths, spare: Collection[int] = ()
+    breather: Breather, score: BreathScore, given: GivenBreaths, spare: Collection[int] = ()
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The air used, as it is played and at the tempo of the score, and the part of the lungs that the breath before
     each note fills; rests before notes of ``spare`` give none."""
-    refill = np.zeros(len(line.notes))
+    refill = np.zeros(len(breather.notes))
     within: dict[int, list[_Within]] = {}
     for event in (*given.kept, *given.by_hand):
-        index = line.number_of(event)
-        share = max(0.0, drawn_share(_lasts_s(score, line, event)) * (event.depth if event.corrected else 1.0))
+        index = breather.number_of(event)
+        share = max(0.0, drawn_share(_lasts_s(score, breather, event)) * (event.depth if event.corrected else 1.0))
         if event.is_within:
             within.setdefault(index, []).append(_Within(event.start_s, event.end_s, share))
         elif event.draws_air and index not in spare:
@@ -92,7 +92,7 @@ def air_taken(
         return score.used, score.steady_used, refill
     spent = [np.diff(used) for used in (score.used, score.steady_used)]
     for index, breaths in within.items():
-        _breathe_within(line, index, sorted(breaths), spent, refill, score.lung_s)
+        _breathe_within(breather, index, sorted(breaths), spent, refill, score.lung_s)
     used, steady_used = (np.concatenate(([0.0], np.cumsum(column))) for column in spent)
     return used, steady_used, refill
 
@@ -106,7 +106,7 @@ class _Within(NamedTuple):
 
 
 def _breathe_within(
-    line: Breather,
+    breather: Breather,
     index: int,
     breaths: list[_Within],
     spent: list[FloatArray],
@@ -115,7 +115,7 @@ def _breathe_within(
 ) -> None:
     """Count breaths within a note, each its start and the part of the lungs it fills: lungs are counted from note to
     note, so what is held before the first of them is counted with the note before, as if they came before this one."""
-    onset_s, end_s = float(line.times.onset_s[index]), float(line.times.played_end_s[index])
+    onset_s, end_s = float(breather.times.onset_s[index]), float(breather.times.played_end_s[index])
     first_s, last_s = max(breaths[0].start_s - onset_s, 0.0), max(end_s - breaths[-1].end_s, 0.0)
     held_s = end_s - breaths[0].start_s - sum(breath.end_s - breath.start_s for breath in breaths)
     brought_s = sum(breath.share for breath in breaths[1:]) * lung_s
@@ -130,9 +130,9 @@ def _breathe_within(
     refill[index] = max(refill[index], min(breaths[0].share, 1.0))
 
 
-def _lasts_s(score: BreathScore, line: Breather, event: BreathEvent) -> float:
+def _lasts_s(score: BreathScore, breather: Breather, event: BreathEvent) -> float:
     """Return how long a breath is, as the score would have it where a rest gives it."""
-    index, length_s = line.number_of(event), event.end_s - event.start_s
+    index, length_s = breather.number_of(event), event.end_s - event.start_s
     if index == 0 or event.corrected or score.gaps is not None or event.is_within:
         return length_s
     rest_s = float(score.written.onset_s[index] - score.written.played_end_s[index - 1])

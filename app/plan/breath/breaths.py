@@ -138,13 +138,13 @@ class _RestsUsed(NamedTuple):
 
 
 def _given(
-    line: Breather,
+    breather: Breather,
     score: BreathScore,
     frame: TimeFrame,
     corrections: tuple[Correction, ...],
     shared: BreathConstraints,
 ) -> GivenBreaths:
-    notes, times, piece, parameters = line.notes, line.times, line.piece, line.parameters
+    notes, times, piece, parameters = breather.notes, breather.times, breather.piece, breather.parameters
     if score.gaps is not None:
         generated = (*blown_breaths(notes, times, piece, parameters, frame, score.gaps), *score.within)
     else:
@@ -152,38 +152,40 @@ def _given(
         if not parameters.circular_breathing:
             generated += within_held(notes, times, piece, score.used, score.lung_s, shared)
     placed = {item.about: item for item in corrections
-              if isinstance(item, SetBreath) and item.note_id in line.index_of}  # fmt: skip
-    by_hand = tuple(_by_hand(item, times, line.index_of[item.note_id], piece) for item in placed.values())
+              if isinstance(item, SetBreath) and item.note_id in breather.index_of}  # fmt: skip
+    by_hand = tuple(_by_hand(item, times, breather.index_of[item.note_id], piece) for item in placed.values())
     removed, hand_ids = removed_ids(corrections), frozenset(event.id for event in by_hand)
     kept = [event for event in without_removed(generated, removed) if event.id not in hand_ids]
     if score.gaps is None:
-        unused = {line.number_of(event) for event in kept if event.draws_air and not event.is_within
-                  and _is_unused(line, score, event)}  # fmt: skip
-        kept = [event for event in kept if event.is_within or line.number_of(event) not in unused]
+        unused = {breather.number_of(event) for event in kept if event.draws_air and not event.is_within
+                  and _is_unused(breather, score, event)}  # fmt: skip
+        kept = [event for event in kept if event.is_within or breather.number_of(event) not in unused]
     may = np.ones(len(notes), dtype=bool)
-    ids = [id for id in map(EventId.parse, removed | hand_ids) if id.kind in BEFORE_NOTES and id.of in line.index_of]
-    may[[line.index_of[id.of] for id in ids if BREATH_KINDS[id.kind].draws_air]] = False
+    ids = [
+        id for id in map(EventId.parse, removed | hand_ids) if id.kind in BEFORE_NOTES and id.of in breather.index_of
+    ]
+    may[[breather.index_of[id.of] for id in ids if BREATH_KINDS[id.kind].draws_air]] = False
     return GivenBreaths(generated, tuple(kept), by_hand, may)
 
 
-def _is_unused(line: Breather, score: BreathScore, event: BreathEvent) -> bool:
+def _is_unused(breather: Breather, score: BreathScore, event: BreathEvent) -> bool:
     """Return whether no breath is taken in a rest, unless as a catch breath: the rest is too short without a part of
     the note before, or it is under a slur."""
-    index = line.number_of(event)
-    is_marked = index > 0 and bool(line.written.breath[index - 1])
-    if event.end_s - event.start_s < CATCH_MIN_S - EPSILON and (is_marked or line.parameters.breath_need > 0.0):
+    index = breather.number_of(event)
+    is_marked = index > 0 and bool(breather.written.breath[index - 1])
+    if event.end_s - event.start_s < CATCH_MIN_S - EPSILON and (is_marked or breather.parameters.breath_need > 0.0):
         return True
-    is_slurred = index > 0 and bool(line.written.joined[index - 1])
+    is_slurred = index > 0 and bool(breather.written.joined[index - 1])
     return is_slurred and not is_marked and float(score.rests.lasts_s[index]) < ALWAYS_S - EPSILON
 
 
-def _rests_used(line: Breather, score: BreathScore, given: GivenBreaths) -> _RestsUsed:
+def _rests_used(breather: Breather, score: BreathScore, given: GivenBreaths) -> _RestsUsed:
     """Decide which rests are breathed in: the first breath, those set by hand, written and blown always are."""
-    _, steady_used, refill = air_taken(line, score, given)
-    needs = rest_needs(score.rests.lasts_s, line.parameters.breath_need, score.lung_s)
-    certain = [*line.marked, *(line.number_of(event) for event in given.by_hand)]
+    _, steady_used, refill = air_taken(breather, score, given)
+    needs = rest_needs(score.rests.lasts_s, breather.parameters.breath_need, score.lung_s)
+    certain = [*breather.marked, *(breather.number_of(event) for event in given.by_hand)]
     # No rest is needed for a breath within a note.
-    within = [line.number_of(event) for event in given.kept if event.is_within]
+    within = [breather.number_of(event) for event in given.kept if event.is_within]
     certain += [index for index in within if not score.rests.lasts_s[index]]
     for column in needs:
         column[[0, *certain]] = 0.0
@@ -192,23 +194,23 @@ def _rests_used(line: Breather, score: BreathScore, given: GivenBreaths) -> _Res
     if score.gaps is not None:
         return _RestsUsed(needs, decided, {})
     kept = [event for event in given.kept if event.draws_air and not event.is_within]
-    spare = {line.number_of(event): event for event in kept if not decided.breathed[line.number_of(event)]}
+    spare = {breather.number_of(event): event for event in kept if not decided.breathed[breather.number_of(event)]}
     return _RestsUsed(needs, decided, spare)
 
 
 def _in_rests(
-    line: Breather, score: BreathScore, given: GivenBreaths, rests: _RestsUsed, catches: list[int]
+    breather: Breather, score: BreathScore, given: GivenBreaths, rests: _RestsUsed, catches: list[int]
 ) -> list[BreathEvent]:
     """The breaths in rests that are taken, each with its preparation and its reason; catch breaths among them."""
     unused = rests.spare.keys() - set(catches)
     result = []
     for event in given.kept:
-        index = line.number_of(event)
+        index = breather.number_of(event)
         if event.is_within or index == 0 or score.gaps is not None:
             result.append(event)
         elif index not in unused:
-            if line.written.breath[index - 1]:
-                reason = WRITTEN_BY_HAND if line.written.breath_by_hand[index - 1] else WRITTEN
+            if breather.written.breath[index - 1]:
+                reason = WRITTEN_BY_HAND if breather.written.breath_by_hand[index - 1] else WRITTEN
             elif index in rests.spare:
                 reason = AIR_SHORT
             else:
@@ -219,18 +221,18 @@ def _in_rests(
     return result
 
 
-def _cut_notes(line: Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
+def _cut_notes(breather: Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
     """The notes whose lips leave early for a breath, and when; what is to be said where a hand set it so."""
-    times = line.times
+    times = breather.times
     early_end_s: dict[int, float] = {}
     problems = []
     for event in events:
-        index = line.number_of(event)
+        index = breather.number_of(event)
         before = index - 1
         if not event.draws_air or before < 0 or event.start_s >= times.played_end_s[before]:
             continue
         if event.corrected:
-            note_id = line.notes[before].id
+            note_id = breather.notes[before].id
             message = Message("breath.inside_note", {"note": note_id})
             problems.append(Problem(message, note_id, event.start_s, event.end_s))
         while before >= 0 and event.start_s < times.played_end_s[before]:

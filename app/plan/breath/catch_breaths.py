@@ -21,21 +21,21 @@ from app.plan.music.piece import EPSILON, LineTimes, Seeds
 
 
 def catch_breath_notes(
-    line: Breather, score: BreathScore, stock: AirStock, may: BoolArray, shared: BreathConstraints, seeds: Seeds
+    breather: Breather, score: BreathScore, stock: AirStock, may: BoolArray, shared: BreathConstraints, seeds: Seeds
 ) -> list[int]:
     """The notes before which catch breaths are taken: decided at the tempo of the score, corrected where a change of
     tempo takes more air."""
-    taken = np.zeros(len(line.notes), dtype=bool)
+    taken = np.zeros(len(breather.notes), dtype=bool)
     taken[list(shared.caught)] = True
-    missing = np.bincount(np.array(shared.left_out, np.int64), minlength=len(line.notes))
+    missing = np.bincount(np.array(shared.left_out, np.int64), minlength=len(breather.notes))
 
     def between(times: LineTimes, used: FloatArray, filled: FloatArray, free_s: float) -> list[int]:
-        compared = ComparedLine(times, line.piece, score.rests.sounding_tick, line.written, taken, seeds)
+        compared = ComparedLine(times, breather.piece, score.rests.sounding_tick, breather.written, taken, seeds)
         return catch_places(compared, AirSupply(used, score.lung_s, filled, free_s), may, missing, stock.room)
 
     # All breathe where it is written and after what they held together, and no one just before that.
     after_hold = sorted(shared.after_hold) if score.gaps is None else []
-    first = {*line.marked, *(index for index in after_hold if not line.written.joined[index - 1])}
+    first = {*breather.marked, *(index for index in after_hold if not breather.written.joined[index - 1])}
     first = {index for index in first if may[index] and stock.refill[index] == 0.0 and stock.room.length_s[index] > 0.0}
     given = stock.refill.copy()
     at = sorted(first)
@@ -43,7 +43,7 @@ def catch_breath_notes(
     may = may.copy()
     may[[index - 1 for index in after_hold]] = False
     # Who breathes in every rest, as the thesis has it, or only when empty, needs no breath for a phrase's end.
-    free_s = (line.parameters.breath_need or 1.0) * score.lung_s
+    free_s = (breather.parameters.breath_need or 1.0) * score.lung_s
     catches = between(score.steady, stock.steady_used, given, free_s)
     if score.steady is score.written:
         return stock.room.apart(sorted({*first, *catches}))
@@ -56,24 +56,24 @@ def catch_breath_notes(
 
 
 def catch_breaths(
-    line: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
+    breather: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
 ) -> list[BreathEvent]:
     """The catch breaths before some notes, but for those in rests that would have given one."""
     found: dict[int, BreathEvent] = {}
     if score.gaps is not None:
-        blown = [index for index in catches if score.gaps.played[index] and not line.written.breath[index - 1]]
-        found = {index: blown_catch(line.notes[index], line.piece, score.gaps, index) for index in blown}
-    found |= _made(line, score, stock, [index for index in catches if index not in found], after_hold)
+        blown = [index for index in catches if score.gaps.played[index] and not breather.written.breath[index - 1]]
+        found = {index: blown_catch(breather.notes[index], breather.piece, score.gaps, index) for index in blown}
+    found |= _made(breather, score, stock, [index for index in catches if index not in found], after_hold)
     return [found[index] for index in catches]
 
 
 def _made(
-    line: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
+    breather: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
 ) -> dict[int, BreathEvent]:
     """Catch breaths out of the notes before, by the notes that they come before."""
     if not catches:
         return {}
-    notes, times, room = line.notes, line.times, stock.room
+    notes, times, room = breather.notes, breather.times, stock.room
     lung_s, rests = score.lung_s, score.rests.sounding_tick
     phrase_ends = _not_for_air(stock, lung_s, catches)
     at = np.array(catches)
@@ -84,7 +84,7 @@ def _made(
     rows = zip(
         catches,
         np.where(room.length_s[at] > 0.0, 0, room.dropped[at]).tolist(),
-        np.round(line.piece.clock.ticks(start_s)).astype(np.int64).tolist(),
+        np.round(breather.piece.clock.ticks(start_s)).astype(np.int64).tolist(),
         times.onset_tick[at].tolist(),
         start_s.tolist(),
         onset_s.tolist(),
@@ -102,16 +102,18 @@ def _made(
         }
         after = notes[index - 1].id
         short: dict[str, Argument] = {"after_note": after, "from_note_ms": round(from_note_s * 1000.0)}
-        if line.written.breath[index - 1]:
-            reason = Message("breath.by_hand" if line.written.breath_by_hand[index - 1] else "breath.written", short)
+        if breather.written.breath[index - 1]:
+            reason = Message(
+                "breath.by_hand" if breather.written.breath_by_hand[index - 1] else "breath.written", short
+            )
         elif index in after_hold and not dropped:
             reason = Message("breath.after_hold", {"after_note": after})
         elif dropped:
-            reason = _dropping(line, index, dropped, why)
+            reason = _dropping(breather, index, dropped, why)
         elif index in phrase_ends:
             reason = Message("breath.phrase_end", short)
         else:
-            reason = Message(_catch(line, rests, index), {**short, **why})
+            reason = Message(_catch(breather, rests, index), {**short, **why})
         found[index] = BreathEvent(
             id=f"breath:{notes[index].id}",
             kind="breath",
@@ -125,19 +127,19 @@ def _made(
     return found
 
 
-def _catch(line: Breather, rests: IntArray, index: int) -> str:
+def _catch(breather: Breather, rests: IntArray, index: int) -> str:
     """Message of a catch breath for want of air: by the slur that it is under."""
-    if not line.written.joined[index - 1]:
+    if not breather.written.joined[index - 1]:
         return "breath.catch"
     return "breath.catch_rest_slurred" if rests[index] > 0 else "breath.catch_slurred"
 
 
-def _dropping(line: Breather, index: int, dropped: int, why: dict[str, Argument]) -> Message:
+def _dropping(breather: Breather, index: int, dropped: int, why: dict[str, Argument]) -> Message:
     """Reason of a breath that notes are left out for: by the slurs over them."""
-    arguments: dict[str, Argument] = {"after_note": line.notes[index - 1].id, **why}
+    arguments: dict[str, Argument] = {"after_note": breather.notes[index - 1].id, **why}
     if dropped > 1:
-        arguments["first_note"] = line.notes[index - dropped].id
-    slurred = line.written.joined[index - 1 - dropped : index]
+        arguments["first_note"] = breather.notes[index - dropped].id
+    slurred = breather.written.joined[index - 1 - dropped : index]
     if not slurred.any():
         return Message("breath.catch_dropped" if dropped == 1 else "breath.catch_dropped_two", arguments)
     if slurred.all():
@@ -174,7 +176,7 @@ def _not_for_air(stock: AirStock, lung_s: float, catches: list[int]) -> set[int]
     return found
 
 
-def broken_slurs(line: Breather, caught: list[BreathEvent], room: Room, rests: IntArray) -> list[Problem]:
+def broken_slurs(breather: Breather, caught: list[BreathEvent], room: Room, rests: IntArray) -> list[Problem]:
     """Return what is to be said of catch breaths under slurs, unless they are written too, or in a rest.
 
     Parameters
@@ -184,23 +186,23 @@ def broken_slurs(line: Breather, caught: list[BreathEvent], room: Room, rests: I
     """
     problems = []
     for event in caught:
-        index = line.number_of(event)
+        index = breather.number_of(event)
         dropped = int(room.dropped[index]) if room.length_s[index] == 0.0 else 0
-        breaks = line.written.joined[index - 1 - dropped : index].any() and (dropped or not rests[index])
-        if breaks and not line.written.breath[index - 1]:
-            note_id = line.notes[index - 1].id
+        breaks = breather.written.joined[index - 1 - dropped : index].any() and (dropped or not rests[index])
+        if breaks and not breather.written.breath[index - 1]:
+            note_id = breather.notes[index - 1].id
             message = Message("breath.breaks_slur", {"note": note_id})
             problems.append(Problem(message, note_id, event.start_s, event.end_s))
     return problems
 
 
-def hasty_at_marks(line: Breather, caught: list[BreathEvent]) -> list[Problem]:
+def hasty_at_marks(breather: Breather, caught: list[BreathEvent]) -> list[Problem]:
     """Return what is to be said of breaths at marks after notes too short to give one its time."""
     problems = []
     for event in caught:
-        before, lasts_s = line.number_of(event) - 1, event.end_s - event.start_s
-        if line.written.breath[before] and lasts_s < CATCH_MIN_S - EPSILON:
-            note_id = line.notes[before].id
+        before, lasts_s = breather.number_of(event) - 1, event.end_s - event.start_s
+        if breather.written.breath[before] and lasts_s < CATCH_MIN_S - EPSILON:
+            note_id = breather.notes[before].id
             lengths: dict[str, Argument] = {
                 "lasts_ms": round(1000.0 * lasts_s),
                 "least_ms": round(1000.0 * CATCH_MIN_S),

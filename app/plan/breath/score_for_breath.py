@@ -73,14 +73,16 @@ class BreathScore(NamedTuple):
     within: tuple[BreathEvent, ...]
 
 
-def read_score(line: Breather, air: Air | None, envelope: BreathEnvelope | None) -> BreathScore:
-    times, piece = line.times, line.piece
+def read_score(breather: Breather, air: Air | None, envelope: BreathEnvelope | None) -> BreathScore:
+    times, piece = breather.times, breather.piece
     gaps = None if envelope is None or not envelope.has_breath_gaps(times) else silences(envelope, times)
-    lung_s = lungful_s(line.parameters, air)
+    lung_s = lungful_s(breather.parameters, air)
     if gaps is not None:
         assert envelope is not None
         used = air_used_s(times, air, envelope)
-        within = tuple(within_note(line.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(envelope, times))
+        within = tuple(
+            within_note(breather.notes[index], piece, *gap_s) for index, *gap_s in gaps_within(envelope, times)
+        )
         rests = _rests(times, times, times, piece)
         return BreathScore(times, times, rests, times.duration_s, gaps, used, used, lung_s, within)
     written = notated(times, piece)

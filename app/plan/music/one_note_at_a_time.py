@@ -19,7 +19,7 @@ LEGATO_OVERLAP_S = 0.030
 class Single(NamedTuple):
     """A line of which one note sounds at a time, and a problem for every note left out or running into the next."""
 
-    line: MonophonicPart
+    part: MonophonicPart
     problems: tuple[Problem, ...]
 
 

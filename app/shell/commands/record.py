@@ -21,7 +21,7 @@ def devices(editor: Editor) -> None:
         dialog = MidiDevicesDialog(editor.session, recorder.make_playback(), editor.window)
         dialog.chosen.connect(recorder.choose)
         dialog.controller_chosen.connect(recorder.set_controller)
-        dialog.wiring_chosen.connect(recorder.set_wiring)
+        dialog.mapping_chosen.connect(recorder.set_mapping)
         dialog.latency_asked.connect(partial(latency, editor))
         recorder.begin()
         return dialog

@@ -85,10 +85,10 @@ def test_twenty_minutes(instrument_id: str) -> None:
     """Twenty minutes of playing, as fast as it goes: all that is sent, and every second the pose after a note."""
     limits = bundled_maps()[instrument_id].range
     player = PlayAlong(playing_alone(instrument_id, [(4 * QUARTER, QUARTER, limits.low)]))
-    wiring, spent_s, blocks = ControllerMapping(0, "cc2", "pitch_bend"), np.zeros(LONG_S), list[int]()
+    mapping, spent_s, blocks = ControllerMapping(0, "cc2", "pitch_bend"), np.zeros(LONG_S), list[int]()
     for number in range(LONG_S):
         for at_s, raw in second(number, limits.low, limits.high):
-            player.receive(number + at_s, raw, wiring)
+            player.receive(number + at_s, raw, mapping)
         start_s = time.thread_time()
         player.note_on(number + 0.99, limits.easy_low + number % 7)
         player.pose(number + 0.994)

@@ -111,7 +111,7 @@ def performed(path: Path, folder: Path) -> None:
     """Load, save, load and plan a project, and see its first performers at its beginning, middle and end."""
     from app.performance.cast import performers_of
     from app.performance.ensemble import Performance
-    from app.performance.motion import playing_of
+    from app.performance.motion import performance_curves
     from app.performance.span import whole_span
     from app.project import storage
 
@@ -124,7 +124,7 @@ def performed(path: Path, folder: Path) -> None:
     count = whole_span(performance.time_frame, fps).count
     # The others are made later, each when it is seen.
     for performer in performers_of(performance, project.bodies[:_SEEN_PERFORMERS]).made.values():
-        playing = playing_of(performance, performer)
+        playing = performance_curves(performance, performer)
         for first in (0, count // 2, count - 1):
             playing.motion(fps, first, min(_SEEN_FRAMES, count - first))
 

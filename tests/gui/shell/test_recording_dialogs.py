@@ -194,33 +194,33 @@ def test_where_the_breath_is_is_learned_by_blowing(studio: Studio) -> None:
     assert reported(dialog, "midi_learned").startswith("Blow now")
     swell(studio, channel=3, controller=11)
     studio.wait(lambda: reported(dialog, "midi_learned").startswith("Blow evenly"))
-    assert studio.session.recording.wiring == ControllerMapping(3, "cc11", "pitch_bend")
+    assert studio.session.recording.mapping == ControllerMapping(3, "cc11", "pitch_bend")
     for value in [*range(0, 100, 10), *range(100, 0, -10)]:
         studio.link.play(bytes((0xB2, 11, 60 + value % 3)))
         studio.link.play(bytes((0xB2, 1, value)))
     studio.wait(lambda: reported(dialog, "midi_learned").startswith("Detected"))
     assert reported(dialog, "midi_learned") == "Detected: breath CC 11 (expression), bite CC 1 (modulation), channel 3."
-    assert studio.session.recording.wiring == ControllerMapping(3, "cc11", "cc1")
+    assert studio.session.recording.mapping == ControllerMapping(3, "cc11", "cc1")
     assert part(dialog, QComboBox, "midi_breath_source").currentText() == "CC 11 (expression)"
     # It is remembered of this device.
     recorder = studio.program.recorder
     recorder.choose("")
     recorder.choose(EWI)
-    assert studio.session.recording.wiring.breath == "cc11"
+    assert studio.session.recording.mapping.breath == "cc11"
     # Another kind sends as it comes from its maker again.
     recorder.set_controller("generic")
-    assert studio.session.recording.wiring == ControllerMapping(0, "cc2", "none")
+    assert studio.session.recording.mapping == ControllerMapping(0, "cc2", "none")
 
 
 def test_escape_cancels_learning_and_leaves_the_dialog(studio: Studio) -> None:
     dialog = devices(studio)
-    before = studio.session.recording.wiring
+    before = studio.session.recording.mapping
     click(part(dialog, QPushButton, "midi_learn"))
     swell(studio, controller=11)
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert dialog.isVisible()
     assert reported(dialog, "midi_learned") == ""
-    assert studio.session.recording.wiring == before
+    assert studio.session.recording.mapping == before
     QTest.keyClick(dialog, Qt.Key.Key_Escape)
     assert not dialog.isVisible()
 
@@ -233,14 +233,14 @@ def test_who_does_not_bite_keeps_what_was_known_of_the_bite(studio: Studio) -> N
     swell(studio)
     studio.wait(lambda: reported(dialog, "midi_learned").startswith("Detected"))
     assert reported(dialog, "midi_learned").endswith("No bite was received.")
-    assert studio.session.recording.wiring == ControllerMapping(1, "cc2", "pitch_bend")
+    assert studio.session.recording.mapping == ControllerMapping(1, "cc2", "pitch_bend")
 
 
 def test_nothing_blown_is_nothing_learned(studio: Studio) -> None:
     dialog = devices(studio)
     click(part(dialog, QPushButton, "midi_learn"))
     studio.wait(lambda: "Nothing was received" in reported(dialog, "midi_learned"))
-    assert studio.session.recording.wiring.breath == "cc2"
+    assert studio.session.recording.mapping.breath == "cc2"
 
 
 def test_breath_and_bite_are_never_the_same(studio: Studio) -> None:
@@ -248,11 +248,11 @@ def test_breath_and_bite_are_never_the_same(studio: Studio) -> None:
     bite = part(dialog, QComboBox, "midi_bite_source")
     bite.setFocus()
     QTest.keyClick(bite, Qt.Key.Key_End)
-    assert studio.session.recording.wiring.bite == "channel_pressure"
+    assert studio.session.recording.mapping.bite == "channel_pressure"
     breath = part(dialog, QComboBox, "midi_breath_source")
     breath.setFocus()
     QTest.keyClick(breath, Qt.Key.Key_End)
-    assert studio.session.recording.wiring == ControllerMapping(1, "channel_pressure", "none")
+    assert studio.session.recording.mapping == ControllerMapping(1, "channel_pressure", "none")
 
 
 def test_a_bite_that_is_sent_otherwise_now_is_not_shown_as_it_was(studio: Studio) -> None:
@@ -262,7 +262,7 @@ def test_a_bite_that_is_sent_otherwise_now_is_not_shown_as_it_was(studio: Studio
     studio.wait(lambda: meter.value() > 0)
     bite.setFocus()
     QTest.keyClick(bite, Qt.Key.Key_Home)
-    assert studio.session.recording.wiring.bite == "none"
+    assert studio.session.recording.mapping.bite == "none"
     assert meter.value() == 0
 
 

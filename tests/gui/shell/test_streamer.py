@@ -27,7 +27,7 @@ from app.stream.sender import Sender
 from tests.gui.shell.conftest import Start, trigger
 from tests.support.bad_players import with_instrument
 from tests.support.osc import Frame, Receiver
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 from tests.support.windows import child
 from tests.unit.export.unreal.conftest import with_dancers
 from widgets.common.actions import actions
@@ -121,7 +121,7 @@ def test_who_is_played_from_a_controller_is_sent_as_they_play(program: Program, 
     with Receiver() as receiver:
         stream_to(program, receiver.port)
         rested = received(receiver, qtbot)[-1]
-        live = PlayAlong(playing_of(session.performance, player))
+        live = PlayAlong(performance_curves(session.performance, player))
         session.live_players.begin(live)
         session.live_players.receive(player.id, time.perf_counter(), "b0027f", ControllerMapping())
         low = session.performance.instrument(player).range.low

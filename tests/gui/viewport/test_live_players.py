@@ -16,7 +16,7 @@ from app.performance.play_along import PlayAlong
 from app.plan.by_hand.corrections import PoseCorrection
 from app.project.edit.corrections import with_corrections
 from app.score.take import ControllerMapping
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 from widgets.viewport.panel import ViewportPanel
 
 
@@ -32,7 +32,7 @@ class Still(PlayAlong):
 
 def play_along(session: Session, index: int = 0) -> Still:
     performance = Performance(session.project)
-    return Still(playing_of(performance, session.project.players[index]))
+    return Still(performance_curves(performance, session.project.players[index]))
 
 
 def shown(viewport: ViewportPanel) -> dict[str, Pose | None]:
@@ -172,8 +172,8 @@ def test_what_an_animator_holds_differently_is_held_so_by_who_plays(session: Ses
     project = with_corrections(session.project, player.id, (lift,))
     clock, performance = project.score.tempo_map, Performance(project)
     inside, outside = clock.seconds(2400.0), clock.seconds(9600.0)
-    plain, held = play_along(session), PlayAlong(playing_of(performance, project.players[0]))
-    head = held._playing.player.skeleton.names.index("head")
+    plain, held = play_along(session), PlayAlong(performance_curves(performance, project.players[0]))
+    head = held._curves.player.skeleton.names.index("head")
 
     def angle(one: PlayAlong, at_s: float) -> float:
         turned = abs(float(np.dot(one.pose(1.0, at_s).rotations[head], plain.pose(1.0, at_s).rotations[head])))

@@ -31,7 +31,7 @@ from app.rig.skinning import mesh_named, patch
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.deformed import deform
-from tests.support.performed import in_seventh, player_motion, playing_of
+from tests.support.performed import in_seventh, performance_curves, player_motion
 
 ENSEMBLES = Path(__file__).parents[2] / "data" / "midi" / "ensemble"
 AIR = ENSEMBLES / "trombone_quartet_bach_air.mid"
@@ -51,7 +51,7 @@ def project_of(path: Path, character_id: str = "man_adult") -> Project:
 def judged(
     performance: Performance, player: Player, motion: Motion | None = None, playing: PerformanceCurves | None = None
 ) -> tuple[Problem, ...]:
-    playing = playing or playing_of(performance, player)
+    playing = playing or performance_curves(performance, player)
     motion = motion or playing.motion(FPS, 0, whole_span(performance.time_frame, FPS).count)
     judge = ContactJudge(playing, character_of(player), model_of(performance.instrument(player)))
     return contact_problems(judge.breaks(motion), performance.plan(player).grips, performance.problems(player.id))
@@ -124,7 +124,7 @@ def test_a_finger_that_misses_its_valve_is_reported_alone() -> None:
     project = project_of(LUTKIN)
     player = project.players[0]
     performance = Performance(project)
-    playing = playing_of(performance, player)
+    playing = performance_curves(performance, player)
     hold = playing.player.grip
     hands = []
     for hand in hold.hands:
@@ -185,7 +185,9 @@ def test_live_motion_reports_as_it_is_made_and_again_after_an_edit(budget_bytes:
     assert live.broken == {}
     all_made(live)
     reported = live.broken
-    whole = playing_of(lowered, player).motion(Fraction(60), 0, whole_span(lowered.time_frame, Fraction(60)).count)
+    whole = performance_curves(lowered, player).motion(
+        Fraction(60), 0, whole_span(lowered.time_frame, Fraction(60)).count
+    )
     assert reported == {player.id: judged(lowered, player, whole)}
     # What an edit elsewhere does not touch is not judged again, and stays.
     other = project.players[1]

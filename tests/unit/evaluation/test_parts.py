@@ -18,7 +18,7 @@ from app.evaluation.loudness import TARGET_LUFS, equally_loud, loudness_lufs
 from app.evaluation.request import EvaluationRequest, aspects_of, variants_of
 from app.evaluation.variants import LATE_S, performance_of
 from app.performance.cast import performers_of
-from app.performance.motion import playing_of
+from app.performance.motion import performance_curves
 from tests.unit.viewport.poses import quartet
 
 
@@ -66,7 +66,7 @@ def test_only_the_fingers_are_late() -> None:
     for variant in ("generated", "shifted"):
         performance = performance_of(project, variant)
         performer = performers_of(performance, (player,)).made[player.id]
-        made[variant] = playing_of(performance, performer).motion(fps, 150, 400)
+        made[variant] = performance_curves(performance, performer).motion(fps, 150, 400)
     late = round(LATE_S * fps)
     moved = False
     for name, values in made["generated"].controls.items():

@@ -18,14 +18,14 @@ from app.project.model import Project
 from metadata.acting import AMOUNTS
 from metadata.library import STYLES
 from tests.property.performance.edits import piece
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 FPS = Fraction(10)
 
 
 def rotations(project: Project, player: int = 0) -> np.ndarray:
     performance = Performance(project)
-    curves = playing_of(performance, project.players[player])
+    curves = performance_curves(performance, project.players[player])
     return curves.motion(FPS, 0, frame_count(curves.plan.time_frame, FPS)).rotations
 
 

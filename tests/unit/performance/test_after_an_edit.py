@@ -11,7 +11,7 @@ from app.performance.ensemble import Performance
 from app.plan.breath import catch_breath_places
 from app.project.model import Project
 from tests.bench.performance.large import large_project
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 
 @pytest.fixture(scope="module")
@@ -65,14 +65,14 @@ def test_what_an_edit_of_another_player_left_alone_is_known_at_the_next_edit(per
 def test_a_semitone_changes_neither_gaze_nor_swings(performance: Performance) -> None:
     player = performance.project.players[0]
     edited = Performance(raised(performance.project), performance)
-    old = playing_of(performance, player)
+    old = performance_curves(performance, player)
     assert edited.plan(player).fingerings is not old.plan.fingerings
     assert edited.plan(player).gestures is not old.plan.gestures
-    new = playing_of(edited, player, old)
+    new = performance_curves(edited, player, old)
     assert new.gaze is old.gaze
     assert new.layers.sway is old.layers.sway
     assert new.layers.weight is old.layers.weight
     assert new.layers.lowered is old.layers.lowered
     assert new.layers.height is not old.layers.height
-    fresh = playing_of(Performance(edited.project), player)
+    fresh = performance_curves(Performance(edited.project), player)
     assert not new.changed_s(fresh).size, "what was taken over is what would be made"

@@ -20,7 +20,7 @@ from app.rig.skeleton import forward
 from app.score.model import Note, Part, Score
 from app.score.tempo import TempoChange, TempoMap
 from instrument_maps.load import bundled_maps
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 FPS = 60
 QUARTER = 480
@@ -123,7 +123,7 @@ def test_eyes_meet_the_conductor_and_lead_the_head(number: int) -> None:
     project = replace(ensemble(3), conductor=ConductorPlace(0.0, 2.0, on_stage=True))
     player = project.players[number]
     performance = Performance(project)
-    playing = playing_of(performance, player)
+    playing = performance_curves(performance, player)
     glance = next(one for one in looks(performance, player.id) if 17.0 < one.start_s < 20.0)
     skeleton = playing.player.skeleton
     first = round((glance.start_s - 0.5 - playing.start_s) * FPS)

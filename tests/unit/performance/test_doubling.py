@@ -16,7 +16,7 @@ from app.performance.bodies import character_of, lies_at
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance, changes_of
 from app.performance.live import LiveMotion
-from app.performance.motion import player_motion, playing_of
+from app.performance.motion import performance_curves, player_motion
 from app.performance.play_along import PlayAlong
 from app.performance.span import FrameSpan, whole_span
 from app.plan.doubling import NEEDED_S, USUAL_S
@@ -75,7 +75,7 @@ def test_contacts_of_both_are_kept_and_feet_stay() -> None:
     performance = performed()
     for number in (0, 1):
         performer = performer_of(performance, performance.project.players[number])
-        playing = playing_of(performance, performer)
+        playing = performance_curves(performance, performer)
         judge = ContactJudge(playing, performer.character, performer.model)
         assert judge.breaks(motion_of(performance, number)) == ()
 
@@ -192,7 +192,7 @@ def test_after_an_edit_of_one_instrument_the_other_shows_it_too() -> None:
 def test_who_plays_along_on_one_has_put_the_other_aside() -> None:
     performance = performed()
     flute, piccolo = performance.project.players[:2]
-    along = PlayAlong(playing_of(performance, performer_of(performance, piccolo), danced=False))
+    along = PlayAlong(performance_curves(performance, performer_of(performance, piccolo), danced=False))
     found = lies_at(flute, bundled_maps()["flute"], 0)
     assert found is not None
     assert list(along.lying) == [flute.id]

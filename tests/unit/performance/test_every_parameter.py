@@ -20,7 +20,7 @@ from app.project.edit.corrections import with_corrections
 from app.project.edit.players import set_parameters
 from tests.property.performance.edits import piece
 from tests.support.parameters import others
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 FPS = Fraction(6)
 
@@ -40,7 +40,7 @@ def before(danced: bool) -> Performance:
 def old_playing(danced: bool, place: int) -> tuple[PerformanceCurves, Motion]:
     """A player of `before`, and all frames."""
     old = before(danced)
-    playing = playing_of(old, old.project.players[place])
+    playing = performance_curves(old, old.project.players[place])
     return playing, all_frames(playing)
 
 
@@ -90,7 +90,7 @@ def test_a_change_makes_anew_what_it_says_and_no_less(parameter: Parameter) -> N
         assert len(changed.players) == len(old.project.players)
         for place, player in enumerate(changed.players):
             then, shown_then = old_playing(danced, place)
-            now, fresh = playing_of(warm, player, then), playing_of(cold, player)
+            now, fresh = performance_curves(warm, player, then), performance_curves(cold, player)
             motion = all_frames(now)
             assert not differing(motion, all_frames(fresh)).any()
             differs = differing(motion, shown_then)

@@ -25,7 +25,7 @@ from metadata.load import load_body, load_skeleton
 from metadata.model import Body
 from metadata.skeleton_profile import JointAxes
 from tests.support.live import performance_of
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 FPS = 60
 QUARTER_S, QUARTER = 0.5, 480
@@ -63,7 +63,7 @@ def _tick(at_s: float) -> int:
 
 def made(performance: Performance, from_s: float, to_s: float) -> tuple[PerformanceCurves, Motion, FloatArray]:
     """A player's curves, some of its motion, and the times of its frames."""
-    playing = playing_of(performance, performance.project.players[0])
+    playing = performance_curves(performance, performance.project.players[0])
     first = round((from_s - playing.start_s) * FPS)
     motion = playing.motion(Fraction(FPS), first, round((to_s - from_s) * FPS))
     return playing, motion, motion.first_frame_s + np.arange(motion.frames) / FPS

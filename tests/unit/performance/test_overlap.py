@@ -20,7 +20,7 @@ from app.rig.skeleton import forward
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 FPS = 60
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
@@ -49,7 +49,7 @@ def test_the_chest_follows_the_hips_and_the_head_the_chest(weight_shift: float) 
     trumpets = [player.id for player in project.players[:2]]
     performance = Performance(set_parameters(project, trumpets, weight_shift=weight_shift, gestures=0.0))
     for player in performance.project.players[:2]:
-        playing = playing_of(performance, player)
+        playing = performance_curves(performance, player)
         begins = round((playing.plan.embouchures[0].start_s - playing.start_s) * FPS)
         motion = playing.motion(Fraction(FPS), begins, 70 * FPS)
         skeleton = playing.player.skeleton

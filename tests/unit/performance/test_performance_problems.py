@@ -19,7 +19,7 @@ from app.contacts.breaks import JUDGED_PER_S
 from app.performance import performance_problems
 from app.performance.cast import performer_of
 from app.performance.ensemble import Performance
-from app.performance.motion import playing_of
+from app.performance.motion import performance_curves
 from app.performance.performance_problems import all_problems
 from app.performance.span import whole_span
 from app.plan.model import TimeFrame
@@ -48,7 +48,7 @@ def rates(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Fraction, int]]:
 
     class Counted:
         def __init__(self, *arguments: object) -> None:
-            self._made = playing_of(*arguments)
+            self._made = performance_curves(*arguments)
 
         def __getattr__(self, name: str) -> object:
             return getattr(self._made, name)
@@ -58,7 +58,7 @@ def rates(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Fraction, int]]:
             found.append((fps, made.frames))
             return made
 
-    monkeypatch.setattr(performance_problems, "playing_of", Counted)
+    monkeypatch.setattr(performance_problems, "performance_curves", Counted)
     return found
 
 
@@ -72,7 +72,7 @@ def test_of_a_usual_piece_every_fourth_frame_is_looked_at(rates: list[tuple[Frac
 @pytest.mark.parametrize("project", [piece(8), flutist(2)], ids=["alone", "by turns"])
 def test_frames_that_are_looked_at_are_those_of_the_whole_motion(project: Project) -> None:
     performance = Performance(project)
-    playing = playing_of(performance, performer_of(performance, project.players[0]))
+    playing = performance_curves(performance, performer_of(performance, project.players[0]))
     whole, some = playing.motion(Fraction(60), 9, 203), playing.motion(Fraction(60), 9, 203, 4)
     assert (some.fps, some.frames, some.first_frame_s) == (15, 51, whole.first_frame_s)
     for name in ("rotations", "hips_m", "instrument_position_m", "instrument_rotation"):

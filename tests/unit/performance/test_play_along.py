@@ -301,7 +301,7 @@ def test_the_lids_close_now_and_then_and_open_again_at_once() -> None:
 
 def test_midi_messages_say_the_same() -> None:
     by_calls, by_messages = along(), along()
-    wiring = ControllerMapping(channel=1, breath="cc2", bite="cc1")
+    mapping = ControllerMapping(channel=1, breath="cc2", bite="cc1")
     by_calls.breath(1.0, 100 / 127)
     by_calls.note_on(1.0, 61, 90)
     by_calls.bite(1.1, 40 / 127)
@@ -314,12 +314,12 @@ def test_midi_messages_say_the_same() -> None:
         (1.2, "914050"), (1.2, "f8"), (1.2, "90"), (1.2, "b04000"),
     ]  # fmt: skip
     for time_s, raw in messages:
-        by_messages.receive(time_s, raw, wiring)
+        by_messages.receive(time_s, raw, mapping)
     one, other = by_calls.pose(1.3), by_messages.pose(1.3)
     np.testing.assert_array_equal(one.rotations, other.rotations)
     assert one.morphs == other.morphs
     assert one.controls == other.controls
-    by_messages.receive(2.0, "b07b00", wiring)
+    by_messages.receive(2.0, "b07b00", mapping)
     looked(by_messages, 2.0, 1.2)
     assert by_messages.fingering is None
 

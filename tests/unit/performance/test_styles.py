@@ -24,13 +24,13 @@ from app.project.model import Project
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata, with_metadata
 from metadata.acting import AMOUNTS
 from tests.property.performance.edits import piece
-from tests.support.performed import playing_of
+from tests.support.performed import performance_curves
 
 FPS = Fraction(10)
 
 
 def curves_of(project: Project) -> PerformanceCurves:
-    return playing_of(Performance(project), project.players[0])
+    return performance_curves(Performance(project), project.players[0])
 
 
 def rotations(curves: PerformanceCurves) -> np.ndarray:

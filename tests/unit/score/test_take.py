@@ -37,16 +37,16 @@ def test_velocity_0_and_all_notes_off_end_notes() -> None:
 
 def test_only_the_wired_channel_is_received() -> None:
     more = [(0.0, "903c40"), (1.0, "803c00"), (1.0, "923e40"), (2.0, "823e00")]
-    assert take_of([], more=more, wiring=ControllerMapping(channel=3)).played.pitches.tolist() == [62]
+    assert take_of([], more=more, mapping=ControllerMapping(channel=3)).played.pitches.tolist() == [62]
     assert take_of([], more=more).played.pitches.tolist() == [60, 62]
 
 
 def test_breath_and_bite_are_what_the_wiring_says() -> None:
     more = [(0.0, "d040"), (0.0, "e00060"), (0.0, "b00110")]
-    take = take_of([], more=more, wiring=ControllerMapping(breath="channel_pressure", bite="cc1"))
+    take = take_of([], more=more, mapping=ControllerMapping(breath="channel_pressure", bite="cc1"))
     values = {kind: curve.values.tolist() for kind, curve in take.played.curves.items()}
     assert values == {"breath": [64 / 127], "pitch_bend": [0.5], "bite": [16 / 127]}
-    bent = take_of([], more=more, wiring=ControllerMapping(bite="pitch_bend")).played.curves
+    bent = take_of([], more=more, mapping=ControllerMapping(bite="pitch_bend")).played.curves
     assert bent["bite"].values.tolist() == bent["pitch_bend"].values.tolist() == [0.5]
 
 

@@ -27,7 +27,7 @@ from app.project.model import Project, map_choices, project_from_score
 from app.project.performers import Player
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
-from tests.support.performed import in_seventh, player_motion, playing_of
+from tests.support.performed import in_seventh, performance_curves, player_motion
 from tests.unit.choreography.performed.test_dancers import played
 
 pytestmark = pytest.mark.slow
@@ -57,7 +57,7 @@ def motion_of(project: Project, player_id: str, count: int | None = None) -> Mot
     performance = Performance(project)
     span = whole_span(performance.time_frame, FPS)
     count = span.count if count is None else count
-    return playing_of(performance, project.player(player_id)).motion(FPS, span.first, count)
+    return performance_curves(performance, project.player(player_id)).motion(FPS, span.first, count)
 
 
 def bits(motion: Motion) -> tuple[bytes, ...]:
@@ -83,7 +83,7 @@ def test_no_contact_is_broken_by_a_dance(name: str, instrument: str, posture: st
     performance, player = Performance(project), project.player(player.id)
     motion = player_motion(performance, player, whole_span(performance.time_frame, FPS))
     judge = ContactJudge(
-        playing_of(performance, player), character_of(player), model_of(performance.instrument(player))
+        performance_curves(performance, player), character_of(player), model_of(performance.instrument(player))
     )
     assert judge.breaks(motion) == ()
     generated = (

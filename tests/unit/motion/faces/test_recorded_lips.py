@@ -25,7 +25,7 @@ from app.project.model import Project, project_from_score
 from app.score.model import ControllerCurve, Score
 from instrument_maps.load import bundled_maps
 from tests.support.blown import TEMPO, Blow, breath_curve, take, vibrato_curve
-from tests.support.performed import player_motion, playing_of
+from tests.support.performed import performance_curves, player_motion
 
 FPS = Fraction(60)
 SWELL = Blow(0.99, 5.0, lambda s: 0.25 + 0.7 * np.minimum(s / 4.0, 1.0))
@@ -89,7 +89,9 @@ def test_cheeks_follow_the_breath_and_the_breath_is_seen_with_every_contact_kept
     assert inside > shown.between("jawOpen", 2.0, 4.9).max() + 0.03, "the mouth opens for it"
     player = shown.performance.project.players[0]
     judge = ContactJudge(
-        playing_of(shown.performance, player), character_of(player), model_of(shown.performance.instrument(player))
+        performance_curves(shown.performance, player),
+        character_of(player),
+        model_of(shown.performance.instrument(player)),
     )
     assert [(found.contact, found.start_s, found.gap_m) for found in joined(judge.breaks(shown.motion))] == []
 
@@ -166,10 +168,10 @@ def test_after_an_edit_only_the_spans_that_are_reported_have_changed() -> None:
     project = project_from_score(Score("Take", 480, TEMPO, parts=(part,)), maps)
     player = project.players[0]
     first = Performance(project)
-    before = playing_of(first, player)
+    before = performance_curves(first, player)
     edited = replace(project, corrections={player.id: (SetEmbouchure("1:2", tension=0.9, air=0.1),)})
     second = Performance(edited, first)
-    after = playing_of(second, player, before)
+    after = performance_curves(second, player, before)
     span = whole_span(second.time_frame, FPS)
     old, new = (player_motion(one, player, span) for one in (first, second))
     times_s = new.first_frame_s + np.arange(new.frames) / float(FPS)
