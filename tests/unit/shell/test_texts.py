@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import get_args
 
+from app.cli.commands import help_texts
 from app.messages import LANGUAGES, WORDINGS
 from app.plan.by_hand.corrections import REMOVABLE
 from app.plan.by_hand.events import PoseTarget
@@ -21,8 +22,8 @@ from metadata.load import load_expressions
 
 ROOT = Path(__file__).parents[3]
 FILES = [path for room in ("app", "widgets") for path in sorted((ROOT / room).rglob("*.toml"))]
-"""Tables of texts; Japanese details have another form, and the guides' places are none; the command line is English."""
-OTHERS = ("japanese.toml", "places.toml", "help.toml")
+"""Tables of texts; Japanese details and the help of the command line have other forms, the guides' places are none."""
+OTHERS = ("japanese.toml", "places.toml", "help.toml", "argparse.toml")
 TABLES = {path: tomllib.loads(path.read_text("utf-8")) for path in FILES if path.name not in OTHERS}
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
@@ -50,6 +51,13 @@ AVOIDED = {
     "視聴者": "参加者",
     "：": ": ",
     "か?": "か？",
+    "ウィンド": "ウインド",
+    "エンコーディング": "文字コード",
+    "確信度": "信頼度",
+    "ティッシモ": "ティシモ",
+    **dict.fromkeys(("ノン・", "スライド・"), "no dot within a name"),
+    "一人": "1 人",
+    "〜": "～",
     **{f"付点{number}分": f"付点{kanji}分" for number, kanji in ((2, "二"), (4, "四"), (8, "八"))},
 }
 """Japanese words for which the program has another one: one word for one thing."""
@@ -82,6 +90,10 @@ def test_every_text_is_there_in_both_languages_with_its_arguments() -> None:
 def test_one_japanese_word_for_one_thing() -> None:
     tables = {path.name: path.read_text("utf-8") for path in (ROOT / "metadata").glob("[!b]*/*.toml")}
     texts = {id: japanese for id, (_, japanese) in TEXTS.items()} | tables
+    # In running text a full-width colon is usual.
+    guides = (*(ROOT / "docs").glob("*_ja.md"), ROOT / "README_ja.md")
+    texts |= {path.name: path.read_text("utf-8").replace("：", "") for path in guides}
+    texts |= {f"{name} {key}": text["ja"] for name, options in help_texts().items() for key, text in options.items()}
     assert {id: AVOIDED[word] for id, text in texts.items() for word in AVOIDED if word in text} == {}
 
 
