@@ -38,6 +38,11 @@ class EventId(NamedTuple):
         return f"{self.kind}:{self.of}" if self.number == 1 else f"{self.kind}.{self.number}:{self.of}"
 
     @property
+    def is_by_rule(self) -> bool:
+        """True if a rule made the event."""
+        return self.of.partition(":")[0] == "rule"
+
+    @property
     def places(self) -> Iterator[str]:
         """Possible names of the note or the tick: ``of``, and its rest behind each colon (``strained:1:5``)."""
         rest = self.of

@@ -134,7 +134,7 @@ def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray,
 
 def in_order(event: ExpressionEvent) -> tuple[float, bool, str]:
     """By start; at the same time first what is not the rule's own."""
-    return event.start_s, ":rule:" in event.id, event.id
+    return event.start_s, EventId.parse(event.id).is_by_rule, event.id
 
 
 def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:
@@ -263,7 +263,7 @@ def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
 def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
     """Events without those of rules where the animator put one of the same kind: what is placed by hand wins. The very
     same tuple where nothing is left out."""
-    placed = [event for event in events if event.corrected and ":rule:" not in event.id]
+    placed = [event for event in events if event.corrected and not EventId.parse(event.id).is_by_rule]
     by_kind: dict[str, list[tuple[float, float]]] = {}
     for event in placed:
         by_kind.setdefault(EventId.parse(event.id).kind, []).append((event.start_s, event.end_s))
@@ -275,8 +275,8 @@ def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
 
 
 def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spans]) -> bool:
-    kind, of, _ = EventId.parse(event.id)
-    return of.partition(":")[0] == "rule" and kind in spans and spans[kind].meet(event.start_s, event.end_s)
+    id = EventId.parse(event.id)
+    return id.is_by_rule and id.kind in spans and spans[id.kind].meet(event.start_s, event.end_s)
 
 
 def lowered_spans_s(gestures: Sequence[GestureEvent]) -> tuple[tuple[float, float], ...]:

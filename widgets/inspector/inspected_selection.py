@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from app.editor.session import Session
+from app.plan.event_id import EventId
 from app.plan.model import EmbouchureEvent, FingeringEvent, PlayerPlan
 from app.project.edit.events import Placed, placed_events
 from app.project.performers import Player
@@ -15,7 +16,7 @@ MOST_NOTES = 500
 """Most selected notes that are looked at: by then it is known whether values differ."""
 
 
-_OF_NOTES = ("fingering:", "embouchure:")
+_OF_NOTES = frozenset({"fingering", "embouchure"})
 
 
 @dataclass(frozen=True)
@@ -66,8 +67,8 @@ def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None
     """See `SelectedNotes`; None where no note is selected."""
     project, selection = session.project, session.selection
     # A fingering or an embouchure is a note's.
-    of_notes = {key.event_id.partition(":")[2] for key in selection.events if key.event_id.startswith(_OF_NOTES)}
-    ids = selection.notes | of_notes
+    events = [EventId.parse(key.event_id) for key in selection.events]
+    ids = selection.notes | {event.of for event in events if event.kind in _OF_NOTES}
     if not ids:
         return None
     front = [project.player(player_id) for player_id in session.players]
