@@ -83,6 +83,8 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--sound", action="store_true")
     stage = command.add_argument("--stage", action="store_true")
     fill_help(stage, formats=names_where(lambda kind: kind.stage))
+    alone = command.add_argument("--motion-only", action="store_true")
+    fill_help(alone, formats=names_where(lambda kind: kind.without_meshes))
     keys = command.add_argument("--keys", choices=KEY_CHOICES, default="every")
     fill_help(keys, formats=names_where(lambda kind: kind.reduces_keys))
 
@@ -193,6 +195,7 @@ def _request(
         dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
         processes=arguments.jobs,
         keys=arguments.keys,
+        motion_only=arguments.motion_only,
         with_ignored=arguments.ignored,
     )
 
@@ -210,5 +213,9 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("unreal.keys")
     if arguments.keys != "every" and not any(kind.reduces_keys for kind in requested(formats)):
         raise UsageError("keys.formats", possible=names_where(lambda kind: kind.reduces_keys))
+    if arguments.motion_only and arguments.unreal is not None:
+        raise UsageError("unreal.motion_only")
+    if arguments.motion_only and not any(kind.without_meshes for kind in requested(formats)):
+        raise UsageError("motion_only.formats", possible=names_where(lambda kind: kind.without_meshes))
     refuse_attachment(formats, arguments.instrument)
     return formats

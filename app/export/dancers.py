@@ -14,7 +14,7 @@ from app.export.file_names import file_names
 from app.export.formats import requested
 from app.export.joint_playback import JointPlayback
 from app.export.playback import ScenePlayback
-from app.export.player import skeleton_report, write_options
+from app.export.player import read_again, skeleton_report, write_options
 from app.export.report import DancerMeasures, DancerReport, stage_place
 from app.export.request import CastDancing, ExportRequest
 from app.export.scene_keys import key_count
@@ -72,7 +72,8 @@ def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, repor
     measures = None
     for row in rows:
         if row.read is not None and measures is None:
-            read = row.read(folder / files[row.key("character")], scenes[row.humanoid].meshes)
+            path = folder / files[row.key("character")]
+            read = read_again(row, path, scenes[row.humanoid].meshes, options.meshes)
             standing, target = dancing.standing(span.fps, span.first, span.count), cast.target_in(row)
             measures = measure_dancer(without_place(read, target.place), dancing.character, target, standing)
     reported(1.0)

@@ -10,7 +10,7 @@ from typing import Final, Literal, TypeAlias
 from app.arrays import AnyFloatArray
 from app.errors import UsageError
 from app.export.rig_options import Attachment
-from app.formats.scene import Scene, SkinnedMesh
+from app.formats.scene import Scene, SkinnedMesh, without_meshes
 from app.formats.usd import UsdSound
 from app.formats.usd_package import refuse_without_usd
 
@@ -31,6 +31,8 @@ class WriteOptions:
         Other names than the scene's, by bone, for files that are chosen by the names of their bones.
     expressions : mapping of str to mapping of str to float
         Further expressions of a face, by weights of the scene's morphs.
+    meshes : bool
+        Whether files that can do without have meshes.
     t_pose : ndarray, shape (B, 4), or None
         Rotations of the scene's bones on their parents in the T-pose.
     """
@@ -38,6 +40,7 @@ class WriteOptions:
     sound: str | None = None
     bone_names: Mapping[int, str] = field(default_factory=dict)
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    meshes: bool = True
     t_pose: AnyFloatArray | None = None
 
 
@@ -72,6 +75,8 @@ class FileFormat:
         Whether it can have fewer keys than one on every frame.
     keys_by_pose : bool
         Whether all bones share their keys in it.
+    without_meshes : bool
+        Whether its meshes can be left out (`WriteOptions.meshes`).
     bones_by_name : bool
         Whether bones may get other names in it (`WriteOptions.bone_names`).
     package : str
@@ -93,6 +98,7 @@ class FileFormat:
     usual: bool = False
     reduces_keys: bool = True
     keys_by_pose: bool = False
+    without_meshes: bool = False
     bones_by_name: bool = False
     package: str = ""
     refuse: Callable[[], None] = lambda: None
@@ -108,7 +114,7 @@ class FileFormat:
 def _write_fbx(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.fbx.write import write_scenes
 
-    write_scenes(path, scenes)
+    write_scenes(path, scenes if beside.meshes else map(without_meshes, scenes))
 
 
 def _read_fbx(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
@@ -128,7 +134,7 @@ def _write_bvh(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> Non
 def _write_glb(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.gltf.write import write_glbs
 
-    write_glbs(path, scenes)
+    write_glbs(path, scenes if beside.meshes else map(without_meshes, scenes))
 
 
 def _read_glb(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
@@ -167,7 +173,7 @@ _BOTH: Final[tuple[FileContent, ...]] = ("character", "instrument")
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     row.id: row
     for row in (
-        FileFormat("fbx", "FBX", ".fbx", _BOTH, 3.0, _write_fbx, read=_read_fbx, usual=True),
+        FileFormat("fbx", "FBX", ".fbx", _BOTH, 3.0, _write_fbx, read=_read_fbx, usual=True, without_meshes=True),
         FileFormat(
             "bvh",
             "BVH",
@@ -180,7 +186,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             reduces_keys=False,
             bones_by_name=True,
         ),
-        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb, read=_read_glb),
+        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb, read=_read_glb, without_meshes=True),
         FileFormat(
             "usd",
             "USD",

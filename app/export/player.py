@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -153,7 +153,7 @@ def _write(
             row.write(path, (scene,), options)
         if (row, held) in reads and row.read is not None:
             # Read back at once, while other files are written.
-            read[held] = row.read(path, meshes if scene is None else scene.meshes)
+            read[held] = read_again(row, path, meshes if scene is None else scene.meshes, options.meshes)
 
     def judge() -> None:
         problems.append(judged_problems(performance, performer, motion))
@@ -169,6 +169,18 @@ def _write(
     in_threads([*(partial(write, *one) for one in writing), judge], finished)
     judged = next((scenes[held, row.humanoid] for row, held in reads or rows if held == "character" and first), None)
     return _Written(keys, meshes if judged is None else judged.meshes, problems[0], read)
+
+
+def read_again(row: FileFormat, path: Path, meshes: tuple[SkinnedMesh, ...], in_file: bool) -> Scene:
+    """A written file as it is measured: with its meshes, which may not be ``in_file``."""
+    assert row.read is not None
+    if in_file or not row.without_meshes:
+        return row.read(path, meshes)
+    found = row.read(path, ())
+    assert found.clip is not None
+    shapes = {morph.name for mesh in meshes for morph in mesh.morphs}
+    weights = {name: values for name, values in found.clip.morph_weights.items() if name in shapes}
+    return replace(found, meshes=meshes, clip=replace(found.clip, morph_weights=weights))
 
 
 def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:
@@ -255,5 +267,6 @@ def write_options(request: ExportRequest, character: Character, target: TargetSk
         sound=sound_name(request.source) if request.sound else None,
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
         expressions=vrm_expressions(character),
+        meshes=not request.motion_only,
         t_pose=target.t_pose,
     )

@@ -63,6 +63,8 @@ class ExportRequest:
         File of the asset that the animation is for: every player's skeleton is compared with its.
     keys : KeyChoice
         Which frames have keys, in formats that can leave out some.
+    motion_only : bool
+        Whether files are without meshes, in formats that can be so.
     with_ignored : bool
         Whether problems that the project ignores are among the report's warnings.
     """
@@ -84,6 +86,7 @@ class ExportRequest:
     stage: bool = False
     processes: int | None = None
     keys: KeyChoice = "every"
+    motion_only: bool = False
     with_ignored: bool = False
 
 

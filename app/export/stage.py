@@ -39,7 +39,8 @@ def write_stage(
         Called with the share 0..1 that is done; may raise Cancelled.
     """
     files = stage_names(request.performance, request.formats, request.source)
-    beside = WriteOptions(sound=sound_name(request.source) if request.sound else None)
+    sound = sound_name(request.source) if request.sound else None
+    beside = WriteOptions(sound=sound, meshes=not request.motion_only)
     figures: dict[str, StageFigure] = {}
     for number, (name, file) in enumerate(files.items()):
 

@@ -52,6 +52,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     sound: bool
     bvh_names: str
     keys: KeyChoice
+    motion_only: bool
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
@@ -88,6 +89,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         sound=request.sound,
         bvh_names=request.bvh_names,
         keys=request.keys,
+        motion_only=request.motion_only,
     )
 
 
@@ -108,6 +110,7 @@ def _request(job: ExportJob) -> ExportRequest:
         sound=job.sound,
         bvh_names=job.bvh_names,
         keys=job.keys,
+        motion_only=job.motion_only,
     )
 
 

@@ -7,7 +7,7 @@ Space: centimetres, right-handed, Y up. Quaternions are xyzw, matrices act on co
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
@@ -198,6 +198,11 @@ class Scene:
         return self.name or (self.bones[0].name if self.clip is None else self.clip.name)
 
 
+def without_meshes(scene: Scene) -> Scene:
+    """The motion of a scene alone; its weights are of morphs that are elsewhere."""
+    return replace(scene, meshes=())
+
+
 def check_scene(scene: Scene) -> None:
     """Refuse a scene that no file could hold.
 
@@ -223,7 +228,7 @@ def check_scene(scene: Scene) -> None:
         _check_clip(scene.clip, bone_count)
         morphs = {morph.name for mesh in scene.meshes for morph in mesh.morphs}
         unknown = sorted(set(scene.clip.morph_weights) - morphs)
-        if unknown:
+        if scene.meshes and unknown:
             raise ValueError(f"weights of morphs that no mesh has: {', '.join(unknown)}")
 
 

@@ -239,6 +239,7 @@ class ExportDialog(WorkingDialog):
             creator=self._creator,
             sound=self._formats.sound,
             stage=self._formats.stage,
+            motion_only=self._formats.motion_only and self._place.destination == "folder",
             bvh_names=self._bvh_names.currentData(),
             keys=self.keys if self._place.destination == "folder" else "every",
             skeleton=self._skeleton.choice,

@@ -51,10 +51,12 @@ class FormatChooser(Retranslated, QWidget):
         self._sound = named(Check("format_chooser.sound_wav"), "export_sound")
         self._stage = named(Check("format_chooser.whole_stage_in_one_file"), "export_stage")
         self._stage.setChecked(True)
+        self._motion_only = named(Check("format_chooser.motion_only"), "export_motion_only")
+        self.texted(self._motion_only, tip="format_chooser.motion_only_tip")
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setHorizontalSpacing(18)
-        for index, box in enumerate((*self._boxes.values(), self._sound, self._stage)):
+        for index, box in enumerate((*self._boxes.values(), self._sound, self._stage, self._motion_only)):
             layout.addWidget(box, *divmod(index, _COLUMNS), Qt.AlignmentFlag.AlignLeft)
             box.toggled.connect(self._change)
         layout.setColumnStretch(_COLUMNS, 1)
@@ -74,6 +76,12 @@ class FormatChooser(Retranslated, QWidget):
         """True if everyone is also written into one file; it is off where no ticked kind of file can hold it."""
         return self._stage.isChecked() and self._stage.isEnabledTo(self)
 
+    @property
+    def motion_only(self) -> bool:
+        """True if meshes are left out; it is off where no ticked kind of file can do without."""
+        return self._motion_only.isChecked() and self._motion_only.isEnabledTo(self)
+
     def _change(self) -> None:
+        self._motion_only.setEnabled(any(kind.without_meshes for kind in requested(self.formats)))
         self._stage.setEnabled(any(kind.stage for kind in requested(self.formats)))
         self.changed.emit()

@@ -81,9 +81,16 @@ class FbxLayerCurves:
         self._resting: dict[bytes, PackedArray] = {}
 
     def add_clip(
-        self, bones: Sequence[Bone], clip: Clip, models: Sequence[int], channels: Mapping[str, Sequence[int]]
+        self,
+        bones: Sequence[Bone],
+        clip: Clip,
+        models: Sequence[int],
+        channels: Mapping[str, Sequence[int]],
+        *,
+        alone: bool = False,
     ) -> None:
-        """Animate the models of a figure's bones, and the channels of each of its morphs."""
+        """Animate the models of a figure's bones, and the channels of each of its morphs; without meshes, ``alone``,
+        properties of the root of the morphs' names, from 0 to 1."""
         keys = clip.keys
         slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         rotations = rotation_curves(bones, clip)
@@ -93,8 +100,11 @@ class FbxLayerCurves:
                 self._add(model, "Lcl Translation", "T", AXES, place_curves(clip, bone), frames, slopes_fps)
             self._add(model, "Lcl Rotation", "R", AXES, rotations[bone], frames, slopes_fps)
         for name, weights in clip.morph_weights.items():
-            percent = np.asarray(weights, dtype=np.float64)[None] * 100.0
+            row = np.asarray(weights, dtype=np.float64)[None]
+            percent = row * 100.0
             frames = None if keys is None else keys.morphs[name]
+            if alone:
+                self._add(models[0], name, name, (name,), row, frames)
             for channel in channels.get(name, ()):
                 self._add(channel, "DeformPercent", "DeformPercent", ("DeformPercent",), percent, frames)
 

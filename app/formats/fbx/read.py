@@ -349,8 +349,10 @@ def _clip(
     for (target, to_property), channels in take.curves.items():
         if target in bone_of_model and to_property == "Lcl Rotation":
             turning.append((bone_of_model[target], channels))
-        elif target in bone_of_model:
+        elif target in bone_of_model and to_property == "Lcl Translation":
             translations[bone_of_model[target]] = np.stack([curve.at(frames) for curve in channels], axis=1)
+        elif target in bone_of_model:
+            weights[to_property] = channels[0].at(frames)
         elif target in name_of_channel:
             name, weight = name_of_channel[target], channels[0].at(frames) / 100.0
             if name in weights and not np.array_equal(weights[name], weight):

@@ -79,7 +79,8 @@ def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
     curves = _curves(graph, stacks[0], ticks.frame_ticks(fps, frames), fps)
     for (target, to_property), channels in curves.items():
         moved = graph.objects[target].sub_class if target in graph.objects else ""
-        if _ANIMATED.get(to_property) != (moved, len(channels)):
+        # A weight of a morph that is elsewhere is a property of the root.
+        if _ANIMATED.get(to_property, ("LimbNode", 1)) != (moved, len(channels)):
             raise FileError("fbx.unsupported", file=graph.file, what=f"animation of {to_property}")
     return FbxTake(stacks[0].name, fps, frames, curves)
 

@@ -70,7 +70,7 @@ def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
             if curves is None:
                 take, rate = scene.clip.name, scene.clip.fps
                 last_tick, curves = _add_take(graph, scene.clip)
-            curves.add_clip(scene.bones, scene.clip, figure.bone_ids, figure.channel_ids)
+            curves.add_clip(scene.bones, scene.clip, figure.bone_ids, figure.channel_ids, alone=not scene.meshes)
     return (
         header(creator),
         Element("FileId", (encode.FILE_ID,)),
@@ -119,8 +119,9 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
         graph.connect(figure.node, 0)
         world_from_node = scene.place.matrix
     rests = euler_degrees(np.stack([bone.rotation_xyzw for bone in scene.bones])[None], EULER_ORDER)[:, ::-1, 0]
+    weights = scene.clip.morph_weights if scene.clip is not None and not scene.meshes else ()
     for bone, rest_degrees in zip(scene.bones, rests, strict=True):
-        _add_bone(graph, figure, bone, rest_degrees)
+        _add_bone(graph, figure, bone, rest_degrees, () if figure.bone_ids else weights)
     if scene.meshes:
         binds = world_from_node @ _unconnected_binds(scene)
         mesh_ids = [_add_mesh(graph, figure, mesh, binds, world_from_node) for mesh in scene.meshes]
@@ -133,7 +134,9 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
     return figure
 
 
-def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rest_degrees: AnyFloatArray) -> None:
+def _add_bone(
+    graph: Assembly, figure: _Figure, bone: Bone, rest_degrees: AnyFloatArray, weights: Iterable[str]
+) -> None:
     flags = (Element("TypeFlags", ("Skeleton",)),)
     attribute = graph.add("NodeAttribute", bone.name, "NodeAttribute", "LimbNode", flags)
     turning = (
@@ -141,6 +144,8 @@ def _add_bone(graph: Assembly, figure: _Figure, bone: Bone, rest_degrees: AnyFlo
         property_row("RotationActive", "bool", "", "", np.int32(1)),
         property_row("RotationOrder", "enum", "", "", np.int32(ORDERS.index(bone.order))),
         property_row("PreRotation", "Vector3D", "Vector", "", *map(float, rest_degrees)),
+        # Curves of morphs that are elsewhere: animated properties of a user's, as Unreal takes for curves.
+        *(property_row(name, "Number", "", "A+U", 0.0) for name in weights),
     )
     model = graph.add("Model", bone.name, "Model", "LimbNode", _model(bone.translation_cm, np.zeros(3), turning))
     graph.connect(model, figure.node if bone.parent < 0 else figure.bone_ids[bone.parent])

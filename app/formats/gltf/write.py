@@ -135,10 +135,19 @@ def _add_figure(
             out.nodes.append(gltf.Node(name=mesh.name))
         node = out.nodes[mesh_nodes[-1]]
         node.mesh, node.skin = len(out.meshes) - 1, len(out.skins)
-    if scene.meshes:
-        # Programs call the armature as the skin.
-        out.skins.append(_skin(document, scene.meshes[0].world_from_bone_bind, scene.title, first))
+    # Programs call the armature as the skin, and take nodes for bones by it.
+    binds = scene.meshes[0].world_from_bone_bind if scene.meshes else _rest_transforms(scene)
+    out.skins.append(_skin(document, binds, scene.title, first))
     return first, mesh_nodes
+
+
+def _rest_transforms(scene: Scene) -> AnyFloatArray:
+    """Transforms (J, 4, 4) of the bones at rest."""
+    world: list[AnyFloatArray] = []
+    for bone in scene.bones:
+        local = NodePlace(bone.translation_cm, bone.rotation_xyzw).matrix
+        world.append(local if bone.parent < 0 else world[bone.parent] @ local)
+    return np.stack(world)
 
 
 def node_at(name: str, place: NodePlace) -> gltf.Node:

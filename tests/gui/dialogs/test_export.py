@@ -247,3 +247,15 @@ def test_who_is_left_out_is_named_with_the_reason(
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"Trombone 1.bvh", "report.json"}
     assert any(line.startswith("warning: Trumpet 1 is excluded: ") for line in noticed)
     session.deleteLater()
+
+
+def test_meshes_can_be_left_out_where_a_format_can_do_without(dialog: ExportDialog, tmp_path: Path) -> None:
+    box = child(dialog, QCheckBox, "export_motion_only")
+    bvh_only(dialog)
+    assert not box.isEnabled()
+    child(dialog, QCheckBox, "export_fbx").setChecked(True)
+    assert box.isEnabled()
+    box.setChecked(True)
+    assert dialog._request().motion_only
+    bvh_only(dialog)
+    assert not dialog._request().motion_only, "a box that is off does nothing"
