@@ -40,6 +40,7 @@ from app.capture.protocol import (
 )
 from app.editor.files import Files
 from app.editor.live_player import LivePlayer
+from app.editor.recording import NO_DEVICE
 from app.editor.session import Session, Severity
 from app.editor.settings import Settings
 from app.editor.sound import EditorSound
@@ -64,18 +65,6 @@ _STILL_S: Final = 1e-6
 
 _JUMP_S: Final = 0.25
 """The sound is elsewhere than it would be by now: it was sent there, or the loop returned."""
-
-_NO_DEVICE: Final = frozenset(
-    {
-        "capture.no_library",
-        "capture.no_system",
-        "capture.api_unknown",
-        "capture.port_refused",
-        "capture.port_taken",
-        "capture.recorder_fails",
-    }
-)
-"""Refusals that leave no device to listen to."""
 
 MakeLink = Callable[[Callable[[], None]], RecorderLink]
 
@@ -295,7 +284,7 @@ class Recorder(QObject):
             # It is waited for; a window that opens without it need not warn.
             state.set(connection="waiting", refusal=None)
             return
-        if reason.id in _NO_DEVICE:
+        if reason.id in NO_DEVICE:
             # That it has gone, and that the take is kept, was said just now; why it is not back stands in the dialog.
             is_reported = state.connection == "lost"
             is_ours = reason.arguments.get("port", state.port) == state.port

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Final, Literal
 
 from PySide6.QtCore import Signal
 
@@ -12,6 +12,19 @@ from app.score.take import ControllerMapping
 
 Connection = Literal["none", "waiting", "open", "lost", "refused"]
 """State of the chosen device: none is chosen; not there (yet); listened to; gone; not available."""
+
+
+NO_DEVICE: Final = frozenset(
+    {
+        "capture.no_library",
+        "capture.no_system",
+        "capture.api_unknown",
+        "capture.port_refused",
+        "capture.port_taken",
+        "capture.recorder_fails",
+    }
+)
+"""Refusals that leave no device to listen to."""
 
 
 class RecordingState(State):

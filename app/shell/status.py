@@ -13,6 +13,7 @@ from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QProgressBar, QPushButton, QStatusBar, QWidget
 
 from app.editor.files import Files
+from app.editor.recording import NO_DEVICE
 from app.editor.session import Session, Severity
 from app.editor.tasks import Task, ThreadTasks
 from app.errors import Message
@@ -218,8 +219,11 @@ class StatusLine(Retranslated, QStatusBar):
             return
         message = self._log[-1][0]
         device = message.arguments.get("device", message.arguments.get("port"))
-        if message.id.startswith(("capture.", "record.")) and device is not None and (is_open or device != port):
-            self.dismiss()
+        if message.id in NO_DEVICE or (message.id.startswith("record.") and device is not None):
+            # What the whole MIDI system lacks names no device.
+            is_wanted = bool(port) and device in (None, port)
+            if is_open or not is_wanted:
+                self.dismiss()
 
     def _unfold(self) -> None:
         self._details.open_over(self._notice, tuple(self._log))

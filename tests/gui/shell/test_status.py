@@ -141,21 +141,33 @@ def test_much_work_at_once_leaves_room_for_its_names(program: Program, qtbot: Qt
     qtbot.waitUntil(lambda: not reported())
 
 
+@pytest.mark.parametrize("said", [Message("capture.port_taken", {"port": "Aerophone"}), Message("capture.no_system")])
 @pytest.mark.parametrize(
     ("change", "goes"),
     [
         ({"port": "", "connection": "none"}, True),
-        ({"port": "EWI USB", "connection": "refused"}, True),
         ({"connection": "open"}, True),
         ({"connection": "lost"}, False),
     ],
 )
 def test_a_warning_about_a_device_goes_with_the_choice_of_it(
-    program: Program, change: dict[str, str], goes: bool
+    program: Program, change: dict[str, str], goes: bool, said: Message
 ) -> None:
     status, session = program.window.status, program.session
     session.recording.set(port="Aerophone", connection="refused")
-    session.notice(Message("capture.port_taken", {"port": "Aerophone"}), Severity.ERROR)
-    assert "Aerophone" in status.notice_text
+    session.notice(said, Severity.ERROR)
+    assert status.notice_text
     session.recording.set(**change)
     assert (status.notice_text == "") is goes
+
+
+def test_a_warning_about_a_device_goes_with_the_choice_of_another_one(program: Program) -> None:
+    status, session = program.window.status, program.session
+    session.recording.set(port="Aerophone", connection="refused")
+    session.notice(Message("capture.port_taken", {"port": "Aerophone"}), Severity.ERROR)
+    session.recording.set(port="EWI USB", connection="refused")
+    assert not status.notice_text
+    # What all devices lack is not another one's.
+    session.notice(Message("capture.no_system"), Severity.ERROR)
+    session.recording.set(port="Aerophone", connection="refused")
+    assert status.notice_text
