@@ -77,6 +77,15 @@ _LACKING_IN_QT: Final[Mapping[str, Mapping[tuple[str, str], str]]] = {
     "ja": {
         ("QFileDialog", "&Look in:"): "場所(&I):",
         ("QFileDialog", "Files of &type:"): "ファイルの種類(&T):",
+        ("QSidebar", "Remove"): "削除",
+        ("QAbstractFileIconProvider", "Drive"): "ドライブ",
+        ("QAbstractFileIconProvider", "File"): "ファイル",
+        ("QAbstractFileIconProvider", "%1 File"): "%1 ファイル",
+        ("QAbstractFileIconProvider", "File Folder"): "フォルダー",
+        ("QAbstractFileIconProvider", "Folder"): "フォルダー",
+        ("QAbstractFileIconProvider", "Alias"): "エイリアス",
+        ("QAbstractFileIconProvider", "Shortcut"): "ショートカット",
+        ("QAbstractFileIconProvider", "Unknown"): "不明",
         (
             "QFileSystemModel",
             '<b>The name "%1" cannot be used.</b>'

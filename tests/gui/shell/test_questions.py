@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox, QPushButton
+from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox, QPushButton, QTreeView
 
 from app.shell.language import Language
 from app.shell.questions import DialogQuestions
 from tests.gui.japanese import texts_of
+from tests.support.windows import child, wait_until
 from widgets.common.paths import ask_for_file, ask_for_files, ask_for_folder, ask_where_to_save
 
 SUFFIXES = (".mid", ".midi")
@@ -97,6 +98,16 @@ ASKED: Mapping[str, Callable[[Path], object]] = {
 }
 
 
+def rows_of(dialog: QFileDialog) -> list[list[str]]:
+    """What the list of files says of each that is there, once it is read: name, size, type and date."""
+    view = child(dialog, QTreeView, "treeView")
+    assert wait_until(lambda: view.model().rowCount(view.rootIndex()) > 0)
+    model, at = view.model(), view.rootIndex()
+    found = [[str(model.index(row, n, at).data() or "") for n in range(4)] for row in range(model.rowCount(at))]
+    assert found[0][0] == "a folder"
+    return found
+
+
 @pytest.mark.parametrize("name", ASKED)
 def test_file_dialogs_speak_the_language_of_the_editor(
     qt_app: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
@@ -104,11 +115,14 @@ def test_file_dialogs_speak_the_language_of_the_editor(
     """Qt's own dialog is used where the system speaks another one, and all of its texts are translated."""
     monkeypatch.setattr("app.editor.translated.system_language", lambda: "en")
     seen: list[set[str]] = []
+    (tmp_path / "a folder").mkdir()
+    (tmp_path / "a piece.mid").write_bytes(b"MThd")
 
     def look() -> None:
         dialog = QApplication.activeModalWidget()
         assert isinstance(dialog, QFileDialog)
-        seen.append({text for text in texts_of(dialog) if re.search("[A-Za-z]{3}", text)} - {str(tmp_path)})
+        found = texts_of(dialog) | {row[2] for row in rows_of(dialog)}
+        seen.append({text for text in found if re.search("[A-Za-z]{3}", text)} - {str(tmp_path)})
         cancel = next(one for one in dialog.findChildren(QPushButton) if one.text() in ("キャンセル", "Cancel"))
         seen.append({cancel.text()})
         QTest.mouseClick(cancel, Qt.MouseButton.LeftButton)
