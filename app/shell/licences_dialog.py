@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from importlib.metadata import PackageNotFoundError
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
 from app.shell.licences import data, installed
 from widgets.common.controls import Retranslated, named, wrapped
 from widgets.common.help import with_help
-from widgets.common.layouts import in_column
+from widgets.common.layouts import begin_with_size, in_column
 from widgets.common.plain import Label
 
 _SIZE = (1040, 640)
@@ -53,7 +53,7 @@ class LicencesDialog(Retranslated, QDialog):
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
         in_column(self._text, (self._list, 1), with_help(buttons), of=self)
-        self.resize(*_SIZE)
+        begin_with_size(self, QSize(*_SIZE))
         self.texted(self, title="licences_dialog.licences")
         self.retranslate()
 

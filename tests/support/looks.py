@@ -20,7 +20,9 @@ from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
 
-from PySide6.QtCore import Qt
+import numpy as np
+import soundfile
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -28,6 +30,8 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
+    QGroupBox,
+    QHeaderView,
     QLabel,
     QLineEdit,
     QRadioButton,
@@ -47,13 +51,19 @@ from app.editor.settings import Settings
 from app.errors import Message
 from app.performance.ensemble import Performance
 from app.project.autosave import Autosave
+from app.project.edit.piece import set_audio
+from app.project.edit.players import set_parameters
 from app.project.edit.takes import add_takes, comp_whole
 from app.project.importing import import_project, usual_rows
+from app.project.piece_metadata import metadata_of, save_metadata
 from app.project.recovery import Recoverable
 from app.project.running_editors import Presence
 from app.score.read import read_contents
 from app.shell.app import Program, make_application
+from app.shell.characters import bring_character
 from app.shell.commands.record import latency as show_latency
+from app.shell.licences_dialog import LicencesDialog
+from app.shell.window import FRAME
 from app.shell.workspaces import WORKSPACES
 from instrument_maps.load import bundled_maps
 from tests.gui.japanese import english_in, texts_of
@@ -66,6 +76,7 @@ from widgets.common.actions import actions
 from widgets.dialogs.import_midi import ImportDialog
 from widgets.viewport import figures
 
+OWN_CHARACTER = Path(__file__).parents[1] / "data" / "characters" / "toddler_vrm1.vrm"
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
@@ -123,6 +134,16 @@ def _cut(widget: QWidget) -> Iterator[str]:
             needed = widget.fontMetrics().horizontalAdvance(widget.currentText()) + picture
             if needed > room:
                 yield f"{widget.currentText()!r} needs {needed} px and has {room}"
+        case QGroupBox() if widget.title():
+            needed = widget.minimumSizeHint().width()
+            if needed > widget.width():
+                yield f"{widget.title()!r} needs {needed} px and has {widget.width()}"
+        case QHeaderView() if widget.orientation() == Qt.Orientation.Horizontal:
+            for place in range(widget.count()):
+                text = str(widget.model().headerData(place, widget.orientation()) or "")
+                needed, room = widget.fontMetrics().horizontalAdvance(text), widget.sectionSize(place)
+                if not widget.isSectionHidden(place) and needed > room:
+                    yield f"the heading {text!r} needs {needed} px and has {room}"
         case QTabBar():
             for place in range(widget.count()):
                 box, text = widget.tabRect(place), widget.tabText(place)
@@ -173,7 +194,7 @@ class Look:
         self.switches = switches
         settings = Settings(folder / "editor.toml")
         settings.language, settings.theme = "en", theme
-        answers = Answers()
+        answers = self.answers = Answers()
         answers.answer = "discard"
         autosave = Autosave(Presence(folder / "recovery"))
         self.program = Program(settings, ImmediateTasks(), answers, autosave, audible=False)
@@ -182,6 +203,9 @@ class Look:
         self.found: dict[str, str] = {}
         self.language = "en"
         self.window.resize(*size)
+        self.room = QSize(size[0], size[1] - FRAME.height())
+        """For a dialog, below its title bar."""
+        patch("widgets.common.layouts.room_for", lambda dialog: self.room).start()
         # Where things are does not depend on the players' motion.
         live = self.program.generator.live
         live.work = live.judge = lambda stop_requested: False
@@ -213,6 +237,11 @@ class Look:
         self.settle()
         name = f"{state}_{self.language}"
         found = set(faults(self.application))
+        for dialog in self.application.topLevelWidgets():
+            least = dialog.minimumSizeHint().expandedTo(dialog.minimumSize())
+            if isinstance(dialog, QDialog) and dialog.isVisible() and least.boundedTo(self.room) != least:
+                where = f"{self.room.width()} x {self.room.height()}"
+                self.found[f"{dialog.objectName()} needs {least.width()} x {least.height()} and has {where}"] = name
         for _ in range(_TRIES):
             if found:
                 # What was said only just now may not have its room yet, on a busy machine for some turns.
@@ -331,6 +360,13 @@ class Look:
             "midi_devices": lambda: self.do("record.devices"),
             "latency": lambda: show_latency(self.program.editor),
             "choreography": self._choreography,
+            "rules": lambda: self.do("file.rules"),
+            "characters": lambda: self.do("application.characters"),
+            "character": lambda: bring_character(self.program.editor, OWN_CHARACTER),
+            "stream": lambda: self.do("stream.settings"),
+            "licences": lambda: LicencesDialog(self.window).open(),
+            "metadata_differences": self._metadata_differences,
+            "follow_recording": self._follow_recording,
         }
         for name, show in steps.items():
             show()
@@ -343,6 +379,22 @@ class Look:
         self.window.palette_popup.field.setText("zzzz")
         self.at("palette")
         self.window.palette_popup.hide()
+
+    def _metadata_differences(self) -> None:
+        player = self.session.project.players[0].id
+        self.answers.path = self.folder / "jazz.toml"
+        save_metadata(metadata_of(set_parameters(self.session.project, (player,), style="jazz")), self.answers.path)
+        self.do("file.compare_metadata")
+
+    def _follow_recording(self) -> None:
+        """With a recording in the piece, which has a lane then."""
+        path = self.folder / "tone.wav"
+        if not path.exists():
+            soundfile.write(path, 0.1 * np.sin(np.arange(22_050) * 0.1), 22_050)
+        self.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
+        # It is read beside the window.
+        self.settle()
+        self.do("play.follow_recording")
 
     def _choreography(self) -> None:
         self.do("dancers.add")

@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, TypeAlias, TypeVar
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QBoxLayout, QDialog, QFormLayout, QHBoxLayout, QLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLayout,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
 
 from widgets.common.controls import Caption
 
@@ -19,6 +28,8 @@ pixels; `STRETCH`."""
 Margins: TypeAlias = int | tuple[int, int, int, int]
 _FRAME: Final = QSize(40, 80)
 """Room left for a window's frame and the desktop's bars, pixels."""
+_LEAST_SCROLLED_PX: Final = 200
+"""Height of what scrolls, at least."""
 
 
 def in_row(
@@ -59,7 +70,40 @@ def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
 
 def begin_with_size(dialog: QDialog, size: QSize) -> None:
     """Give a dialog a size, as far as the screen has room for it. By itself Qt takes two thirds of it at most."""
-    dialog.resize(size.boundedTo(dialog.screen().availableSize() - _FRAME))
+    dialog.resize(size.boundedTo(room_for(dialog)))
+
+
+def room_for(dialog: QDialog) -> QSize:
+    """The room that its screen has for a dialog, without its frame."""
+    return dialog.screen().availableSize() - _FRAME
+
+
+class Scrolled(QScrollArea):
+    """Contents as wide and high as they ask, which scroll up and down where there is less room; never sideways."""
+
+    def __init__(self, layout: QLayout) -> None:
+        super().__init__()
+        layout.setContentsMargins(0, 0, 0, 0)
+        self.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setWidgetResizable(True)
+        self.setWidget(panel(layout))
+
+    def _with_bar(self, size: QSize) -> QSize:
+        return size + QSize(self.verticalScrollBar().sizeHint().width(), 0)
+
+    def sizeHint(self) -> QSize:
+        return self._with_bar(self.widget().sizeHint())
+
+    def minimumSizeHint(self) -> QSize:
+        least = self.widget().minimumSizeHint()
+        return self._with_bar(QSize(least.width(), min(least.height(), _LEAST_SCROLLED_PX)))
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Contents that need more room make the whole wider."""
+        if watched is self.widget() and event.type() == QEvent.Type.LayoutRequest:
+            self.updateGeometry()
+        return super().eventFilter(watched, event)
 
 
 def panel(layout: QLayout) -> QWidget:

@@ -24,7 +24,7 @@ from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, selectable, wrapped
 from widgets.common.help import HelpButton
 from widgets.common.icons import icon
-from widgets.common.layouts import STRETCH, in_column, in_form, in_row, panel
+from widgets.common.layouts import STRETCH, Scrolled, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
 from widgets.common.text import message_text
 from widgets.dialogs.automatic_number import AutomaticNumber
@@ -120,7 +120,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._connect()
         self.texted(self.bones.search, placeholder="character_dialog.search_bones")
         self.retranslate()
-        self.resize(1300, 760)
+        begin_with_size(self, QSize(1300, 760))
         self._choose_first()
 
     # Building
@@ -155,11 +155,11 @@ class CharacterDialog(Retranslated, QDialog):
         words.setMinimumHeight(_LEAST_WORDS_PX)
         title = in_form({"character_dialog.name": self.title, "character_dialog.height": self.body_height})
         shown = (self._picture, 0, Qt.AlignmentFlag.AlignHCenter)
-        side = panel(in_column(title, self._source, shown, (words, 1), margins=(12, 0, 0, 0), spacing=8))
-        side.setFixedWidth(PICTURE_PX.width() + 24)
+        side = panel(in_column(title, self._source, shown, (words, 1), margins=(8, 0, 0, 0), spacing=8))
+        side.setFixedWidth(PICTURE_PX.width() + 20)
         middle = in_row((self.tabs, 1), side)
         bottom = in_row(HelpButton(), self._undo, self._redo, self._reset, STRETCH, self.give, self._buttons)
-        in_column((middle, 1), bottom, of=self, margins=12)
+        in_column((Scrolled(middle), 1), bottom, of=self, margins=8)
 
     def _connect(self) -> None:
         self.body.chosen.connect(self.choose)

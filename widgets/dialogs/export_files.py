@@ -27,7 +27,7 @@ from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.performers import Player
 from metadata.load import load_bone_names
 from widgets.common.controls import Button, Caption, named, selectable, wrapped
-from widgets.common.layouts import in_column, in_form, in_row
+from widgets.common.layouts import Scrolled, begin_with_size, in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
@@ -170,6 +170,7 @@ class ExportDialog(WorkingDialog):
         self._players.itemChanged.connect(self._show_players)
         self.texted(self, title="export_dialog.export")
         self.retranslate()
+        begin_with_size(self, self.sizeHint())
 
     def _list_players(self) -> None:
         project = self._project
@@ -203,7 +204,7 @@ class ExportDialog(WorkingDialog):
         self._form.addRow(Label(), self._outcome)
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
         self.fields += (self._skeleton, self._rig, self._range, self._preroll, self._lead_in, self._rate)
-        columns = in_row((left, 1), (self._form, 2), spacing=18)
+        columns = in_row((left, 1), (named(Scrolled(self._form), "export_choices"), 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
 
@@ -378,6 +379,3 @@ class ExportDialog(WorkingDialog):
         super().retranslate()
         if not self._running and not self._show.isVisible():
             self._show_outcome()
-
-    def sizeHint(self) -> QSize:
-        return QSize(860, 440)

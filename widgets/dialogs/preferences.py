@@ -25,7 +25,7 @@ from instrument_maps.library import library, own_folder
 from widgets.common.clicks import on_click
 from widgets.common.controls import Caption, Retranslated, named
 from widgets.common.help import with_help
-from widgets.common.layouts import STRETCH, in_column, in_row, panel
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row, panel
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
@@ -119,6 +119,8 @@ class PreferencesDialog(Retranslated, QDialog):
         self.texted(self, title="preferences_dialog.preferences")
         self.texted(self._open, text="preferences_dialog.show_folder")
         self.refresh()
+        # Room for the list of shortcuts.
+        begin_with_size(self, QSize(760, 560))
 
     def _list(self, choice: Choice) -> QWidget:
         field = self._lists[choice.name] = named(ComboBox(), f"preferences_{choice.name}")
@@ -181,7 +183,3 @@ class PreferencesDialog(Retranslated, QDialog):
             else:
                 self._radios[choice.name][chosen].setChecked(True)
         self._show_instruments()
-
-    def sizeHint(self) -> QSize:
-        """Room for the list of shortcuts."""
-        return QSize(760, 560)

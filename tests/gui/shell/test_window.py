@@ -30,9 +30,10 @@ from app.shell.app import Program
 from app.shell.window import FRAME, Window
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
-from tests.support.windows import child
+from tests.support.windows import child, wait_until
 from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
+from widgets.timeline.lanes.recording.waveform import WaveformLane
 
 PANELS = {
     "players": Qt.DockWidgetArea.LeftDockWidgetArea,
@@ -361,3 +362,15 @@ def test_a_dancer_of_the_import_is_part_of_it(empty: Program, answers: Answers) 
         assert [dancer.name for dancer in project.dancers] == ["Dancer"] * dances
         assert not empty.session.document.done
         assert answers.asked[-1] == "import"
+
+
+def test_the_empty_audio_lane_says_how_audio_comes_and_asks_for_it(program: Program, answers: Answers) -> None:
+    trigger(program, "lanes.audio")
+    lane = child(program.window.timeline, WaveformLane)
+    QApplication.processEvents()
+    assert lane.isVisible()
+    for hint in ("File > Import Audio", "double-click"):
+        assert hint in lane.empty_text()
+    answers.asked.clear()
+    QTest.mouseDClick(lane.plot, Qt.MouseButton.LeftButton, pos=lane.plot.rect().center())
+    assert wait_until(lambda: answers.asked == ["open"])

@@ -25,7 +25,7 @@ from app.score.suffixes import MUSIC
 from widgets.common.clicks import on_click
 from widgets.common.controls import Button, Caption, named, selectable
 from widgets.common.help import HelpButton
-from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row, panel
+from widgets.common.layouts import STRETCH, Scrolled, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.paths import PathEdit, ask_for_files, ask_where_to_save, dropped_paths
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -144,7 +144,8 @@ class LearnDialog(WorkingDialog):
         self.tabs.addTab(panel(in_column((self.cuts, 1), margins=(0, 8, 0, 0))), "")
         self.tabs.addTab(panel(in_column((self.body, 1), margins=(0, 8, 0, 0))), "")
         self.texted(self.tabs, tabs=("body_panel.cuts", "body_panel.body"))
-        in_column((self._top, 2), (self.tabs, 3), form, self._state, bottom, of=self, margins=14, spacing=10)
+        choices = in_column((self._top, 2), (self.tabs, 3), form, self._state, spacing=10)
+        in_column((Scrolled(choices), 1), bottom, of=self, margins=8, spacing=10)
 
     def _connect(self) -> None:
         session = self._session

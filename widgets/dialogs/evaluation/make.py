@@ -22,7 +22,7 @@ from app.formats.video import SUFFIXES
 from app.project.model import Project
 from app.rig.motion_file import SUFFIXES as MOTION_SUFFIXES
 from widgets.common.controls import Button, Caption, Check, named, selectable, wrapped
-from widgets.common.layouts import in_column, in_form, in_row
+from widgets.common.layouts import Scrolled, begin_with_size, in_column, in_form, in_row
 from widgets.common.paths import PathEdit, ask_for_file, ask_for_folder, show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import message_text
@@ -118,6 +118,7 @@ class EvaluationDialog(WorkingDialog):
         self._bars.changed.connect(self._show_state)
         self.texted(self, title="evaluation_dialog.title")
         self.retranslate()
+        begin_with_size(self, QSize(720, 700))
 
     def _lay_out(self) -> None:
         film_button = Button("evaluation_dialog.choose", lambda: self._choose(self._film), "evaluation_browse_film")
@@ -160,7 +161,8 @@ class EvaluationDialog(WorkingDialog):
             *(film_button, keyframes_button, keyframes_folder, folder_button),
         )
         buttons = self._box("evaluation_dialog.make", self.start, self._show_folder)
-        in_column(form, (self._state, 1), self._under_way, self._progress, buttons, of=self)
+        choices = in_column(form, (self._state, 1))
+        in_column((Scrolled(choices), 1), self._under_way, self._progress, buttons, of=self)
 
     def start(self) -> None:
         """Begin the evaluation."""
@@ -309,9 +311,6 @@ class EvaluationDialog(WorkingDialog):
         super().retranslate()
         if not self._running and not self._show.isVisible():
             self._show_state()
-
-    def sizeHint(self) -> QSize:
-        return QSize(720, 700)
 
 
 def _seconds(least: float, most: float, value: float, name: str) -> QDoubleSpinBox:

@@ -33,7 +33,7 @@ from app.messages import text
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable, wrapped
 from widgets.common.help import with_help
 from widgets.common.instrument_name import language
-from widgets.common.layouts import in_column, in_row
+from widgets.common.layouts import begin_with_size, in_column, in_row
 from widgets.common.paths import ask_for_file, ask_for_files, ask_for_folder, dropped_paths, show_folder
 from widgets.common.plain import Label
 from widgets.common.text import message_text
@@ -92,7 +92,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
         self._lay_out()
         self.texted(self, title="results_dialog.title")
         self.retranslate()
-        self.resize(_SIZE)
+        begin_with_size(self, _SIZE)
 
     def _lay_out(self) -> None:
         box = QDialogButtonBox()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt, QTimer
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QPainter, QPen
 from PySide6.QtWidgets import QMenu, QWidget
 
@@ -16,6 +16,7 @@ from app.errors import Message
 from app.project.edit.piece import set_offset
 from app.project.model import Project
 from app.project.undoable_document import Change
+from widgets.common.actions import actions
 from widgets.common.clicks import on_click
 from widgets.common.menus import add_actions
 from widgets.common.numbers import number_text
@@ -190,7 +191,12 @@ class WaveformLane(Lane):
         audio = self.session.project.audio
         self._drag = None
         if audio is None:
-            self.session.notice(Message("audio.none_here"), Severity.WARNING)
+            choose = actions(self.session).get("file.add_audio")
+            if choose is None:
+                self.session.notice(Message("audio.none_here"), Severity.WARNING)
+            else:
+                # The dialog would keep the press from ending.
+                QTimer.singleShot(0, choose.trigger)
         elif not self.anchors.double_click(mouse):
             self._type_offset()
 
