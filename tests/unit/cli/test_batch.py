@@ -26,15 +26,17 @@ from app.cli.batch_inputs import OWN_FOLDERS, own_digests, piece_digest
 from app.cli.cluster import check_worker, machine_facts, probe
 from app.cli.status import BAD_INPUT, BAD_USE, DONE, PARTIAL, STOPPED
 from app.errors import UsageError
+from app.export.file_names import REPORT
 from app.project.model import map_choices, project_from_score
 from app.project.recording import AudioTrack
 from app.project.storage import save
+from app.score.chunks import INCOMPLETE
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 
 ROOT = Path(__file__).parents[3]
 QUARTET = ROOT / "resources" / "examples" / "quartet.mid"
-SHORT = ("--from-bar", "1", "--to-bar", "1", "--fps", "12", "--format", "fbx", "--player", "Trumpet 1")
+SHORT = ("--from-bar", "1", "--to-bar", "1", "--fps", "12", "--format", "bvh", "--player", "Trumpet 1")
 
 
 @pytest.fixture
@@ -63,22 +65,16 @@ def test_one_bad_file_stops_nothing_and_is_tried_again(
     first = results(capsys.readouterr().out)
     assert (first["one.mid"], first["more/TWO.MIDI"]) == ("exported", "exported")
     assert "is not a MIDI file" in first["bad.mid"]
-    assert (out / "one" / "Trumpet 1.fbx").exists()
+    assert (out / "one" / "Trumpet 1.bvh").exists()
     assert (out / "more" / "TWO" / "report.json").exists()
     assert not (out / "bad").exists()
 
-    written = (out / "one" / "Trumpet 1.fbx").stat().st_mtime_ns
+    written = (out / "one" / "Trumpet 1.bvh").stat().st_mtime_ns
     shutil.copy(QUARTET, pieces / "bad.mid")
     assert main(command) == DONE
     second = results(capsys.readouterr().out)
     assert second == {"bad.mid": "exported", "one.mid": "up to date", "more/TWO.MIDI": "up to date"}
-    assert (out / "one" / "Trumpet 1.fbx").stat().st_mtime_ns == written
-
-    # Other options, other files.
-    (pieces / "bad.mid").unlink()
-    (pieces / "more" / "TWO.MIDI").unlink()
-    assert main([*command, "--seed", "5"]) == DONE
-    assert results(capsys.readouterr().out) == {"one.mid": "exported"}
+    assert (out / "one" / "Trumpet 1.bvh").stat().st_mtime_ns == written
 
 
 @pytest.fixture(autouse=True)
@@ -127,10 +123,29 @@ def test_what_a_project_names_changes_its_digest(tmp_path: Path) -> None:
     assert digest(piece, to=tmp_path, jobs=7, scheduler="tcp://x:1") == digests[2]
 
 
-def test_own_rules_export_every_piece_again(pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.fixture
+def writes_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pieces are exported as soon as they are asked for, without a process."""
+
+    def write(given: list[str], piece: str, folder: str) -> BatchOutcome:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        (Path(folder) / REPORT).touch()
+        return BatchOutcome(DONE)
+
+    monkeypatch.setattr(batch, "export_piece", write)
+
+
+@pytest.mark.usefixtures("writes_at_once")
+def test_own_rules_and_other_options_export_every_piece_again(
+    pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (pieces / "bad.mid").unlink()
     (pieces / "more" / "TWO.MIDI").unlink()
     command = ["export", str(pieces), "--to", str(tmp_path / "out"), *SHORT]
+    assert main(command) == DONE
+    capsys.readouterr()
+    assert main([*command, "--seed", "5"]) == DONE
+    assert results(capsys.readouterr().out) == {"one.mid": "exported"}
     assert main(command) == DONE
     own = tmp_path / "own" / "expressions" / "calm.toml"
     own.parent.mkdir(parents=True)
@@ -142,17 +157,25 @@ def test_own_rules_export_every_piece_again(pieces: Path, tmp_path: Path, capsys
     assert results(capsys.readouterr().out) == {"one.mid": "up to date"}
 
 
-@pytest.mark.parametrize("cut", ["within an event", "between events", "before a track"])
-def test_a_truncated_piece_is_marked(
-    cut: str, pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name in ("one.mid", "more/TWO.MIDI"):
-        (pieces / name).unlink()
+def cut_off(where: str) -> bytes:
+    """The quartet's file as far as somewhere in its last track."""
     whole = QUARTET.read_bytes()
     last = whole.rindex(b"MTrk")
     event = whole.index(b"\x93", last + 100)
-    end = {"within an event": event + 2, "between events": event + 3, "before a track": last}[cut]
-    (pieces / "bad.mid").write_bytes(whole[:end])
+    return whole[: {"within an event": event + 2, "between events": event + 3, "before a track": last}[where]]
+
+
+@pytest.mark.parametrize("where", ["within an event", "between events", "before a track"])
+def test_a_file_that_breaks_off_is_incomplete(where: str, tmp_path: Path) -> None:
+    piece = tmp_path / "cut.mid"
+    piece.write_bytes(cut_off(where))
+    assert {warning.id for warning in read_midi(piece, maps=map_choices(bundled_maps().values())).warnings} & INCOMPLETE
+
+
+def test_a_truncated_piece_is_marked(pieces: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("one.mid", "more/TWO.MIDI"):
+        (pieces / name).unlink()
+    (pieces / "bad.mid").write_bytes(cut_off("between events"))
     command = ["export", str(pieces), "--to", str(tmp_path / "out"), *SHORT]
     for first in ("exported, incomplete: ", "up to date, incomplete: "):
         assert main(command) == PARTIAL
@@ -177,7 +200,7 @@ def test_what_stopped_in_the_middle_goes_on(pieces: Path, tmp_path: Path) -> Non
     done = {piece for piece, result in results(printed).items() if result == "exported"}
     assert 1 <= len(done) < 3
     # Nothing half-written stays.
-    assert len([path for path in out.rglob("*") if path.is_file()]) == 1 + 3 * len(done)
+    assert len([path for path in out.rglob("*") if path.is_file()]) == 1 + 2 * len(done)
 
     finished = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     again = results(finished.stdout)
@@ -309,10 +332,11 @@ def test_a_cluster_exports_the_pieces(pieces: Path, tmp_path: Path, capsys: pyte
     with LocalCluster(
         n_workers=1, threads_per_worker=2, processes=False, protocol="tcp", host="127.0.0.1", dashboard_address=None
     ) as cluster:
+        (pieces / "more" / "TWO.MIDI").unlink()
         command = ["export", str(pieces), "--to", str(tmp_path / "out"), *SHORT]
         assert main([*command, "--scheduler", cluster.scheduler_address]) == PARTIAL
     found = results(capsys.readouterr().out)
-    assert (found["one.mid"], found["more/TWO.MIDI"]) == ("exported", "exported")
+    assert found["one.mid"] == "exported"
     assert "is not a MIDI file" in found["bad.mid"]
     # Where the pieces were exported makes no difference.
     assert main(command) == PARTIAL

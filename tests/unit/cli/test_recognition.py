@@ -10,6 +10,8 @@ import mido
 import pytest
 
 from app.cli import main
+from app.project.model import map_choices
+from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 
 # What a part of each name is played on as soon as there is that map; what no one has is listed with its reason.
@@ -80,7 +82,15 @@ PLAYED_BY_NOBODY = [
     "Cymbals", "Cornetto", "Zink", "Harmonica", "Voice", "Bass Guitar", "Double Bass", "Synth Bass",
 ]
 # fmt: on
-NAMED = [(name, map_id) for map_id, names in PLAYED_ON.items() for name in names]
+NAMED = {name: map_id for map_id, names in PLAYED_ON.items() for name in names}
+PLAIN = [name for name in NAMED if name.isascii()]
+"""Files of many tracks have them; of the others each has a file of its own, where nothing else shows the encoding."""
+AT_ONCE = 40
+GUESSED = {
+    *(f"score.{reason}" for reason in ("outside_ranges", "instrument_from_title", "chosen_by_ensemble")),
+    *(f"score.chosen_by_range{how_far}" for how_far in ("", "_partly")),
+}
+"""Messages where neither name nor program decides."""
 
 
 def encodings(name: str) -> list[str]:
@@ -90,16 +100,14 @@ def encodings(name: str) -> list[str]:
     return ["utf-8", *(["latin-1"] if not name.isascii() and all(ord(character) < 256 for character in name) else [])]
 
 
-def inspected(
-    path: Path,
-    capsys: pytest.CaptureFixture[str],
+def track_of(
     name: bytes = b"",
     program: int | None = None,
     channel: int = 0,
     pitches: tuple[int, ...] = (60, 62, 64),
     instrument_name: bytes = b"",
-) -> dict[str, Any]:
-    """One track of those notes, inspected."""
+) -> mido.MidiTrack:
+    """A track of those notes."""
     track = mido.MidiTrack()
     if name:
         track.append(mido.MetaMessage("track_name", name=name.decode("latin-1")))
@@ -110,38 +118,68 @@ def inspected(
     for pitch in pitches:
         track.append(mido.Message("note_on", note=pitch, velocity=80, channel=channel))
         track.append(mido.Message("note_off", note=pitch, time=480, channel=channel))
-    mido.MidiFile(type=1, tracks=[mido.MidiTrack(), track], charset="latin-1").save(path)
+    return track
+
+
+def inspected(path: Path, capsys: pytest.CaptureFixture[str], *tracks: mido.MidiTrack) -> dict[str, Any]:
+    """A file of some tracks, inspected."""
+    mido.MidiFile(type=1, tracks=[mido.MidiTrack(), *tracks], charset="latin-1").save(path)
     assert main(["inspect", str(path), "--json"]) == 0
     found: dict[str, Any] = json.loads(capsys.readouterr().out)
-    assert len(found["players"]) + len(found["unplayed"]) == 1
+    assert len(found["players"]) + len(found["unplayed"]) == len(tracks)
     return found
 
 
-@pytest.mark.parametrize(("name", "map_id"), NAMED)
-def test_a_name_is_enough(name: str, map_id: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    instrument = bundled_maps().get(map_id)
-    low = instrument.range.easy_low if instrument is not None else 60
+def easy(map_id: str) -> tuple[int, int, int]:
+    """Pitches that are easy on an instrument."""
+    low = bundled_maps()[map_id].range.easy_low
+    return low, low + 2, low + 4
+
+
+def parts(path: Path, *tracks: mido.MidiTrack) -> list[tuple[str, str]]:
+    """Names of a file's parts and the instruments they have, without anything planned."""
+    mido.MidiFile(type=1, tracks=[mido.MidiTrack(), *tracks], charset="latin-1").save(path)
+    score = read_midi(path, maps=map_choices(bundled_maps().values()))
+    assert not {warning.id for warning in score.warnings} & GUESSED
+    return [(part.name, part.map_id) for part in score.parts]
+
+
+@pytest.mark.parametrize("first", range(0, len(PLAIN), AT_ONCE))
+def test_a_name_is_enough(first: int, tmp_path: Path) -> None:
+    names = PLAIN[first : first + AT_ONCE]
+    tracks = [track_of(name.encode(), program=0, pitches=easy(NAMED[name])) for name in names]
+    assert parts(tmp_path / "all.mid", *tracks) == [(name, NAMED[name]) for name in names]
+
+
+@pytest.mark.parametrize("name", [name for name in NAMED if not name.isascii()])
+def test_a_name_alone_is_enough_in_any_encoding(name: str, tmp_path: Path) -> None:
     for encoding in encodings(name):
-        found = inspected(
-            tmp_path / "one.mid", capsys, name.encode(encoding), program=0, pitches=(low, low + 2, low + 4)
-        )
+        track = track_of(name.encode(encoding), program=0, pitches=easy(NAMED[name]))
+        assert parts(tmp_path / "one.mid", track) == [(name, NAMED[name])]
+
+
+@pytest.mark.parametrize("name", ["Tpt 2", "1ère Trompette", "ﾄﾗﾝﾍﾟｯﾄ"])
+def test_a_player_has_the_name_of_the_part(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for encoding in encodings(name):
+        track = track_of(name.encode(encoding), program=0, pitches=easy("trumpet_Bb"))
+        found = inspected(tmp_path / "one.mid", capsys, track)
         assert not any("cannot be determined" in warning for warning in found["warnings"])
-        if instrument is not None:
-            (player,) = found["players"]
-            assert player["instrument"] == map_id
-            assert player["name"] == player["part"] == name
-        else:
-            # Someone stands in for it and says so, or it is listed.
-            assert found["warnings"] or found["unplayed"]
+        (player,) = found["players"]
+        assert player["instrument"] == "trumpet_Bb"
+        assert player["name"] == player["part"] == name
 
 
-@pytest.mark.parametrize("name", PLAYED_BY_NOBODY)
-def test_what_has_no_map_is_listed_with_its_reason(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for encoding in encodings(name):
-        (part,) = inspected(tmp_path / "one.mid", capsys, name.encode(encoding))["unplayed"]
-        assert part["name"] == name
+def test_what_has_no_map_is_listed_with_its_reason(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    plain = [name for name in PLAYED_BY_NOBODY if name.isascii()]
+    listed = inspected(tmp_path / "all.mid", capsys, *(track_of(name.encode()) for name in plain))["unplayed"]
+    assert [part["name"] for part in listed] == plain
+    for name in PLAYED_BY_NOBODY:
+        if not name.isascii():
+            for encoding in encodings(name):
+                (part,) = inspected(tmp_path / "one.mid", capsys, track_of(name.encode(encoding)))["unplayed"]
+                assert part["name"] == name
+                listed.append(part)
+    for part in listed:
         assert part["note_count"] == 3
         assert " " in part["reason"]
 
@@ -172,7 +210,7 @@ def test_what_has_no_map_is_listed_with_its_reason(
 def test_a_name_beats_a_number_and_a_number_nothing(
     name: str, program: int | None, channel: int, family: str | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = inspected(tmp_path / "one.mid", capsys, name.encode(), program, channel)
+    found = inspected(tmp_path / "one.mid", capsys, track_of(name.encode(), program, channel))
     if family is None:
         assert found["unplayed"]
     else:
@@ -192,7 +230,7 @@ def test_a_name_beats_a_number_and_a_number_nothing(
 def test_the_range_decides_where_nothing_else_does(
     pitches: tuple[int, ...], family: tuple[str, ...] | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = inspected(tmp_path / "one.mid", capsys, b"Part", pitches=pitches)
+    found = inspected(tmp_path / "one.mid", capsys, track_of(b"Part", pitches=pitches))
     if family is None:
         assert "Part" in found["unplayed"][0]["name"]
     else:
@@ -203,9 +241,9 @@ def test_the_range_decides_where_nothing_else_does(
 def test_the_instrument_name_helps_where_the_track_name_says_nothing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = inspected(tmp_path / "one.mid", capsys, b"A", instrument_name="トロンボーン".encode("cp932"))
+    found = inspected(tmp_path / "one.mid", capsys, track_of(b"A", instrument_name="トロンボーン".encode("cp932")))
     assert found["players"][0]["instrument"].startswith("trombone")
-    found = inspected(tmp_path / "one.mid", capsys, b"Violin", instrument_name=b"Trombone")
+    found = inspected(tmp_path / "one.mid", capsys, track_of(b"Violin", instrument_name=b"Trombone"))
     assert found["unplayed"]
 
 
@@ -237,7 +275,7 @@ def test_an_unknown_name_is_listed_with_the_remedy_and_the_remedy_works(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "one.mid"
-    (part,) = inspected(path, capsys, b"Zugpfeife")["unplayed"]
+    (part,) = inspected(path, capsys, track_of(b"Zugpfeife"))["unplayed"]
     assert "cannot be determined" in part["reason"]
     assert main(["inspect", str(path), "--json", "--assign", "zug*=oboe"]) == 0
     (player,) = json.loads(capsys.readouterr().out)["players"]
@@ -246,13 +284,13 @@ def test_an_unknown_name_is_listed_with_the_remedy_and_the_remedy_works(
 
 def test_percussion_can_be_assigned_and_taken_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "one.mid"
-    inspected(path, capsys, b"Zugpfeife")
+    inspected(path, capsys, track_of(b"Zugpfeife"))
     assert main(["inspect", str(path), "--json", "--assign", "zug*=percussion"]) == 0
     found = json.loads(capsys.readouterr().out)
     (part,) = found["unplayed"]
     assert (found["players"], found["percussion_hits"]) == ([], part["note_count"])
     assert part["reason"] == "Zugpfeife is percussion"
-    inspected(path, capsys, b"Drum Kit", channel=9)
+    inspected(path, capsys, track_of(b"Drum Kit", channel=9))
     assert main(["inspect", str(path), "--json", "--assign", "drum*=oboe"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert ([player["instrument"] for player in found["players"]], found["percussion_hits"]) == (["oboe"], 0)
@@ -265,7 +303,7 @@ def test_percussion_can_be_assigned_and_taken_back(tmp_path: Path, capsys: pytes
 def test_a_wrong_assignment_is_reported(
     assignment: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    inspected(tmp_path / "one.mid", capsys, b"Zugpfeife")
+    inspected(tmp_path / "one.mid", capsys, track_of(b"Zugpfeife"))
     assert main(["inspect", str(tmp_path / "one.mid"), "--assign", assignment]) == 2
     assert said in capsys.readouterr().err
 
