@@ -57,9 +57,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--fuzz",
         type=float,
-        default=0.25,
+        default=0.1,
         metavar="MINUTES",
-        help="of tests marked fuzz (default: 0.25)",
+        help="of tests marked fuzz (default: 0.1)",
     )
     group.addoption("--fuzz-seed", type=int, default=1, metavar="SEED", help="another seed makes other attacks")
 

@@ -1,6 +1,6 @@
 """Mutants of every kind of file: each is read or refused, at little cost, and what is read can be saved and played.
 
-One minute in all; ``./test --fuzz 30`` takes thirty. What fails is made smaller and kept in ``tests/data/hostile``,
+Six seconds in all; ``./test --fuzz 30`` takes thirty. What fails is made smaller and kept in ``tests/data/hostile``,
 where `test_found` reads it ever after.
 """
 

@@ -118,7 +118,7 @@ def released_early() -> mido.MidiFile:
     st.sampled_from(["4", "4", "2", "8.5"]),
 )
 @example(released_early(), (0.5, 1.0, 2.0), "1/2", "4")
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_everything_printed_is_true(
     file: mido.MidiFile, thresholds: tuple[float, float, float], felt_beat: str, preroll: str
 ) -> None:
@@ -139,7 +139,7 @@ def test_everything_printed_is_true(
     st.sampled_from([1.0, 3.0, 9.0, 20.0]),
     st.integers(300_000, 1_500_000),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_no_stretch_outlasts_the_lungs_without_a_word(durations: list[int], lung_s: float, tempo: int) -> None:
     notes = []
     tick = 0

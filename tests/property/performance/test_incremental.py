@@ -25,7 +25,7 @@ CALM = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, Heal
 
 
 @given(st.data())
-@settings(CALM, max_examples=60)
+@settings(CALM, max_examples=30)
 def test_plans_after_edits_are_those_of_a_fresh_performance(data: st.DataObject) -> None:
     project = piece()
     performance = Performance(project)
@@ -43,7 +43,7 @@ def test_plans_after_edits_are_those_of_a_fresh_performance(data: st.DataObject)
 
 
 @given(st.data())
-@settings(CALM, max_examples=15)
+@settings(CALM, max_examples=8)
 def test_the_motion_shown_after_edits_is_that_of_the_newest_performance(data: st.DataObject) -> None:
     project = replace(piece(), fps=FPS)
     performance = Performance(project)

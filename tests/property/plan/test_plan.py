@@ -68,7 +68,7 @@ def made(piece: Piece, lines: tuple[MonophonicPart, ...]) -> dict[str, PlayerPla
 
 
 @given(pieces())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=75, deadline=None)
 def test_breaths_end_at_onsets_and_never_lie_in_a_sounding_note(
     drawn: tuple[Piece, tuple[MonophonicPart, ...]],
 ) -> None:
@@ -112,7 +112,7 @@ def _left_out(breath: BreathEvent) -> set[object]:
 
 
 @given(pieces())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, tuple[MonophonicPart, ...]]) -> None:
     piece, lines = drawn
     plans = made(piece, lines)
@@ -141,7 +141,7 @@ def test_events_are_unique_ordered_reasoned_and_repeatable(drawn: tuple[Piece, t
 
 
 @given(pieces(), st.integers(1, 5))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_the_same_notes_a_bar_later_are_fingered_and_breathed_alike(
     drawn: tuple[Piece, tuple[MonophonicPart, ...]], bars: int
 ) -> None:

@@ -143,7 +143,7 @@ def melodies(draw: st.DrawFn) -> list[Note]:
 
 
 @given(melodies().flatmap(lambda notes: st.tuples(st.just(notes), changes(notes))))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_survivors_are_found(case: tuple[list[Note], tuple[list[Note], set[str]]]) -> None:
     old, (new, survivors) = case
     pairs = align(AlignmentPart.of(old, QUARTER), AlignmentPart.of(new, QUARTER))
@@ -170,7 +170,7 @@ def piece(path: Path) -> Project:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem[:30])
 @given(st.data())
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=8, deadline=None)
 def test_corrections_of_real_music_survive(path: Path, data: st.DataObject) -> None:
     project = piece(path)
     score = project.score

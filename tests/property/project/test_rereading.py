@@ -158,7 +158,7 @@ def file_of(tracks: Sequence[Track], flat: bool = False) -> Iterator[Path]:
 
 
 @given(st.data())
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_what_was_decided_and_edited_stays(data: st.DataObject) -> None:
     tracks = data.draw(pieces())
     with file_of(tracks) as path:
@@ -206,7 +206,7 @@ def test_what_was_decided_and_edited_stays(data: st.DataObject) -> None:
 
 
 @given(decisions, st.integers(0, 2**32))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_any_decisions_that_can_be_stored_can_be_read_by(kept: ImportDecisions, number: int) -> None:
     """A project's file is data: one that someone made up is read by, too, and what comes of it can be saved."""
     chance = random.Random(number)

@@ -23,7 +23,7 @@ WHOLE = encode(full_project(), PLACE)
 
 
 @given(projects())
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 def test_there_and_back(project: Project) -> None:
     assert list(faults(project)) == []
     content = encode(project, PLACE)
@@ -96,7 +96,7 @@ PATHS = paths(json.loads(WHOLE))
 
 
 @given(st.lists(st.tuples(st.sampled_from(PATHS), st.sampled_from(HOSTILE)), min_size=1, max_size=3))
-@settings(max_examples=1000, deadline=None)
+@settings(max_examples=500, deadline=None)
 def test_hostile_values(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
     whole = json.loads(WHOLE)
     for path, hostile in changes:
@@ -111,7 +111,7 @@ def test_hostile_values(changes: list[tuple[tuple[str | int, ...], Any]]) -> Non
 
 
 @given(st.sampled_from(PATHS))
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=200, deadline=None)
 def test_doubled_and_missing(path: tuple[str | int, ...]) -> None:
     for double in (True, False):
         whole = json.loads(WHOLE)

@@ -643,6 +643,6 @@ def is_done(correction: Correction, plan: PlayerPlan, others: tuple[Correction, 
 
 
 Day.TestCase.settings = settings(
-    max_examples=50, stateful_step_count=25, deadline=None, suppress_health_check=list(HealthCheck)
+    max_examples=30, stateful_step_count=25, deadline=None, suppress_health_check=list(HealthCheck)
 )
 TestDay = Day.TestCase
