@@ -18,7 +18,7 @@ from typing import Any, Final
 
 COMMANDS: Final = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 _KEYS: Final = {"Enter": ("Enter", 13, "\r"), "Tab": ("Tab", 9, ""), " ": ("Space", 32, " ")}
-_ANSWER_S: Final = 60.0
+_ANSWER_S: Final = 180.0
 
 
 def browser_command() -> str | None:

@@ -68,7 +68,8 @@ def test_after_some_rounds_everything_is_as_it_was(program: Program, tmp_path: P
     assert memory_mb[-1] - before.memory_mb < MOST_MB, (str(before), memory_mb)
 
 
-def test_a_leak_would_be_seen(program: Program) -> None:
+@pytest.mark.usefixtures("qt_app")
+def test_a_leak_would_be_seen() -> None:
     before = footprint()
     left = [QLabel() for _ in range(3)]
     assert (footprint().widgets_by_class - before.widgets_by_class) == {"QLabel": len(left)}

@@ -81,9 +81,13 @@ def _compare(one: Shown, other: Shown) -> np.ndarray:
     return np.array([np.abs(one.joints_cm - other.joints_cm).max(), surfaces, weights])
 
 
-@pytest.mark.parametrize("held", ["character", "instrument"])
-@pytest.mark.parametrize("fps", RATES, ids=lambda fps: f"{float(fps):.2f}")
-def test_the_files_agree(performance: Performance, fps: Fraction, held: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("held", "fps"),
+    # Rates are written alike for both; an instrument is small.
+    [*(("instrument", fps) for fps in RATES), ("character", RATES[0]), ("character", RATES[2])],
+    ids=lambda value: value if isinstance(value, str) else f"{float(value):.2f}",
+)
+def test_the_files_agree(performance: Performance, held: str, fps: Fraction, tmp_path: Path) -> None:
     scene = _scenes(performance, fps)[held]
     assert scene.clip is not None
     write_scene(tmp_path / "player.fbx", scene)

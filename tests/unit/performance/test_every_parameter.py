@@ -80,7 +80,8 @@ def test_a_change_makes_anew_what_it_says_and_no_less(parameter: Parameter) -> N
     old = before(danced)
     first = old.project.players[0]
     seen = False
-    for value in others(parameter, getattr(first.parameters, parameter.name)):
+    # One of them: random edits take any (tests/property/performance).
+    for value in others(parameter, getattr(first.parameters, parameter.name))[-1:]:
         changed = set_parameters(old.project, (first.id,), **{parameter.name: value})
         warm, cold = Performance(changed, old), Performance(changed)
         assert warm.plans == cold.plans

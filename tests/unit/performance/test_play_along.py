@@ -30,6 +30,7 @@ from metadata.load import load_skeleton
 from tests.support.live import FPS, LATE_S, QUARTER, Played, line, performance_of, played, playing_alone
 
 KINDS = ("trumpet_Bb", "trombone_tenor_F_attachment", "flute", "clarinet_Bb")
+NOTES = 10
 SLACK = 2.0
 """What is not known beforehand starts with more of a jerk, within this of the bounds, or of what a performance of the
 same notes has."""
@@ -37,7 +38,7 @@ same notes has."""
 
 @cache
 def run(instrument_id: str) -> Played:
-    notes = line(instrument_id, 16)
+    notes = line(instrument_id, NOTES)
     return played(playing_alone(instrument_id, notes), notes)
 
 
@@ -101,7 +102,7 @@ def test_soon_after_every_onset_the_controls_are_those_of_the_performance(instru
 @pytest.mark.parametrize("instrument_id", KINDS)
 def test_lips_fingers_and_feet_stay_where_they_belong(instrument_id: str) -> None:
     seen = run(instrument_id)
-    performance = performance_of(instrument_id, line(instrument_id, 16))
+    performance = performance_of(instrument_id, line(instrument_id, NOTES))
     player = performance.project.players[0]
     offline = offline_motion(instrument_id)
     known = {item.contact for item in breaks(seen.playing, player, offline)}

@@ -44,7 +44,7 @@ def quartet() -> Project:
 
 
 @cache
-def _planned_quartet() -> Performance:
+def planned_quartet() -> Performance:
     performance = Performance(quartet())
     performance.prepare()
     return performance
@@ -54,7 +54,7 @@ def request_of(
     project: Project, players: tuple[str, ...] = ("Trumpet 1",), source: str = "quartet.mid", last_bar: int = 1
 ) -> ExportRequest:
     # What the project has in common with the quartet was planned once, as in an editor that played it before.
-    performance = Performance(project, _planned_quartet())
+    performance = Performance(project, planned_quartet())
     chosen = tuple(player for player in project.players if player.name in players)
     dancers = tuple(dancer for dancer in project.dancers if dancer.name in players)
     assert len(chosen) + len(dancers) == len(players)

@@ -21,7 +21,7 @@ from app.performance.span import bars_span
 from app.project.model import Project
 from tests.support.fake_unreal import Studio, fake_unreal
 from tests.support.phrases import know_phrases
-from tests.unit.export.unreal.conftest import quartet
+from tests.unit.export.unreal.conftest import planned_quartet, quartet
 
 PYTHON = Path(__file__).parents[4] / "resources" / "unreal" / "Suisou" / "Content" / "Python"
 
@@ -88,7 +88,7 @@ def exported(
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "Game.uproject").write_text('{"FileVersion": 3, "EngineAssociation": "5.6"}')
     unreal = find_project(folder)
-    performance = Performance(project)
+    performance = Performance(project, planned_quartet())
     request = ExportRequest(
         performance=performance,
         players=tuple(player for player in project.players if player.name in players),
