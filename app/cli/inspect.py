@@ -24,7 +24,7 @@ from app.performance.ensemble import Performance
 from app.performance.fact_sources import breath_source, note_sources, tempo_source
 from app.performance.loudness import controller_input
 from app.performance.performance_problems import all_problems, reported_lines
-from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
+from app.plan.events_by_hand import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.model import (
     BreathEvent,
     CueEvent,

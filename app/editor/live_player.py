@@ -13,7 +13,7 @@ from app.editor.session import Session
 from app.performance.cast import performers_of
 from app.performance.motion import performance_curves
 from app.performance.play_along import PlayAlong
-from app.plan.by_hand.events import AdditiveEvent, PoseEvent
+from app.plan.events_by_hand import AdditiveEvent, PoseEvent
 from app.score.take import ControllerMapping
 
 REST_S: Final = 4.0

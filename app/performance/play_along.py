@@ -27,7 +27,7 @@ from app.performance.chunks import Pose
 from app.performance.live_breath import LiveBreath, LiveLook
 from app.performance.live_hands import FRAMES, LiveHands
 from app.performance.live_help import LiveHelp
-from app.plan.by_hand.events import AdditiveEvent, PoseEvent
+from app.plan.events_by_hand import AdditiveEvent, PoseEvent
 from app.score.bend_range import BendRanges
 from app.score.sounding import SILENCING, SoundingNotes, begins
 from app.score.take import ControllerMapping, curve_values, decoded, is_wired

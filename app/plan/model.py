@@ -13,10 +13,10 @@ import msgspec
 
 from app.errors import Message
 from app.identity_cache import IdentityCache
-from app.plan.by_hand.events import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import AdditiveEvent, PoseEvent, StyleEvent
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind, Part
-from app.plan.lips.sampled_curves import SampledCurves
+from app.plan.sampled_lip_curves import SampledCurves
 from app.score.mutes import MuteName
 from metadata.gestures import Gesture
 

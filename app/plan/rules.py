@@ -11,8 +11,8 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray
 from app.errors import Argument, Message
-from app.plan.by_hand.events import StyleEvent
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import StyleEvent
 from app.plan.gestures.possible_gestures import LoweredSpans, belongs, comes_up, may_start
 from app.plan.kinds import answered_by
 from app.plan.model import ExpressionEvent, GestureEvent, Problem, TimeFrame

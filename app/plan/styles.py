@@ -16,7 +16,7 @@ from app.errors import Message
 from app.identity_cache import IdentityCache
 from app.plan.acting import Acting
 from app.plan.by_hand.corrections import BY_HAND, Correction, PlayStyle
-from app.plan.by_hand.events import StyleEvent
+from app.plan.events_by_hand import StyleEvent
 from app.plan.kinds import GESTURE_KINDS, GESTURES
 from app.plan.model import CueEvent, GestureEvent, Planned, PlayerPlan, Problem
 from app.score.tempo import TempoMap

@@ -14,9 +14,9 @@ from app.editor.selection import EventKey
 from app.editor.session import Session
 from app.errors import Argument, Message
 from app.plan.by_hand.corrections import PoseCorrection
-from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.cues.cues import LEAD_BEATS
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import PoseEvent, StyleEvent
 from app.plan.kinds import GESTURE_KINDS
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent, PlayerPlan
 from app.project.edit import events as edit

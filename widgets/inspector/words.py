@@ -7,8 +7,8 @@ from typing import Final
 
 from app.editor.translated import tr
 from app.plan.by_hand.corrections import Correction
-from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import PoseEvent, StyleEvent
 from app.plan.model import BreathEvent, CueEvent, EmbouchureEvent, Event, ExpressionEvent, GestureEvent
 from app.plan.model import FingeringEvent as Fingered
 from app.project.edit.events import AMOUNTS, Placed

@@ -13,7 +13,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.plan.by_hand.corrections import Correction, PoseCorrection
-from app.plan.by_hand.events import PoseTarget
+from app.plan.events_by_hand import PoseTarget
 from app.project.edit import corrections as edit
 from app.project.model import Project
 from app.rig.model import InstrumentModel

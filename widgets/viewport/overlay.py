@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from app.arrays import FloatArray
 from app.editor.design_tokens import Tokens
-from app.plan.by_hand.events import PoseTarget
+from app.plan.events_by_hand import PoseTarget
 from widgets.viewport.camera import Camera
 from widgets.viewport.cast import Stage
 from widgets.viewport.contacts import ContactReading

@@ -9,8 +9,8 @@ from app.editor.session import Session
 from app.errors import Message
 from app.performance.bodies import body_of
 from app.plan.by_hand.corrections import PoseCorrection
-from app.plan.by_hand.events import PoseTarget
 from app.plan.by_hand.pose_corrections import pose_limits
+from app.plan.events_by_hand import PoseTarget
 from app.project.model import Project
 from widgets.viewport.camera import Camera
 from widgets.viewport.handles import (

@@ -19,7 +19,7 @@ from app.motion.curves.curve import rows_changed_s
 from app.plan.by_hand.additive_curve import CHANNELS, FACE
 from app.plan.by_hand.additive_events import POSED
 from app.plan.by_hand.bezier import COLUMNS, rows, sampled_rows
-from app.plan.by_hand.events import AdditiveEvent, PoseTarget
+from app.plan.events_by_hand import AdditiveEvent, PoseTarget
 from metadata.model import Body
 
 _NUMBERS: Final = {name: float(number) for number, name in enumerate(CHANNELS)}

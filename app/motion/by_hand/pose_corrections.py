@@ -12,8 +12,8 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.motion.curves.curve import Envelopes, rows_changed_s
-from app.plan.by_hand.events import PoseEvent, PoseTarget
 from app.plan.by_hand.pose_corrections import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
+from app.plan.events_by_hand import PoseEvent, PoseTarget
 from metadata.model import Body
 
 LEAST_ROOM_RAD = 1e-3

@@ -17,8 +17,8 @@ from app.motion.curves.spline import Spline
 from app.motion.faces.exertion import Exertion, exertion_of
 from app.motion.faces.lips_within_notes import firmness, tension_release, vibrato_size
 from app.motion.faces.tongue_strokes import attack_pushes, back_strokes, tip_strokes
-from app.plan.lips.sampled_curves import SampledCurves
 from app.plan.model import EmbouchureEvent, PlayerPlan, only
+from app.plan.sampled_lip_curves import SampledCurves
 from app.steps import StepTable, reading
 
 FORM_S = 0.26

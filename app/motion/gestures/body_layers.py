@@ -22,8 +22,8 @@ from app.motion.gestures.idle_gestures import beside_playing
 from app.motion.gestures.layers import LayerSamples
 from app.motion.gestures.named_gestures import with_gestures
 from app.motion.gestures.summed_angles import Angles, Sizes, Sum
-from app.plan.by_hand.events import PoseTarget
 from app.plan.by_hand.pose_corrections import BELL_LEFT, BELL_UP, NECK_SHARES, TRUNK_SHARES
+from app.plan.events_by_hand import PoseTarget
 from metadata.model import Posture
 
 EYES_BACK = 0.6

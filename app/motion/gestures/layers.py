@@ -23,7 +23,7 @@ from app.motion.gestures.held_still import held_still, holds_of
 from app.motion.gestures.idle_gestures import NOTHING_BESIDE, Concert, ConcertSamples
 from app.motion.gestures.named_gestures import Gestured, Sums
 from app.motion.gestures.nods import Nods
-from app.plan.by_hand.events import PoseTarget
+from app.plan.events_by_hand import PoseTarget
 from app.plan.kinds import GESTURE_KINDS, Part
 from app.plan.model import GestureEvent
 from app.plan.styles import shown_in_style

@@ -15,8 +15,8 @@ import numpy as np
 from app.arrays import FloatArray
 from app.motion.by_hand.pose_corrections import PoseAngles, within
 from app.motion.curves.curve import rows_changed_s
-from app.plan.by_hand.events import PoseTarget
 from app.plan.by_hand.pose_corrections import ELBOW_DEG, HANDS_FOLLOW_DEG
+from app.plan.events_by_hand import PoseTarget
 from app.plan.model import GestureEvent
 from metadata.gestures import AngleTrack, Gesture
 from metadata.model import AmplitudeScale, at_amplitude

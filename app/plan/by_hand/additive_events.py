@@ -12,8 +12,8 @@ from app.errors import Argument, Message
 from app.plan.by_hand.additive_curve import BODY_CHANNELS, CHANNELS, FACE, AdditiveCurve, CurveKey
 from app.plan.by_hand.bezier import looked_at_s, rows, sampled_rows
 from app.plan.by_hand.corrections import Correction
-from app.plan.by_hand.events import AdditiveEvent, CurveSegment, PoseTarget
 from app.plan.by_hand.pose_corrections import GENTLE_RAD_S2, LEAST_FADE_S, MINIMUM_JERK_PEAK, pose_limits
+from app.plan.events_by_hand import AdditiveEvent, CurveSegment, PoseTarget
 from app.plan.model import Planned, Problem
 from app.plan.parameters import PlayerParameters
 from app.score.tempo import TempoMap

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray
-from app.plan.by_hand.events import CurveSegment
+from app.plan.events_by_hand import CurveSegment
 
 HALVINGS: Final = 40
 """After so many the place on a segment is known to the last bits that matter."""

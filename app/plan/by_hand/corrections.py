@@ -12,9 +12,9 @@ from typing import ClassVar, TypeAlias
 from app.errors import Message
 from app.plan.by_hand.additive_curve import AdditiveCurve
 from app.plan.by_hand.correction import OfEvent, OfNote, Own
-from app.plan.by_hand.events import PoseTarget
 from app.plan.by_hand.mark_corrections import RemoveMark, SetMark
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import PoseTarget
 from app.plan.kinds import BREATH_KINDS, GESTURE_KINDS, BreathKind, GestureKind
 from app.plan.model import ExpressionEvent, GestureEvent
 from app.score.tempo import TempoMap

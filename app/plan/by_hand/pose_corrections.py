@@ -9,7 +9,7 @@ import numpy as np
 
 from app.errors import Argument, Message
 from app.plan.by_hand.corrections import BY_HAND, Correction, PoseCorrection
-from app.plan.by_hand.events import PoseEvent, PoseTarget
+from app.plan.events_by_hand import PoseEvent, PoseTarget
 from app.plan.model import Planned, Problem
 from app.plan.parameters import PlayerParameters
 from app.score.tempo import TempoMap

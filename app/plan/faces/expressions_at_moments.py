@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from app.errors import Message
-from app.plan.by_hand.events import StyleEvent
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import StyleEvent
 from app.plan.model import BreathEvent, CueEvent, ExpressionEvent, GestureEvent, TimeFrame
 from app.plan.music.ending import Ending
 from app.plan.music.piece import LineTimes, Seeds

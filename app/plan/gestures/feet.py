@@ -15,7 +15,7 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.errors import Message
-from app.plan.by_hand.events import StyleEvent
+from app.plan.events_by_hand import StyleEvent
 from app.plan.gestures.leans_and_accents import Phrase
 from app.plan.gestures.sways import Pulse
 from app.plan.kinds import GestureKind, answered_by

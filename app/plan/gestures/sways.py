@@ -10,7 +10,7 @@ import numpy as np
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.errors import Message
-from app.plan.by_hand.events import StyleEvent
+from app.plan.events_by_hand import StyleEvent
 from app.plan.model import GestureEvent, TimeFrame
 from app.plan.music.dynamics import Dynamics, amount_at_vigour
 from app.plan.music.piece import NoteTimes, Piece, Seeds

@@ -12,9 +12,9 @@ import numpy as np
 from app.arrays import BoolArray, FloatArray
 from app.plan.by_hand.corrections import Correction, SetEmbouchure
 from app.plan.lips.embouchure import strain_of, tension_of
-from app.plan.lips.sampled_curves import SampledCurves
 from app.plan.music.breath_controller import BreathEnvelope, step_means
 from app.plan.music.piece import ControllerInput, ControllerSteps, LineTimes
+from app.plan.sampled_lip_curves import SampledCurves
 from app.score.model import Note
 from app.score.tempo import TempoMap
 from instrument_maps.model import InstrumentMap

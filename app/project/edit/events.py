@@ -23,8 +23,8 @@ from app.plan.by_hand.corrections import (
     RemoveEvent,
     SetEmbouchure,
 )
-from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import PoseEvent, StyleEvent
 from app.plan.kinds import GestureKind
 from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan
 from app.project.edit.breath_preparations import lowered_with, moved_along, preparation_with, preparations_of

@@ -7,9 +7,9 @@ from typing import Final, Literal, NamedTuple, TypeAlias
 
 from app.identity_cache import IdentityCache
 from app.plan.by_hand.corrections import Correction
-from app.plan.by_hand.events import PoseEvent, StyleEvent
 from app.plan.by_hand.mark_corrections import SetMark, corrected_marks, mark_corrections
 from app.plan.event_id import EventId
+from app.plan.events_by_hand import PoseEvent, StyleEvent
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import BreathEvent, CueEvent, Event, ExpressionEvent, GestureEvent, PlayerPlan
 from app.project.model import Project

@@ -14,7 +14,7 @@ from typing import get_args
 from app.cli.commands import help_texts
 from app.messages import LANGUAGES, WORDINGS
 from app.plan.by_hand.corrections import REMOVABLE
-from app.plan.by_hand.events import PoseTarget
+from app.plan.events_by_hand import PoseTarget
 from app.plan.kinds import COMMAND_TEXTS, EVENT_TEXTS
 from app.shell.action_rows import rows
 from app.shell.language import TEXTS

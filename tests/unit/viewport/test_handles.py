@@ -11,8 +11,8 @@ import pytest
 
 from app.performance.ensemble import Performance
 from app.plan.by_hand.corrections import PoseCorrection
-from app.plan.by_hand.events import PoseTarget
 from app.plan.by_hand.pose_corrections import pose_limits
+from app.plan.events_by_hand import PoseTarget
 from instrument_maps.load import bundled_maps
 from metadata.load import load_body
 from tests.unit.viewport.poses import posed_stage, quartet

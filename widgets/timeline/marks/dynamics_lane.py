@@ -24,13 +24,13 @@ from widgets.common.menus import add_actions
 from widgets.timeline.lane import Lane, LaneItem, LaneMouse
 from widgets.timeline.marks.glyph_sheet import CALM, HAND_PX, MarkColours, Pictured, pictured
 from widgets.timeline.marks.letters import ASCENT, DESCENT, are_letters, letters_path
-from widgets.timeline.marks.roll_marks import MENU, mark_tip
 from widgets.timeline.model.gestures import MouseGesture
 from widgets.timeline.model.marks.mark_drag import MarkDrag, Zone
 from widgets.timeline.model.marks.placed_dynamics import PlacedDynamic, TimedMarks, placed_dynamics
 from widgets.timeline.model.marks.shown_marks import ShownMarks
 from widgets.timeline.plot.drawing import shade, small_font
 from widgets.timeline.plot.scrolled_picture import ScrolledPicture
+from widgets.timeline.roll.marks_on_notes import MENU, mark_tip
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 OFFERED: Final = ("ppp", "pp", "p", "mp", "mf", "f", "ff", "fff", "fp", "sf", "sfz")

@@ -28,7 +28,6 @@ from widgets.common.menus import add_actions
 from widgets.common.pitch import pitch_text
 from widgets.common.text import sentence
 from widgets.timeline.lane import GUTTER_PX, Lane, LaneItem, LaneMouse
-from widgets.timeline.marks.roll_marks import RollMarks
 from widgets.timeline.model.gestures import MouseGesture
 from widgets.timeline.model.roll.entries import EntryDrag
 from widgets.timeline.model.roll.note_table import Behind, TimedNotes
@@ -48,6 +47,7 @@ from widgets.timeline.roll.drawn_notes import Hint, Lasso, Notes, OutOfSight, Ro
 from widgets.timeline.roll.entry_arrows import EntryArrows
 from widgets.timeline.roll.fingerings_on_notes import Labels
 from widgets.timeline.roll.keyboard import KEYBOARD_PX, Keyboard
+from widgets.timeline.roll.marks_on_notes import RollMarks
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 NEEDED_PX = 221

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from app.motion.breath.breaths_that_show import LEAST_RAD, leaning_further
 from app.motion.curves.curve import moves
 from app.motion.perform import prepare
-from app.plan.by_hand.events import PoseEvent
+from app.plan.events_by_hand import PoseEvent
 from app.plan.model import GestureEvent, PlayerPlan
 from app.plan.parameters import PlayerParameters
 from app.steps import StepRuns

@@ -10,7 +10,7 @@ from app.motion.by_hand.additive_curves import Additive
 from app.motion.model import Motion
 from app.plan.by_hand.additive_curve import CHANNELS, AdditiveCurve, CurveKey
 from app.plan.by_hand.additive_events import segments
-from app.plan.by_hand.events import AdditiveEvent
+from app.plan.events_by_hand import AdditiveEvent
 from app.plan.model import PlayerPlan
 from app.rig import quaternion
 from app.rig.grip.grip_pose import hand_targets

@@ -10,7 +10,7 @@ import pytest
 
 from app.motion.by_hand.pose_corrections import within
 from app.motion.model import Motion
-from app.plan.by_hand.events import PoseEvent, PoseTarget
+from app.plan.events_by_hand import PoseEvent, PoseTarget
 from app.plan.model import PlayerPlan
 from app.rig import quaternion
 from app.rig.grip.grip_pose import hand_targets

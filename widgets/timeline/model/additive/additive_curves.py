@@ -15,7 +15,7 @@ from app.formats.json_data import decode_json
 from app.plan.by_hand.additive_curve import CHANNELS, AdditiveCurve, CurveKey
 from app.plan.by_hand.additive_events import segments
 from app.plan.by_hand.bezier import rows, sampled_rows
-from app.plan.by_hand.events import CurveSegment
+from app.plan.events_by_hand import CurveSegment
 from app.project.edit.additive import Side, curves_of
 from app.project.model import Project
 from app.score.tempo import TempoMap

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from app.arrays import FloatArray
-from app.plan.by_hand.events import PoseEvent, StyleEvent
+from app.plan.events_by_hand import PoseEvent, StyleEvent
 from app.plan.kinds import GESTURE_KINDS, GESTURES
 from app.plan.model import CueEvent, ExpressionEvent, GestureEvent
 from app.project.edit.events import OWN
