@@ -40,6 +40,10 @@ TIP_DEG: Final = 16.0
 """Angle by which the ways from ankle to ball and to the tip of the toes usually go down in standing zero poses."""
 USUAL_PART: Final = 0.65
 """Weight of the usual angle against the one that is seen where the foot stands: soles are not flat, and heels rise."""
+STILL_PALM_DEG, MOST_PALM_DEG = 10.0, 120.0
+STILL_PALM: Final = 0.9995
+"""A forearm does not turn the palm if its elbow's axis is as fixed in it as this and nearer to the upper arm's than the
+first of the angles; farther than the second no palm is held most of the time."""
 THUMB_DEG: Final = 15.0
 """Angle by which a thumb is below the plane of the palm in a T-pose."""
 SLOW_PART: Final = 3
@@ -47,6 +51,8 @@ SLOW_PART: Final = 3
 FLAT_DEG: Final = 8.0
 """and flat in most of these, to this."""
 MOST_STANCES: Final = 400
+EDGE_DEG: Final = 20.0
+"""Soles that stand flat are level to the sides as the knee's hinge is, to this."""
 
 
 def t_pose(body: Captured, rest: Mapping[str, FloatArray] | None) -> dict[str, FloatArray]:
@@ -82,14 +88,16 @@ def _trunk(body: Captured) -> dict[str, FloatArray]:
     if body.segments["spine"] in (body.segments["hips"], body.segments["chest"]):
         same = "hips" if body.segments["spine"] == body.segments["hips"] else "chest"
         found["spine"] = found[same]
-    found["head"] = _head(body, across["chest"])
+    found["head"] = _head(body, across["chest"], nexts["chest"] - body.start("chest"))
     return found
 
 
 def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> FloatArray:
     """Turn of a part of the trunk: its line is level, and the way to the next joint leans as usual."""
-    standing = body.standing
-    upright = np.median(body.within(name, body.up)[standing], axis=0)
+    upright = np.median(body.within(name, body.up)[body.standing], axis=0)
+    if name != "hips":
+        # Not the vertical: who runs leans ahead all the time.
+        upright = body.mean(name, body.top - body.start("hips"))
     along = body.mean(name, ways) if np.linalg.norm(ways, axis=1).min() > 1e-6 else upright
     plain = _framed(across, upright)
     way = quaternion.rotate(plain, along) * (0.0, 1.0, 1.0)
@@ -109,18 +117,26 @@ def _carried(line: FloatArray, seen: FloatArray, alike_deg: float = ALIKE_DEG) -
     return line if angle_deg(line, seen) < alike_deg else seen
 
 
-def _head(body: Captured, chest_line: FloatArray) -> FloatArray:
-    """Turn of the head: its eyes are level and look ahead, or it does so most of the time."""
+def _head(body: Captured, chest_line: FloatArray, chest_ways: FloatArray) -> FloatArray:
+    """Turn of the head: its eyes are level and look ahead, or it does so most of the time.
+
+    Where bones lie along an axis, as the chest and the neck do, the head is upright when this axis of it is.
+    """
     standing = body.standing
     upright = np.median(body.within("head", body.up)[standing], axis=0)
     if {"leftEye", "rightEye"} <= body.joints.keys():
         left, right = body.at("leftEye"), body.at("rightEye")
         level = _framed(body.mean("head", left - right), body.mean("head", 0.5 * (left + right) - body.at("head")))
         return quaternion.multiply(quaternion.from_axis_angle(X, np.radians(EYES_DEG)), level)
-    across = _carried(chest_line, np.median(body.within("head", unit(body.shoulder_line))[standing], axis=0))
-    crown = body.tips["head"]
+    seen = np.median(body.within("head", unit(body.shoulder_line))[standing], axis=0)
+    across = _carried(chest_line, seen)
+    crown, axis = body.tips["head"], body.mean("chest", chest_ways)
     if np.linalg.norm(crown) and angle_deg(crown, upright) < MOST_LEAN_DEG:
         upright = crown
+    elif across is chest_line and not np.linalg.norm(crown) and angle_deg(axis, upright) < MOST_LEAN_DEG:
+        upright = axis
+    if across is chest_line and abs(angle_deg(across, upright) - 90.0) < MOST_LEAN_DEG / 2.0:
+        return _framed(across, upright)
     return _framed(across - upright * (across @ upright) / (upright @ upright), upright)
 
 
@@ -145,7 +161,21 @@ def _limb(
         if rest is not None and abs(np.degrees(angle)) > MOST_TWIST_DEG:
             angle = 0.0
         found[segment] = quaternion.multiply(quaternion.from_axis_angle(target, angle * sure), before)
+    if rest is None and not leg and body.in_line(limb):
+        found[limb[1]] = _as_upper(body, limb, sign, found)
     return found
+
+
+def _as_upper(body: Captured, limb: list[str], sign: float, found: Mapping[str, FloatArray]) -> FloatArray:
+    """Turn of a forearm whose bone has the axes of the upper arm's: it turns the palm, so that its elbow's axis is not
+    fixed in it, and what a motion shows of it is how the palm is held most of the time."""
+    lower = limb[1]
+    across = quaternion.rotate(quaternion.conjugate(found[limb[0]]), Y)
+    turn = _limb_frame(body.mean(lower, body.at(limb[2]) - body.at(lower)), across, False, sign)
+    twist = quaternion.multiply(found[lower], quaternion.conjugate(turn))
+    palm_deg = abs(np.degrees(float(quaternion.twist_angle(twist, X))))
+    still = palm_deg < STILL_PALM_DEG and body.axis(lower, body.bend(limb, sign))[1] > STILL_PALM
+    return turn if palm_deg < MOST_PALM_DEG and not still else found[lower]
 
 
 def _limb_frame(way: FloatArray, across: FloatArray, leg: bool, sign: float) -> FloatArray:
@@ -168,6 +198,8 @@ def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatA
         if (joint := f"{side}{finger}Proximal") in body.joints
     ]  # fmt: skip
     along = body.tips[name]
+    if not knuckles and not np.linalg.norm(along) and body.in_line([side + part for part in ARM]):
+        return forearm
     if knuckles:
         along = body.mean(name, knuckles[min(1, len(knuckles) - 1)] - body.at(name))
     if np.linalg.norm(along) < 1e-9:
@@ -201,7 +233,12 @@ def _foot(body: Captured, side: str) -> FloatArray:
     if not np.linalg.norm(toes):
         return _framed(axis if sure > SURE else body.mean(name, body.hip_line), up)
     toes = unit(toes)
-    beside = _beside(axis if sure > SURE else np.cross(up, toes), toes)
+    beside = unit(np.cross(up, toes))
+    if sure > SURE:
+        # Of a foot that stands on its edge only the knee says what is level.
+        by_knee = _beside(axis, toes)
+        between = FLAT_DEG < angle_deg(by_knee, beside) < EDGE_DEG
+        beside = unit(by_knee + beside) if between else by_knee
     usual_deg = BALL_DEG if has_toes else TIP_DEG
     seen_deg = float(np.degrees(np.arcsin(np.clip(-unit(up) @ toes, -1.0, 1.0))))
     seen_deg = float(np.clip(seen_deg, 0.0, 2.0 * usual_deg))

@@ -82,7 +82,9 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
     for side, sign in SIDES:
         for kind, limb, ahead in (("knees", LEG, X), ("elbows", ARM, Y)):
             bend = body.bend([side + name for name in limb], sign)
-            for segment in limb[:2]:
+            # A forearm whose bone turns the palm has no axis of the elbow.
+            fixed = limb[:1] if limb is ARM and body.in_line([side + name for name in limb]) else limb[:2]
+            for segment in fixed:
                 axis, sure = body.hinge(side + segment, bend)
                 if sure > SURE:
                     off(kind, side + segment, quaternion.rotate(turns[side + segment], axis), ahead)
@@ -90,8 +92,10 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
                 off(kind, f"{side}LowerLeg", turned("hips", bend), X, MOST_TURNED_DEG)
         foot = f"{side}Foot"
         off("toes", foot, quaternion.rotate(turns[foot], body.tips[foot]) * LEVEL, Z)
-        toes = quaternion.rotate(body.rotations[:, body.segments[foot]], body.tips[foot])
-        off("toes", foot, turned("hips", toes * LEVEL) * LEVEL, Z, MOST_TURNED_DEG)
+        # What is across and above: toes of a runner point down and back half of the time.
+        own = quaternion.multiply(body.rotations[:, body.segments[foot]], quaternion.conjugate(turns[foot]))
+        off("toes", foot, turned("hips", quaternion.rotate(own, X) * LEVEL) * LEVEL, X, MOST_TURNED_DEG)
+        off("toes", foot, turned("hips", quaternion.rotate(own, Y)), Y, MOST_TURNED_DEG)
     return tuple(found)
 
 

@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation
 from app.arrays import FloatArray
 from app.choreography.anatomy import t_pose
 from app.choreography.body import ENDS, FEET, SEGMENTS
-from app.choreography.body_check import Checked, checked, stands, unlike
-from app.choreography.captured_joints import Captured
+from app.choreography.body_check import SURE, Checked, checked, stands, unlike
+from app.choreography.captured_joints import ARM, LEG, SIDES, Captured
 from app.choreography.joints_by_lengths import joints_by_lengths
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
 from app.choreography.sides import exchanged, joints_by_side
@@ -254,9 +254,13 @@ class _Motion:
 
 
 def _by_the_mean(body: Captured) -> list[Message]:
-    """Parts that nothing but their mean in the motion says the turn of: a head without eyes, hands without fingers."""
+    """Parts whose turn only their mean in the motion says: a head without eyes, hands without fingers, limbs
+    that never bend."""
     parts = [] if {"leftEye", "rightEye"} <= body.joints.keys() else ["head"]
-    for side in ("left", "right"):
+    for side, sign in SIDES:
+        for limb in ([side + name for name in names] for names in (ARM, LEG)):
+            if body.hinge(limb[0], body.bend(limb, sign))[1] < SURE:
+                parts.append(limb[0])
         fingers = sum(f"{side}{finger}Proximal" in body.joints for finger in ("Index", "Middle", "Ring", "Little"))
         if fingers < 2 and not body.thumbs[f"{side}Hand"].any():
             parts.append(f"{side}Hand")

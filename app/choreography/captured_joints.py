@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -23,6 +24,8 @@ ARM: Final = ("UpperArm", "LowerArm", "Hand")
 SIDES: Final = (("left", 1.0), ("right", -1.0))
 BENT_DEG: Final = (8.0, 20.0)
 """A joint that bends less in nine of ten frames says nothing about its hinge, one that bends more says it for sure."""
+IN_LINE_DEG: Final = 3.0
+"""Bones lie along the same of their axes to this."""
 FIXED: Final = (0.9, 0.97)
 """Length of the mean of a hinge's unit axes, seen from a bone: less and it is no hinge, more and it is one for sure."""
 
@@ -89,16 +92,24 @@ class Captured:
 
     def hinge(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
         """Return the axis (3,) of a hinge in a bone, and how sure it is, 0 to 1."""
-        axes = self.within(segment, bend)
-        sizes = np.linalg.norm(axes, axis=1)
-        total = axes.sum(axis=0)
-        fixed = float(np.linalg.norm(total) / max(sizes.sum(), 1e-12))
+        total, fixed = self.axis(segment, bend)
         return unit(total), min(self.bent(bend), _share(fixed, FIXED))
+
+    def axis(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
+        """Return the sum (3,) of a bend's axes in a bone, and its length as a share of theirs: 1 if they are one."""
+        axes = self.within(segment, bend)
+        total: FloatArray = axes.sum(axis=0)
+        return total, float(np.linalg.norm(total) / max(np.linalg.norm(axes, axis=1).sum(), 1e-12))
 
     def bent(self, bend: FloatArray) -> float:
         """Return how surely a joint bends at all, 0 to 1."""
         sine = min(1.0, float(np.percentile(np.linalg.norm(bend, axis=1), 90)))
         return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
+
+    def in_line(self, limb: Sequence[str]) -> bool:
+        """Return whether both parts of a limb lie along the same axis of their bones, as programs lay them."""
+        upper, lower = (self.mean(start, self.at(end) - self.at(start)) for start, end in pairwise(limb))
+        return angle_deg(upper, lower) < IN_LINE_DEG
 
     @property
     def up(self) -> FloatArray:

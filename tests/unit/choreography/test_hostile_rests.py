@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.read_motion import guesses, motion_of
@@ -175,3 +176,45 @@ def test_feet_that_point_back_are_named() -> None:
         assert caught.value.message.id == "motion.misread"
         joints = str(caught.value.message.arguments["joints"])
         assert re.search(r"\b(left|right)Foot 1[0-8]\d°", joints), joints
+
+
+def _turned(bvh: BvhClip, turns: dict[str, FloatArray]) -> BvhClip:
+    """The clip with turns (F, 4) of some bones, each in its own axes, after its own."""
+    rotations = np.array(bvh.rotations_xyzw)
+    for name, turn in turns.items():
+        joint = bvh.names.index(name)
+        rotations[:, joint] = quaternion.multiply(rotations[:, joint], turn)
+    return replace(bvh, rotations_xyzw=rotations)
+
+
+@pytest.mark.parametrize("palm_deg", [-60.0, 70.0])
+def test_a_palm_that_is_turned_all_the_time_is_danced_so(palm_deg: float) -> None:
+    """Bones of forearms may turn the palm: then no axis of the elbow is fixed in them, and what is danced is not taken
+    for the T-pose."""
+    frames = len(SALSA.rotations_xyzw)
+    angles = np.radians(palm_deg + 8.0 * np.sin(np.arange(frames)))
+    palm = quaternion.from_axis_angle((1.0, 0.0, 0.0), angles)
+    plain = rerigged(
+        without_joints(SALSA, lambda name: re.search("Thumb|Index|Mid|Ring|Pinky", name) is not None), REST_POSES["x"]
+    )
+    read, usual = (motion_of(one, "a.bvh").clip for one in (_turned(plain, {"lForeArm": palm}), plain))
+    for name, most_deg in (("leftLowerArm", 12.0), ("leftUpperArm", 1.0), ("rightHand", 1.0)):
+        at = 1 + SEGMENTS.index(name)
+        ours, theirs = (clip.world().rotations[:, at] for clip in (read, usual))
+        off = np.degrees(
+            np.linalg.norm(
+                quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(theirs), ours)), axis=1
+            )
+        )
+        expected = abs(np.degrees(angles)) if name == "leftLowerArm" else 0.0
+        assert np.abs(off - expected).max() < most_deg, name
+
+
+def test_who_leans_ahead_all_the_time_is_danced_so() -> None:
+    """As runners do: a lean is no T-pose."""
+    plain = rerigged(SALSA, REST_POSES["x"])
+    lean = np.tile(quaternion.from_axis_angle((1.0, 0.0, 0.0), 0.45), (len(SALSA.rotations_xyzw), 1))
+    leaning = rerigged(_turned(SALSA, {"abdomen": lean}), REST_POSES["x"])
+    read, usual = (motion_of(one, "a.bvh").clip for one in (leaning, plain))
+    assert max(off_deg(read, motion_of(_turned(SALSA, {"abdomen": lean}), "b.bvh").clip).values()) < 2.0 * MOST_DEG
+    assert off_deg(read, usual)["chest"] == pytest.approx(np.degrees(0.45), abs=5.0)
