@@ -62,6 +62,7 @@ from app.score.read import read_contents
 from app.shell.app import Program, make_application
 from app.shell.characters import bring_character
 from app.shell.commands.record import latency as show_latency
+from app.shell.language import TEXTS
 from app.shell.licences_dialog import LicencesDialog
 from app.shell.window import FRAME
 from app.shell.workspaces import WORKSPACES
@@ -80,6 +81,7 @@ OWN_CHARACTER = Path(__file__).parents[1] / "data" / "characters" / "toddler_vrm
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
 """What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
+_ID = re.compile(r"\b[a-z_]+\.[a-z_]+\b")
 _TRIES = 5
 _SAME_IN_BOTH = {"日本語", "End", "L"}
 """The name of a language, and keys."""
@@ -97,10 +99,11 @@ def faults(application: QApplication) -> Iterator[str]:
 
 
 def left_over(application: QApplication, language: str) -> list[str]:
-    """Visible texts that are not in the language that is shown."""
+    """Visible texts that are not in the language that is shown, or hold the id of a text instead of it."""
     texts = {text for window in application.topLevelWidgets() if window.isVisible() for text in texts_of(window)}
     japanese = {text for text in texts if _JAPANESE.search(text)}
-    return sorted((japanese if language == "en" else english_in(texts - japanese)) - _SAME_IN_BOTH)
+    ids = {text for text in texts if TEXTS.keys() & set(_ID.findall(text))}
+    return sorted((ids | (japanese if language == "en" else english_in(texts - japanese))) - _SAME_IN_BOTH)
 
 
 def _faults_of(widget: QWidget) -> Iterator[str]:

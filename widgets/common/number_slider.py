@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from PySide6.QtCore import SIGNAL, QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QContextMenuEvent,
@@ -307,8 +309,9 @@ class NumberSlider(NumberDisplay):
             if abs(x - self._press.x()) < DRAG_PX:
                 return
             self._dragging, self._token = True, object()
-            self._drag_x = x
-            return
+        # Back where it was pressed, the value is what it was.
+        way = x - self._press.x()
+        x = self._press.x() + math.copysign(max(abs(way) - DRAG_PX, 0.0), way)
         low, high = self._ends
         per_px = (high - low) / max(self.width(), 1) if self._slides else self._step / FREE_DRAG_PX
         if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:

@@ -77,6 +77,19 @@ def test_a_drag_is_one_gesture(slider: NumberSlider) -> None:
     assert len(set(reported.tokens)) == 2
 
 
+@pytest.mark.parametrize("first", [1, 12, -12])
+def test_a_drag_that_comes_back_leaves_the_value(slider: NumberSlider, first: int) -> None:
+    reported = Reported(slider)
+    start = QPoint(80, slider.height() // 2)
+    QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=start)
+    for moved in (first, 4 * first, 40, 2 * first, first, 0):
+        QTest.mouseMove(slider, start + QPoint(moved, 0))
+        QApplication.processEvents()
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=start)
+    assert reported.values[-1] == slider.value == 0.5
+    assert max(reported.values) > 0.6
+
+
 def test_escape_takes_a_drag_back(slider: NumberSlider) -> None:
     reported = Reported(slider)
     drag(slider, 60, release=False)
@@ -293,8 +306,8 @@ def test_a_drag_back_to_where_it_began_gives_the_exact_value_back(slider: Number
     reported = Reported(slider)
     start = QPoint(40, slider.height() // 2)
     QTest.mousePress(slider, Qt.MouseButton.LeftButton, pos=start)
-    for moved in (4, 30, 4):
+    for moved in (4, 30, 0):
         QTest.mouseMove(slider, start + QPoint(moved, 0))
-    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=start + QPoint(4, 0))
+    QTest.mouseRelease(slider, Qt.MouseButton.LeftButton, pos=start)
     assert reported.values[0] != 0.5312
     assert reported.values[-1] == 0.5312
