@@ -64,7 +64,7 @@ SYSTEMS = (
 
 @dataclass
 class Answers:
-    """What pip said for one Python on one system.
+    """Answers of pip for one Python on one system.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What holds for every test."""
+"""Set-up of every test."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ os.environ["LANGUAGE"] = "en"
 
 
 PATIENCE_MS: Final = 180_000
-"""Of what waits for Qt: the machine may be busy with other tests."""
+"""Patience of all that waits for Qt: the machine may be busy with other tests."""
 
 
 class PatientQtBot(QtBot):
     """Waits longer than pytest-qt's 5 s for what a slow machine does late."""
 
     def waitUntil(self, callback: Callable[[], bool | None], *, timeout: int = PATIENCE_MS) -> None:  # noqa: N802
-        """As pytest-qt's."""
+        """Wait as pytest-qt does."""
         super().waitUntil(callback, timeout=timeout)
 
     def waitSignal(self, signal: Any, *, timeout: int = PATIENCE_MS, **options: Any) -> Any:  # noqa: N802
-        """As pytest-qt's."""
+        """Wait as pytest-qt does."""
         return super().waitSignal(signal, timeout=timeout, **options)
 
 
@@ -52,7 +52,7 @@ def qtbot(qapp: object, request: pytest.FixtureRequest) -> QtBot:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """How long readers and the window are attacked, and from where."""
+    """Declare how long readers and the window are attacked, and from where."""
     group = parser.getgroup("suisou")
     group.addoption(
         "--fuzz",

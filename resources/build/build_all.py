@@ -144,7 +144,7 @@ def main(texts: list[str] | None = None) -> int:
 
 
 def _display() -> tuple[str, ...] | None:
-    """What goes before a command that draws; None: there is no screen to draw on."""
+    """Return what goes before a command that draws; None: there is no screen to draw on."""
     if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or sys.platform != "linux":
         return ()
     return SCREEN if shutil.which(SCREEN[0]) else None

@@ -219,7 +219,7 @@ def _begun(sample: Sample) -> Sample:
 
 
 def _shortened(sample: Sample) -> Sample:
-    """Of a long tone its beginning, with a new loop where it repeats best, cross-faded."""
+    """The beginning of a long tone, with a new loop where it repeats best, cross-faded."""
     longest = round(LONGEST_S * sample.rate_hz)
     if sample.loop[1] <= longest * 1.15:
         return sample

@@ -1,4 +1,4 @@
-"""What of the body is seen: head, neck and hands, cut by material; eyes, teeth, tongue, lashes."""
+"""Visible parts of the body: head, neck and hands, cut by material; eyes, teeth, tongue, lashes."""
 
 from __future__ import annotations
 

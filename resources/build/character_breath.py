@@ -20,9 +20,9 @@ TRUNK = ("hips", "spine", "chest", "upperChest", "neck", "leftUpperLeg", "rightU
 LEAST_M, SEEN_M = 2e-6, 1e-4
 """Smaller offsets are not stored, and a mesh that moves by less has no such shape."""
 GROWS_M = {CHEST: 0.0062, BELLY: 0.0056}
-"""How far the sides go out at the middle of each."""
+"""Measure of how far the sides go out at the middle of each."""
 AHEAD, BACK = {CHEST: 1.25, BELLY: 1.7}, {CHEST: 0.75, BELLY: 0.35}
-"""How far front and back go, as shares of the sides."""
+"""Measure of how far front and back go, as shares of the sides."""
 
 
 def add_breath(path: Path) -> None:
@@ -88,7 +88,7 @@ def _column(places: dict[str, np.ndarray], column: int) -> list[float]:
 
 
 def _places_m(gltf: GLTF2) -> dict[str, np.ndarray]:
-    """Where joints are in the T-pose, whose trunk is that of the mesh's own pose."""
+    """Return where joints are in the T-pose, whose trunk is that of the mesh's own pose."""
     parents = {child: index for index, node in enumerate(gltf.nodes) for child in node.children or []}
     found = {}
     for index, node in enumerate(gltf.nodes):

@@ -21,7 +21,7 @@ DEEPER: Final = {
     "browOuterUpLeft": 1.6,
     "browOuterUpRight": 1.6,
 }
-"""How much further each goes: a raised brow about 10 mm, a lowered one about 11."""
+"""Measure of how much further each goes: a raised brow about 10 mm, a lowered one about 11."""
 DEEP_M: Final = 0.008
 """The inner brows of no source go so far up."""
 

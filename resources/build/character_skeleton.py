@@ -17,7 +17,7 @@ FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")
 PHALANGES = ("Proximal", "Intermediate", "Distal")
 THUMB_PHALANGES = ("Metacarpal", "Proximal", "Distal")
 THUMB_DIRECTION = np.array([1.0, 0.0, 1.0]) / np.sqrt(2.0)
-"""Of the left thumb in VRM's T-pose; the right one is its mirror image."""
+"""Direction of the left thumb in VRM's T-pose; the right one is its mirror image."""
 
 _TRUNK = {
     "hips": ("root", "spine05", "pelvis.L", "pelvis.R"),

@@ -29,8 +29,8 @@ class Faces:
 
 @dataclass(frozen=True)
 class Phenotype:
-    """What anny is asked for: phenotype parameters in 0..1 (gender 0 is male; age 2/3 is a young adult), local shape
-    changes in -1..1, and the height the body is brought to."""
+    """Parameters for anny: phenotype in 0..1 (gender 0 is male; age 2/3 is a young adult), local shape changes in
+    -1..1, and the height the body is brought to."""
 
     parameters: dict[str, float]
     local_changes: dict[str, float]

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 DIVISIONS: Final = 4
-"""Of a quarter."""
+"""Parts of a quarter."""
 _VALUES: Final = {
     6.0: ("whole", 1),
     4.0: ("whole", 0),
@@ -84,7 +84,7 @@ class Line:
 
 
 class Heading(NamedTuple):
-    """What is over the score: metre in quarters to the bar, key in fifths, tempi as (onset, quarters per minute)."""
+    """Heading of the score: metre in quarters to the bar, key in fifths, tempi as (onset, quarters per minute)."""
 
     title: str
     composer: str
@@ -167,7 +167,7 @@ def _listed(one: Element, line: Line, number: int) -> None:
 
 
 class _Piece(NamedTuple):
-    """As much of a note, or of a rest, as one sign says."""
+    """The part of a note, or of a rest, that one sign stands for."""
 
     onset: float
     length: float

@@ -42,7 +42,7 @@ REED = DoubleReed(
 
 FLICKS = ("Lt_a", "Lt_c2", "Lt_d2")
 FLICK_S = 0.15
-"""How long a flick key is held for an attack (estimated: long enough for the note to speak, then let go at once)."""
+"""Time a flick key is held for an attack (estimated: long enough for the note to speak, then let go at once)."""
 JOINTS = Joints(SOCKET, UP, FRONT)
 place, wall, touch = JOINTS.place, JOINTS.wall, JOINTS.touch
 

@@ -45,7 +45,7 @@ def on_round(centre: Array, radius: float, normal: Array) -> tuple[Array, Array]
 
 
 def direction(pitch_down_deg: float, yaw_left_deg: float) -> Array:
-    """Where something points in the player's frame, as the angles of a carriage say it."""
+    """Return where something points in the player's frame, as the angles of a carriage say it."""
     pitch, yaw = np.radians(pitch_down_deg), np.radians(yaw_left_deg)
     return np.array([np.sin(yaw) * np.cos(pitch), -np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
 
@@ -282,7 +282,7 @@ def _walls(shape: Bell, middle: Array, way: Array, across: Array, over: Array, d
 
 
 def _next_edge(shape: Bell, start: float) -> float:
-    """How far a straight piece may go along the profile."""
+    """Return how far a straight piece may go along the profile."""
     end = start
     while end < start + 0.12:
         end += 0.001

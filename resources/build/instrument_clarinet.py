@@ -39,7 +39,7 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True)
 class Sizes:
-    """What distinguishes the straight clarinets: distances along the body, its thickness, and the size of the keys."""
+    """Differences of the straight clarinets: distances along the body, its thickness, and the size of the keys."""
 
     reed: SingleReed = field(default_factory=SingleReed)
     barrel: float = 0.066
@@ -56,9 +56,9 @@ class Sizes:
 F_SHARP, F, E = (tuple(f"key_{note}_{hand}" for hand in ("left", "right")) for note in ("F_sharp", "F", "E"))
 """The levers of the two little fingers for a note."""
 UPPER, LOWER = 0.198, 0.417
-"""Where the upper and the lower joint end, before stretching."""
+"""Place where the upper and the lower joint end, before stretching."""
 HANDS = ((0.056, 0.2115), (0.2135, 0.354))
-"""What lies under either hand."""
+"""Spans under either hand."""
 
 
 class Clarinet:

@@ -32,11 +32,11 @@ SOCKET = np.array([0.004, -0.055, 0.235])
 """Top of the narrow joint, where the bocal goes in."""
 
 NARROW, SECOND, THIRD, BELL = 0.0, 0.040, -0.052, 0.156
-"""Where the joints' bores lie from right to left."""
+"""Place where the joints' bores lie from right to left."""
 BEHIND = -0.004
-"""How far the second joint stands behind the others, out of the little finger's way."""
+"""Measure of how far the second joint stands behind the others, out of the little finger's way."""
 TOP, END, BOW = 0.050, 0.912, 0.997
-"""Where second and third joint begin, where all end, and the lowest point of the wide bow."""
+"""Place where second and third joint begin, where all end, and the lowest point of the wide bow."""
 PIN = Pin(tube=(-0.156, 0.032), tip=0.036, most_m=0.170, tip_profile=((0.012, 0.0048), (0.0, 0.0016)), kept_m=0.014)
 """Its tube goes through the wide bow and up between second joint and bell joint."""
 

@@ -45,7 +45,7 @@ class Pin:
 
     @property
     def upper(self) -> float:
-        """Where the rod's upper end is when it is pushed in."""
+        """Return where the rod's upper end is when it is pushed in."""
         return self.tube[1] - self.kept_m - self.most_m
 
 

@@ -39,21 +39,21 @@ X, Y, Z = np.eye(3)
 HINGE = -50.0
 """Angle of the common hinge of the cups, on the player's side."""
 FIRST = 12.05
-"""Where the left index presses, in semitones above C: its cup stands between its own hole and the next."""
+"""Place where the left index presses, in semitones above C: its cup stands between its own hole and the next."""
 OFFSET = 16.0
-"""Of the ring finger's cups, which stand nearer to it than the others in line ("offset G")."""
+"""Angle of the ring finger's cups, which stand nearer to it than the others in line ("offset G")."""
 FOOT = 56.0
-"""Of the foot's hinge, on the other side."""
+"""Angle of the foot's hinge, on the other side."""
 
 
 @dataclass(frozen=True)
 class Sizes:
-    """What distinguishes flute and piccolo, in metres."""
+    """Differences of flute and piccolo, in metres."""
 
     column: float = 0.6633
     """Acoustic length of the lowest C."""
     correction: float = 0.052
-    """What the embouchure adds to it."""
+    """Length that the embouchure adds to it."""
     radius: float = 0.0100
     cup: float = 0.0080
     opening: float = 0.0032
@@ -61,7 +61,7 @@ class Sizes:
     """Height of the tone holes' rims."""
     keys: float = 1.0
     head: float = 0.172
-    """Where the head joint goes into the body."""
+    """Place where the head joint goes into the body."""
     crown: float = 0.052
     plate: tuple[float, float, float] = (0.0210, 0.0165, 0.0125)
     """Half its length, and how far it reaches around the tube to the player and away."""
@@ -69,9 +69,9 @@ class Sizes:
     axis: tuple[float, float, float] = (0.0, -0.0152, 0.0072)
     hole: tuple[float, float] = (0.0061, 0.0053)
     bearing: tuple[float, float] = (0.0014, 93.0)
-    """Where the tube lies on the left index finger: how far past its key, and at which angle."""
+    """Place where the tube lies on the left index finger: how far past its key, and at which angle."""
     g_sharp: float = 0.0212
-    """How far before the gap of its neighbours the touch of the G sharp key lies."""
+    """Measure of how far before the gap of its neighbours the touch of the G sharp key lies."""
     trill_touch: tuple[float, float] = (-24.0, 0.0085)
     """Angle and height of the touches of the trill keys."""
     foot: bool = True
@@ -80,7 +80,7 @@ class Sizes:
     body_material: str = "silver"
 
     def hole_along(self, semitones: float) -> float:
-        """Where the hole is that, when it is the first open one, gives the note so far above C."""
+        """Return where the hole is that, when it is the first open one, gives the note so far above C."""
         return self.column * 2 ** (-semitones / 12) - self.correction
 
 

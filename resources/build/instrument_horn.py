@@ -44,7 +44,7 @@ PITCH_DOWN_DEG, YAW_LEFT_DEG = 22.0, 8.0
 BELL_PLACE = np.array([-0.285, -0.402, 0.050])
 """The middle of the bell's rim in the player's frame, from the lips: at the right thigh of who sits."""
 LEADPIPE = direction(30.0, 28.0)
-"""Where the coil's upper edge goes, in the player's frame."""
+"""Place where the coil's upper edge goes, in the player's frame."""
 BELL = Bell(rim_r=0.155, scale_m=0.022, flare=0.62)
 OPEN_M = 0.175
 COIL, COIL_R = (0.330, 0.185), 0.145
@@ -84,7 +84,7 @@ class Hand:
 
 
 def hand() -> Hand:
-    """Where the right hand is put into the bell."""
+    """Return where the right hand is put into the bell."""
     f = frame()
     centre, out = _bell_axis(f)
     up = root_from_player(PITCH_DOWN_DEG, YAW_LEFT_DEG) @ np.array([0.0, 1.0, 0.0])
@@ -298,7 +298,7 @@ def _hook(model: Model, f: Frame) -> None:
 
 
 def contacts(double: bool = True) -> list[dict[str, object]]:
-    """Where a trained player's hands touch it, in the root frame."""
+    """Return where a trained player's hands touch it, in the root frame."""
     f = frame()
     front, inside, off = f.way(0, 0, 1), f.way(-0.17, 0, 0.985), f.way(0, 0.35, -0.94)
     pipe = f.at((FIRST_LEVER + 0.010, COIL[1] - COIL_R, 0.052))

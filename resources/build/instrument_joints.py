@@ -1,4 +1,4 @@
-"""What bassoon and contrabassoon share: joints side by side, with axes of their own, and a thumb over several keys."""
+"""Joints side by side, with axes of their own, and a thumb over several keys, of bassoon and contrabassoon."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ X, Y, Z = np.eye(3)
 
 @dataclass(frozen=True)
 class Sizes:
-    """What distinguishes the oboe and the English horn.
+    """Differences of the oboe and the English horn.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Sizes:
 
 
 UPPER, LOWER = 0.233, 0.480
-"""Where the upper and the lower joint of the drawing end."""
+"""Place where the upper and the lower joint of the drawing end."""
 
 PROFILE = (
     (0.0, 0.0128), (0.004, 0.0142), (0.013, 0.0150), (0.024, 0.0140), (0.036, 0.0112), (0.048, 0.0103), (0.120, 0.0107),

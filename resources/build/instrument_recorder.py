@@ -20,28 +20,28 @@ from resources.build.instrument_reeds import creased, loft
 
 X, Y, Z = np.eye(3)
 TIP_M = 0.010
-"""How far the beak's tip is between the lips."""
+"""Measure of how far the beak's tip is between the lips."""
 
 
 @dataclass(frozen=True)
 class Sizes:
-    """What distinguishes the recorders; distances from the tip, in metres."""
+    """Differences of the recorders; distances from the tip, in metres."""
 
     length: float
     head: float
-    """Where the head joint ends."""
+    """Place where the head joint ends."""
     foot: float
-    """Where the foot joint begins."""
+    """Place where the foot joint begins."""
     window: float
     holes: tuple[float, ...]
-    """Of the seven fingers."""
+    """Holes of the seven fingers."""
     thumb: float
     thick: float
     """Radius of the body."""
     beak: float
-    """How far the beak's slope reaches."""
+    """Measure of how far the beak's slope reaches."""
     rest: float
-    """Where the right thumb holds it."""
+    """Place where the right thumb holds it."""
     hole: float
     tip: tuple[float, float] = (0.0098, 0.0046)
     """Half the beak's width at the tip, and its height there."""

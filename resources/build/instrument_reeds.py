@@ -1,4 +1,4 @@
-"""What woodwind players take between their lips, and what carries the instrument: beak, reeds, ligature, thumb rest.
+"""Mouthpieces of woodwinds and their carriers: beak, reeds, ligature, thumb rest.
 
 Everything is in the frame of the mouthpiece: the origin in the middle of what is between the lips where they close
 around it, +Z the air, -Y the side of the (single) reed, +X the player's left; metres. The tip lies at negative Z.
@@ -129,7 +129,7 @@ class SingleReed:
 
     @property
     def end_z(self) -> float:
-        """Where it ends and barrel or neck begins."""
+        """Return where it ends and barrel or neck begins."""
         return self.length - self.tip_m
 
     def _reed_at(self, from_tip: ArrayLike) -> Array:
@@ -254,7 +254,7 @@ class DoubleReed:
 
     @property
     def end_z(self) -> float:
-        """Where its staple goes into the instrument or onto the bocal."""
+        """Return where its staple goes into the instrument or onto the bocal."""
         return self.blade + self.thread + self.staple - self.tip_m
 
     def pieces(self) -> Pieces:

@@ -54,7 +54,7 @@ BRASS = "gold_lacquer"
 THIN_M = 0.0018
 POST_M = 0.0017
 FINGER_M = 0.020
-"""How far from the body's wall the middle of a finger goes around it."""
+"""Measure of how far from the body's wall the middle of a finger goes around it."""
 
 ALTO_REED = SingleReed(
     tip_m=0.013, length=0.086, radius=0.0137, end_radius=0.0128, beak_length=0.036, tip_width=0.0150, table=0.0090,
@@ -83,7 +83,7 @@ HOLES = {  # along of the alto's holes, radius of their cups
 
 @dataclass(frozen=True)
 class Layout:
-    """What distinguishes the saxophones, metres.
+    """Differences of the saxophones, metres.
 
     Attributes
     ----------
@@ -187,7 +187,7 @@ class Saxophone:
         self.left_share, self.right_share = layout.left_share, self.share(layout.right, ALTO.right)
 
     def directions(self) -> tuple[Array, Array]:
-        """Where the body goes to from the neck, and its front."""
+        """Return where the body goes to from the neck, and its front."""
         right, back = np.radians([self.layout.right_deg, self.layout.back_deg])
         down = unit((-np.sin(right), -np.cos(right) * np.cos(back), -np.cos(right) * np.sin(back)))
         return down, unit(Z - down * (Z @ down))
@@ -201,7 +201,7 @@ class Saxophone:
     # Places
 
     def share(self, along: float, of_alto: float) -> float:
-        """How far around this body a hand reaches, as a share of the alto's angle."""
+        """Return how far around this body a hand reaches, as a share of the alto's angle."""
         alto = float(np.interp(of_alto, *np.transpose(ALTO.body)))
         return (alto + FINGER_M) / (self.body.radius(along) + FINGER_M)
 
@@ -261,7 +261,7 @@ class Saxophone:
             parts[index] = replace(part, shape=bodied(part.shape, *kept))
 
     def is_thin(self, body: dict[str, object], node: str, places: Array) -> bool:
-        """Whether a collision body is a post's, an arm's or a tone hole's rim that no hand comes near."""
+        """Return whether a collision body is a post's, an arm's or a tone hole's rim that no hand comes near."""
         if body["shape"] not in ("cylinder", "capsule"):
             return False
         ends = np.array([body["a_m"], body["b_m"]])
@@ -323,7 +323,7 @@ class Saxophone:
 
     @property
     def socket(self) -> tuple[Array, float]:
-        """Where the neck goes in, and how wide the tube is there."""
+        """Return where the neck goes in, and how wide the tube is there."""
         return np.asarray(self.body.start), self.body.radius(0.0)
 
     def bow_and_bell(self) -> None:
@@ -403,7 +403,7 @@ class Saxophone:
 
     @property
     def _pearl_height(self) -> float:
-        """Where a finger meets a pearl of the left hand, over the body."""
+        """Return where a finger meets a pearl of the left hand, over the body."""
         return 0.0030 + 0.0048 + 0.0038 + 0.0034 - 0.0002
 
     def front_f(self, first: float, angle: float) -> None:
@@ -666,11 +666,11 @@ class Baritone(Saxophone):
 
     @property
     def socket(self) -> tuple[Array, float]:
-        """Where the neck goes in, and how wide that tube is."""
+        """Return where the neck goes in, and how wide that tube is."""
         return self.receiver, self.layout.neck_radius[1] + 0.0010
 
     def tubes(self) -> None:
-        """As the others, with the loop between neck and body."""
+        """Tubes of the others, with the loop between neck and body."""
         super().tubes()
         down, top = self.down, np.asarray(self.body.start)
         left = self.body.normal(90.0)

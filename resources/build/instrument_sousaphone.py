@@ -28,16 +28,16 @@ SHOULDER, HIP = np.array([0.162, -0.006]), np.array([-0.284, -0.525])
 BACK, FRONT = -0.405, 0.088
 """... and behind the player and in front, from the lips ahead."""
 PITCH = 0.088
-"""How far one turn lies beside the next."""
+"""Measure of how far one turn lies beside the next."""
 FIRST_DEG, COLLAR_DEG = -240.0, 290.0
 RADII = ((-240, 0.0135), (-180, 0.020), (-90, 0.028), (0, 0.0345), (60, 0.0375), (180, 0.0445), (290, 0.0520))
 BELL = Bell(0.330, 0.0836, 0.90)
 RIM = np.array([0.085, 0.545, 0.080])
 STEM = np.array([0.205, 0.0, -0.340])
-"""Where the bell's stem stands behind the left shoulder."""
+"""Place where the bell's stem stands behind the left shoulder."""
 ELBOW_R = 0.125
 NECK = 0.070
-"""How far left of the first valve the tube from the mouthpiece comes down."""
+"""Measure of how far left of the first valve the tube from the mouthpiece comes down."""
 GRIP_DEG = 66.0
 
 
@@ -53,7 +53,7 @@ def winding(degrees: Array) -> Array:
 
 
 def radius(degrees: float) -> float:
-    """Of the tube there."""
+    """Radius of the tube there."""
     return float(np.interp(degrees, [place for place, _ in RADII], [r for _, r in RADII]))
 
 
@@ -160,7 +160,7 @@ def grip() -> tuple[Array, Array, Array, Array]:
 
 
 def contacts() -> list[dict[str, object]]:
-    """Where a trained player's hands touch it, in the root frame."""
+    """Return where a trained player's hands touch it, in the root frame."""
     middle, _, palm, ahead = grip()
     r = radius(GRIP_DEG)
     around = 0.085 / r

@@ -60,7 +60,7 @@ SECOND_PULL = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True)
 class Layout:
-    """What differs: the bell, the mouthpiece's size beside the tenor's, whether there is a second rotor."""
+    """Differences: the bell, the mouthpiece's size next to the tenor's, whether there is a second rotor."""
 
     bell: Bell
     mouthpiece: float = 1.0
@@ -272,7 +272,7 @@ def _trigger(model: Model) -> None:
 
 
 def contacts(at: Layout = TENOR) -> list[dict[str, object]]:
-    """Where a trained player's hands touch it, in the root frame."""
+    """Return where a trained player's hands touch it, in the root frame."""
     bar, inner, pull = OUTER_BRACE_Z * Z, INNER_BRACE_Z * Z, Z + 0.2 * LEFT
     # Ring and little finger close around the lower leg as far as the hand's size lets them: no fixed touch.
     return [

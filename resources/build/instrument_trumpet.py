@@ -46,7 +46,7 @@ SLIDE_X = VALVE_X + 0.004
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the parts of one instrument are, metres along its length from the rim of the mouthpiece.
+    """Places of the parts of one instrument, metres along its length from the rim of the mouthpiece.
 
     ``shank`` is the visible length of the mouthpiece, ``first_valve`` the axis of the first valve, ``front`` the bow in
     front of the leadpipe, ``rim`` the bell's rim, ``back`` the centre of its tail's bow.
@@ -70,7 +70,7 @@ class Layout:
 
     @property
     def shift(self) -> float:
-        """How much further ahead than the trumpet's the valves are, and all that lies about them."""
+        """Return how much further ahead than the trumpet's the valves are, and all that lies about them."""
         return self.first_valve - TRUMPET_FIRST_VALVE
 
     @property
@@ -389,7 +389,7 @@ def _hook(model: Model, at: Layout) -> None:
 
 
 def contacts(at: Layout = TRUMPET) -> list[dict[str, object]]:
-    """Where a trained player's hands touch it, in the root frame."""
+    """Return where a trained player's hands touch it, in the root frame."""
     first, _, last = at.valves
     inside, within, ahead = unit([0, 0.985, -0.174]), unit([0, 0.65, 0.76]), np.array([0, 0.6, -0.8])
     casing = np.array([-0.42, 0, 0.907])

@@ -41,7 +41,7 @@ from resources.build.instrument_mesh import Model, bend, joined, torus, tube, un
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the parts of one instrument are, metres.
+    """Places of the parts of one instrument, metres.
 
     Attributes
     ----------
@@ -99,7 +99,8 @@ class Layout:
 
     @property
     def inner_branch(self) -> tuple[float, float, float]:
-        """Where the branch in front of the valves stands: along the width, to the front, and its radius at the top."""
+        """Return where the branch in front of the valves stands: along the width, to the front, and its radius at the
+        top."""
         return (2.4 * self.branch_r + 0.012, self.branch_r + self.piston.casing_r + 0.014, 0.62 * self.branch_r)
 
     @property
@@ -295,7 +296,7 @@ def thumb_ring(model: Model, at: Layout, f: Frame) -> None:
 
 
 def row_contacts(at: Layout, f: Frame) -> list[dict[str, object]]:
-    """Where the right hand touches: the fingers on the row of valves, the thumb in its ring."""
+    """Return where the right hand touches: the fingers on the row of valves, the thumb in its ring."""
     up, inward = f.way(0, 1, 0), unit(f.way(-1, 0, 0.25))
     found = [
         contact(f"right.{finger}.pad", f"valve_{k + 1}", f.at(at.valve(k, at.button)), up, f"valve_{k + 1}")
@@ -306,7 +307,7 @@ def row_contacts(at: Layout, f: Frame) -> list[dict[str, object]]:
 
 
 def contacts(at: Layout) -> list[dict[str, object]]:
-    """Where a trained player's hands touch it, in the root frame."""
+    """Return where a trained player's hands touch it, in the root frame."""
     f = at.frame()
     row = row_contacts(at, f)
     if at.side_valve:

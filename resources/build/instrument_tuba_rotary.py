@@ -24,7 +24,7 @@ ROTOR_APART, ROTOR_R = 0.046, 0.020
 THUMB, THUMB_PIVOT_V, THUMB_PIVOT_W = (-0.018, -0.150, 0.118), -0.112, 0.110
 """Middle of the thumb's plate, and the height and depth of the axle above it."""
 FIFTH = (0.183, -0.143, 0.046)
-"""Where the fifth rotor begins, along its axis to the front."""
+"""Place where the fifth rotor begins, along its axis to the front."""
 FIFTH_LONG = 0.056
 
 
@@ -159,7 +159,7 @@ def _axle(model: Model, at: Rotary, f: Frame) -> None:
 
 
 def contacts(at: Rotary) -> list[dict[str, object]]:
-    """Where a trained player's hands touch it, in the root frame."""
+    """Return where a trained player's hands touch it, in the root frame."""
     f = at.frame()
     front = f.way(0, 0, 1)
     v, degrees = at.left_grip

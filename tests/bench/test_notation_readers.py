@@ -46,7 +46,7 @@ def test_all_scores(capsys: pytest.CaptureFixture[str]) -> None:
 
 @pytest.mark.bench
 def test_a_long_score_is_read_quickly(capsys: pytest.CaptureFixture[str]) -> None:
-    """As long as a symphony's movement: the time for each note, the fastest of three."""
+    """Read a score as long as a symphony's movement: the time for each note, the fastest of three."""
     path = EXAMPLES / "quartet.musicxml"
     notes = sum(len(stream.pitches) for stream in read_contents(path).channels)
     taken = []

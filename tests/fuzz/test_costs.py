@@ -1,5 +1,5 @@
-"""What the worst small files cost, of every reader and every way that was found: ``./test --fuzz`` alone, as it takes
-minutes. The table is printed with the attacks; ``python -m tests.fuzz.harness.table`` prints it by itself."""
+"""Test the cost of the worst small files, of every reader and every known way: ``./test --fuzz`` alone, as it is
+slow."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def test_a_seed_makes_the_same_mutants_again(name: str) -> None:
 
 
 def test_mutants_of_midi_are_read_on() -> None:
-    """What is changed by structure is a file still: its lengths are right."""
+    """The file is whole after its structure was changed: its lengths are right."""
     chance = random.Random(1)
     data = (seeds.ROOT / "resources/examples/quartet.mid").read_bytes()
     for _ in range(50):

@@ -19,7 +19,7 @@ ROUNDS_SMALL, ROUNDS_LARGE = 12, 1
 
 
 def check(score: Score) -> None:
-    """What holds of every score, however odd its file."""
+    """Return what holds of every score, however odd its file."""
     assert score.ticks_per_quarter > 0
     assert score.metres[0].tick == 0
     ids = [note.id for part in score.parts for note in part.notes]

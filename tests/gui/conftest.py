@@ -1,4 +1,4 @@
-"""What tests of the editor share: a session with the bundled quartet, the theme, and no silent complaints of Qt."""
+"""Fixtures of the editor's tests: a session with the bundled quartet, the theme, and no silent complaints of Qt."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _plans_known(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(autouse=True)
 def _motion_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """So is the motion of these plans; that of edited ones is made in each test."""
+    """Motion of these plans, made once; that of edited ones is made in each test."""
     know_motion(monkeypatch, lambda: planned_quartet().plans.values() if planned_quartet.cache_info().currsize else ())
 
 
@@ -132,7 +132,8 @@ def session(qt_app: QApplication, tasks: ImmediateTasks) -> Iterator[Session]:
 
 @pytest.fixture(autouse=True)
 def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
-    """What a test leaves behind is deleted before the next one begins, so that a fault shows where it is made."""
+    """Return what a test leaves behind is deleted before the next one begins, so that a fault shows where it is
+    made."""
     # What is there by now is there to stay, as the characters that the test before loaded: it is searched for garbage
     # this once, and not again after each of the others.
     gc.collect()

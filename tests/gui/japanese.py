@@ -1,4 +1,4 @@
-"""What is still English where the editor speaks Japanese."""
+"""Search for texts that are still English in a Japanese editor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How alive exported players are: ``python -m tests.support.alive_measures PIECE...`` prints a table.
+"""Measures of how alive exported players are: ``python -m tests.support.alive_measures PIECE...`` prints a table.
 
 Each piece is exported by the program's own exporter and the FBX files are read back; only loudness, pitch, beats and
 planned steps come from the plan. Motion of one bone says little of the others: what a measure leaves out its docstring
@@ -47,7 +47,7 @@ HELD_S = 1.0
 STILL_WEIGHT = 0.01
 """Lips that move by less in a held note are a plateau."""
 SMALLEST = 0.05
-"""Of smaller weights no difference between left and right is seen."""
+"""Weight below which no difference between left and right is seen."""
 BEAT_SHARE = 0.05
 SLAB_M = 0.015
 
@@ -87,12 +87,12 @@ class Read:
         return self.world[:, self.bone(name), :3, 3]
 
     def forward_rad(self, name: str) -> FloatArray:
-        """How far a joint is bowed in the world, (F,)."""
+        """Return how far a joint is bowed in the world, (F,)."""
         ahead = self.world[:, self.bone(name), :3, 2]
         return np.arcsin(np.clip(-ahead[:, 1], -1.0, 1.0))
 
     def aside_rad(self, name: str) -> FloatArray:
-        """How far a joint is turned from how it usually is, about the axis the body looks along, (F,)."""
+        """Return how far a joint is turned from how it usually is, about the axis the body looks along, (F,)."""
         turns = Rotation.from_matrix(self.world[:, self.bone(name), :3, :3])
         aside: FloatArray = -(turns * turns.mean().inv()).as_rotvec()[:, 2]
         return aside
@@ -198,10 +198,10 @@ def accents_lag_s(read: Read) -> tuple[float, int]:
 
 
 def overlap_ms(read: Read) -> tuple[str, str]:
-    """How much later the chest does what the hips did, and the head what the chest did: the lag of the greatest
+    """Return how much later the chest does what the hips did, and the head what the chest did: the lag of the greatest
     correlation of their leans aside (0.15 to 3 Hz), ms, and that correlation, from the first note to the last. Keyed
-    gestures are left out. The peak is that of a parabola. Below a correlation of about 0.8 a lag is a matter of chance.
-    """
+    gestures are left out. The peak is that of a parabola. Below a correlation of about 0.8 a lag is a matter of
+    chance."""
     swaying = (read.times_s >= read.onset_s[0]) & (read.times_s <= read.end_s[-1])
     for event in read.plan.gestures:
         if event.gesture is not None:
@@ -221,15 +221,16 @@ def overlap_ms(read: Read) -> tuple[str, str]:
 
 
 def pelvis_cm(read: Read) -> tuple[float, float]:
-    """How far the hips go fore and aft, and aside: from the 2nd to the 98th percentile, cm, while there are notes."""
+    """Return how far the hips go fore and aft, and aside: from the 2nd to the 98th percentile, cm, while there are
+    notes."""
     hips = read.place_m("hips")[read.playing]
     ranges = 100.0 * np.subtract(*np.percentile(hips, [98, 2], axis=0))
     return float(ranges[2]), float(ranges[0])
 
 
 def feet_mm(read: Read) -> tuple[float, float]:
-    """How far feet are from where they usually stand (ankle and toe joints), outside of planned steps and taps and
-    within them: the greatest distance, mm. Seated feet count too."""
+    """Return how far feet are from where they usually stand (ankle and toe joints), outside of planned steps and taps
+    and within them: the greatest distance, mm. Seated feet count too."""
     planned = np.zeros(len(read.times_s), np.bool_)
     for event in read.plan.gestures:
         if event.kind in ("step", "tap", "bow", "heel"):
@@ -248,8 +249,8 @@ def feet_mm(read: Read) -> tuple[float, float]:
 
 
 def girth_cm(read: Read) -> float:
-    """How much the chest's girth (the convex hull of a slab of the trunk's vertices) grows from the smallest to the
-    largest of the deepest breaths, cm. Trunk: vertices that chest and spine carry."""
+    """Return how much the chest's girth (the convex hull of a slab of the trunk's vertices) grows from the smallest to
+    the largest of the deepest breaths, cm. Trunk: vertices that chest and spine carry."""
     depths = sorted(read.plan.breaths, key=lambda event: -event.depth if event.kind == "breath" else 0.0)[:4]
     trunk = [read.bone(name) for name in ("spine", "chest", "upperChest") if name in read.playback.bone_names]
     chest, grown = read.bone("upperChest"), []

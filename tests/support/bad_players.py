@@ -82,7 +82,7 @@ BAD_CHARACTERS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
         "mori.glb cannot play because bones were not found",
     ),
 }
-"""What makes a character bad, which then has the id that comes back, and what has to be said of it."""
+"""Changes that make a character bad, which then has the id that comes back, and what has to be said of it."""
 
 BAD_INSTRUMENTS: dict[str, tuple[Callable[[OwnFolders], str], str]] = {
     "not installed": (lambda own: "ophicleide", "the instrument 'ophicleide' of trumpet is not installed"),

@@ -25,7 +25,7 @@ from app.rig.skeleton import rest_positions
 
 @dataclass(frozen=True)
 class Proportions:
-    """How large the parts of a body are, as multiples of those it is made from.
+    """Sizes of the parts of a body, as multiples of those of the body it is made from.
 
     ``thick`` widens hands and fingers across their length.
     """
@@ -40,7 +40,7 @@ class Proportions:
     foot: float = 1.0
 
     def matrix(self, joint: str) -> FloatArray:
-        """What the part of a joint is scaled by, (3, 3)."""
+        """Return what the part of a joint is scaled by, (3, 3)."""
         bare = re.sub("^(left|right)", "", joint)
         if re.match("Hand|Thumb|Index|Middle|Ring|Little", bare):
             across = self.hand * self.thick

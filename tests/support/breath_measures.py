@@ -1,4 +1,5 @@
-"""How often players breathe, and where: ``python -m tests.support.breath_measures FOLDER...`` prints tables.
+"""Measures of how often players breathe, and where: ``python -m tests.support.breath_measures FOLDER...`` prints
+tables.
 
 Half of the files, chosen by a hash of their names, are held out: nothing is tuned on them.
 """
@@ -62,7 +63,7 @@ class Measures(msgspec.Struct, frozen=True):
 
 
 def is_held_out(name: str) -> bool:
-    """Whether a file is kept out of tuning."""
+    """Return whether a file is kept out of tuning."""
     return hashlib.sha256(name.encode()).digest()[0] % 2 == 1
 
 
@@ -73,7 +74,7 @@ def performance_of(path: Path) -> Performance:
 
 
 def measures(performance: Performance, line: MonophonicPart, plan: PlayerPlan) -> Measures:
-    """What there is to count about one player's breaths."""
+    """Return what there is to count about one player's breaths."""
     times = line_times(line, performance.piece.clock)
     index_of = {note.id: index for index, note in enumerate(line.notes)}
     breaths = [event for event in plan.breaths if event.kind == "breath"]

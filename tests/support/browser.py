@@ -66,7 +66,7 @@ class Page:
             self.ask(f"{domain}.enable")
 
     def value(self, expression: str) -> Any:
-        """What JavaScript makes of an expression."""
+        """Return what JavaScript makes of an expression."""
         answer = self.ask("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
@@ -107,7 +107,7 @@ class Page:
         path.write_bytes(base64.b64decode(data))
 
     def troubles(self) -> list[str]:
-        """What went wrong on the page: exceptions and what the browser complained about."""
+        """Return what went wrong on the page: exceptions and what the browser complained about."""
         found = []
         for event in self.events:
             if event.get("method") == "Runtime.exceptionThrown":
@@ -118,7 +118,7 @@ class Page:
 
 
 def wait_until(check: Callable[[], Any], what: str) -> Any:
-    """What a check gives, once it gives something."""
+    """Return what a check gives, once it gives something."""
     end_s = time.monotonic() + _ANSWER_S
     while time.monotonic() < end_s:
         found = check()

@@ -19,7 +19,7 @@ _EVENT = struct.Struct("iIII")
 _MOST_BYTES = 65_536
 
 WATCHES = sys.platform == "linux"
-"""Whether the system tells which files are opened, whoever opens them."""
+"""True if the system reports which files any process opens."""
 
 
 class Canary:

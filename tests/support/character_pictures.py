@@ -33,7 +33,7 @@ from widgets.dialogs.characters import CharactersDialog
 ROOT: Final = Path(__file__).parents[2]
 FOREIGN: Final = ROOT / "tests" / "data" / "characters"
 HOLD_S: Final = 400.0
-"""How a new body holds an instrument is looked for so long, on a slow machine."""
+"""Longest search for the way a new body holds an instrument, on a slow machine."""
 
 
 class Studio:
@@ -59,7 +59,7 @@ class Studio:
 
     @property
     def working(self) -> bool:
-        """Whether something is done beside the window."""
+        """Return whether something is done beside the window."""
         tasks = self.program.tasks
         return isinstance(tasks, ThreadTasks) and bool(tasks.running)
 

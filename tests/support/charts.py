@@ -30,7 +30,7 @@ class Charts:
         return found
 
     def majority(self, written: int) -> str | None:
-        """What more charts than of any other give first; None where two are alike."""
+        """Return what more charts than of any other give first; None where two are alike."""
         votes = {label: sum(rank == 1 for rank in by.values()) for label, by in self.notes[written].items()}
         most = max(votes.values())
         first = [label for label, count in votes.items() if count == most]

@@ -16,7 +16,7 @@ from typing import Final
 BESIDES: Final = frozenset(
     ("axis", "choices", "notice", "playhead", "preview", "sought", "status", "tab", "typing", "view", "work")
 )
-"""What follows from other changes, and goes on by itself while the piece plays."""
+"""Changes that follow from others, and go on by itself while the piece plays."""
 
 _LINES: Final = """
 # The start page, the status line and the title of the window

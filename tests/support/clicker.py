@@ -26,12 +26,12 @@ Open = Callable[[], QMenu | None]
 CALM = frozenset(
     ("sought", "view", "turned", "framed", "shown", "posing", "sound", "time", "pitch", "ghosts", "tool", "follow")
 )
-"""What may stay changed before the next click."""
+"""Subjects that may stay changed before the next click."""
 NOTHING = frozenset(("unchanged",))
 TRIES = 4
 """Places at which an entry of a context menu is clicked that does nothing."""
 CHOSEN = frozenset(("chosen already",))
-"""Of several exclusive choices the one that holds was clicked, and nothing changed."""
+"""Result of a click on the one of several exclusive choices that holds: nothing changed."""
 
 
 def controls(window: QMainWindow) -> dict[str, QWidget]:

@@ -1,4 +1,4 @@
-"""What a generated dance is worth, measured on its exported file: seams, feet, beats, variety, nearness to the source.
+"""Measures of a generated dance on its exported file: seams, feet, beats, variety, nearness to the sources.
 
     python -m tests.support.dance_measures [--set tuned|judged] [--seeds N]
 
@@ -63,9 +63,9 @@ PIECES: Final = {
         "reed_trio_mozart_k229_mv1",
     ),
 }
-"""What is danced to; those that are no drums have no percussion."""
+"""Pieces that are danced to; those that are no drums have no percussion."""
 LONGEST_S: Final = 180.0
-"""So much of a piece is danced."""
+"""Greatest length of a piece that is danced."""
 
 
 # -------------------------------------------------------------------------------------------------------------- seams
@@ -152,7 +152,7 @@ def alignment(motion_s: FloatArray, music_s: FloatArray, sigma_s: float = 0.05) 
 
 @dataclass(frozen=True)
 class Alignment:
-    """Of one definition: the dance, the mean of shifted copies of it, and their 95th percentile."""
+    """Alignment by one definition: of the dance, the mean of shifted copies of it, and their 95th percentile."""
 
     found: float
     chance: float
@@ -190,7 +190,7 @@ def nearest_m(clip: MotionClip, sources: Sequence[MotionClip]) -> FloatArray:
 
 
 def longest_run(values: Sequence[int]) -> int:
-    """How often a value comes in a row at most."""
+    """Return how often a value comes in a row at most."""
     longest = run = 0
     for at, value in enumerate(values):
         run = run + 1 if at and value == values[at - 1] else 1
@@ -266,8 +266,8 @@ def one_sided(rotations: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True)
 class Measured:
-    """Of one dance; speeds in m/s, jumps over the usual jump inside the sources. How many times faster than real time
-    it was generated is by the time that its one thread ran: others on the machine are not its fault."""
+    """Measures of one dance; speeds in m/s, jumps over the usual jump inside the sources. The speed of its generation,
+    in multiples of real time, is by the time that its one thread ran: other processes do not count."""
 
     piece: str
     length_s: float
@@ -403,7 +403,7 @@ COLUMNS: Final[dict[str, tuple[str, Callable[[Measured], float]]]] = {
     "away": ("5.2f", lambda one: one.away_m),
     "faces": ("6.0f", lambda one: one.faces_deg),
 }
-"""Of the table: lengths in m, but nearness in mm; sliding and skating in mm/s."""
+"""Units of the table: lengths in m, but nearness in mm; sliding and skating in mm/s."""
 
 
 def table(rows: Sequence[Measured]) -> str:
@@ -416,7 +416,7 @@ def table(rows: Sequence[Measured]) -> str:
 
 
 def of_sources(model: ChoreographyModel) -> str:
-    """What the captures themselves measure."""
+    """Return what the captures themselves measure."""
     lines = []
     for source, clip in zip(model.sources, model.clips, strict=True):
         sliding = sliding_m_s(clip, foot_contacts(clip))

@@ -28,7 +28,7 @@ USUAL = PlayerParameters()
 
 
 class Agreement(msgspec.Struct, frozen=True):
-    """How the breaths of a line agree with the marks.
+    """Agreement of the breaths of a line with the marks.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ def agreement(row: dict[str, Any], parameters: PlayerParameters = USUAL) -> Agre
 
 
 def share_at_phrase_ends(rows: Iterable[dict[str, Any]]) -> float:
-    """Of all breaths after the first, the part that is in rests and at engraved marks."""
+    """Share of the breaths after the first that are in rests or at engraved marks."""
     found = [agreement(row) for row in rows]
     right = sum(len(one.in_rests) + len(one.at_marks) for one in found)
     return right / (right + sum(len(one.elsewhere) for one in found))

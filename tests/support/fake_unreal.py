@@ -30,7 +30,7 @@ INTERCHANGE = "Interchange.FeatureFlags.Import.FBX"
 
 @dataclass(frozen=True)
 class FbxContents:
-    """What an import takes from a file; no frames where nothing moves."""
+    """Contents of a file that an import takes; no frames where nothing moves."""
 
     bones: tuple[str, ...]
     morphs: frozenset[str]
@@ -44,7 +44,7 @@ _READ: dict[bytes, FbxContents] = {}
 
 
 def fbx_contents(path: Path) -> FbxContents:
-    """What is in a file."""
+    """Return what is in a file."""
     data = path.read_bytes()
     digest = hashlib.sha256(data).digest()
     if digest not in _READ:
@@ -754,7 +754,7 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
         _section = MovieSceneAudioSection
 
     class Tracks:
-        """What has tracks."""
+        """Object with tracks."""
 
         def __init__(self) -> None:
             self._tracks: list[Any] = []

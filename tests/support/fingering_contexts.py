@@ -108,7 +108,7 @@ def planned_labels(context: Context) -> tuple[str, ...]:
 
 
 def is_right(context: Context, labels: tuple[str, ...]) -> bool:
-    """Whether the labels fulfil one of the lists of conditions of the answer."""
+    """Return whether the labels fulfil one of the lists of conditions of the answer."""
     return any(
         all(_holds(condition, context, labels) for condition in conditions.split(";"))
         for conditions in context.answer.split(" or ")
@@ -134,7 +134,7 @@ def _fits(accepted: str, label: str) -> bool:
 
 
 def right_of(chosen: Iterable[Context]) -> dict[str, tuple[int, int]]:
-    """How many are right and how many there are, by family."""
+    """Return how many are right and how many there are, by family."""
     result: dict[str, tuple[int, int]] = {}
     for context in chosen:
         right, total = result.get(context.family, (0, 0))

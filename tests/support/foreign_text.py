@@ -44,7 +44,7 @@ from tests.support.takes import take_of
 CHARACTER = Path(__file__).parents[1] / "data" / "characters" / "toddler_vrm1.vrm"
 FIELD = re.compile(r'alt="(\w+)"')
 KEY = QKeySequence("Alt+8")
-"""What ``&8`` in a name would become."""
+"""Key that ``&8`` in a name would become."""
 PLACES = 4
 """The mouse rests at so many places across a widget that answers by itself."""
 
@@ -57,7 +57,7 @@ def hostile_score(score: Score, canary: Canary) -> Score:
 
 
 def with_more(project: Project, canary: Canary) -> Project:
-    """What a project has beside what a MIDI file has: a take, an expression that is shown, a recording."""
+    """Return what a project has beside what a MIDI file has: a take, an expression that is shown, a recording."""
     front = project.players[0]
     played = [(1.0 + 0.5 * beat, 1.45 + 0.5 * beat, 60 + beat, 0.7) for beat in range(8)]
     named = {"name": canary.name("take"), "device": canary.name("device"), "recorded": canary.name("recorded")}
@@ -198,7 +198,7 @@ class Judge:
                 self.rest(widget, place)
 
     def _places(self, widget: QWidget) -> Iterator[QPoint]:
-        """Where a tip may come up; one of ours that names nothing of a file is left alone."""
+        """Return where a tip may come up; one of ours that names nothing of a file is left alone."""
         if "<img" in widget.toolTip():
             yield widget.rect().center()
         elif any(

@@ -1,4 +1,4 @@
-"""How deep hands are in closed bodies, group by group and body by body: the judge that the quick one is held against.
+"""Depth of hands in closed bodies, group by group and body by body: the judge that the quick one is compared with.
 
 Vertices are grouped, and only groups whose middle is near enough to a body are looked at vertex by vertex: nothing is
 left out, because a group's vertices stay within its radius.
@@ -21,7 +21,7 @@ GROUP = 8
 BLOCK = 32
 """Frames looked at together."""
 STRETCH = 1.3
-"""How much further from its middle than in the bind pose a vertex of a group may come when the hand bends."""
+"""Times farther from its middle than in the bind pose a vertex of a group may come when the hand bends."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +115,8 @@ class _Blocks:
         self._wander = np.linalg.norm(high - low, axis=-1) / 2.0
 
     def possible_depths(self, body: Proxy, radii: FloatArray) -> Iterator[tuple[int, FloatArray]]:
-        """How deep anything within a radius (G,) of a point may be in a body, (n,), of each point that is near."""
+        """Return how deep anything within a radius (G,) of a point may be in a body, (n,), of each point that is
+        near."""
         # A distance changes by no more than the point moves, so nothing within reach is passed over.
         close = signed_distance(body, self._middle) < radii + self._wander
         block, point = np.nonzero(close)

@@ -283,8 +283,8 @@ def _fingerings(player: Mapping[str, Any]) -> list[str]:
 
 
 def _detached(notes: Sequence[Mapping[str, Any]]) -> list[bool]:
-    """Whether the silence before each note is how the one before was articulated: as in two neighbours of the same
-    step, or as after half of all the notes."""
+    """Return whether the silence before each note is how the one before was articulated: as in two neighbours of the
+    same step, or as after half of all the notes."""
     steps = [math.nan, *(other["onset_tick"] - one["onset_tick"] for one, other in pairwise(notes))]
     shares = [
         math.nan,
@@ -313,7 +313,7 @@ def _unserved(
     seconds: Callable[[float], float],
     note_id: str,
 ) -> list[str]:
-    """What is wrong with the breath in a rest of so many beats, `late` more in the score."""
+    """Return what is wrong with the breath in a rest of so many beats, `late` more in the score."""
     least, last, prepare = thresholds
     if rest + late >= prepare:
         requested: tuple[float, ...] = (onset - min(2 * beat, rest * beat), onset - beat, onset)
@@ -343,7 +343,7 @@ CATCH_BREATH_S, SHORTEST_NOTE_S = 0.2, 1.0 / 24.0
 
 
 def leaves_out(breath: Mapping[str, Any], note: Mapping[str, Any], following: Mapping[str, Any]) -> bool:
-    """Whether a breath says that it takes the place of a note, of which nothing would be left but for a gasp."""
+    """Return whether a breath says that it takes the place of a note, of which nothing would be left but for a gasp."""
     named = re.search(r"(?:instead|in place) of notes? (\S+) \(\S+\)(?: and (\S+) \(\S+\))?,", breath["reason"])
     step_s = following["onset_s"] - note["onset_s"]
     pitches = [_named_pitch(name) for name in named.groups() if name] if named else []
@@ -362,7 +362,7 @@ def _named_pitch(name: str) -> int:
 
 
 def _given_up_s(length_s: float) -> float:
-    """What of a note may be given up for a breath: half of it, or for the least breath all but its beginning."""
+    """Return what of a note may be given up for a breath: half of it, or for the least breath all but its beginning."""
     return max(0.5 * length_s, min(length_s - SHORTEST_NOTE_S, CATCH_BREATH_S))
 
 

@@ -15,7 +15,7 @@ T = TypeVar("T", bound=News)
 PATIENCE_S = 30.0
 """The machine may be busy with other tests."""
 QUIET_S = 5.0
-"""What has not come by then was lost on its way."""
+"""Time after which a message was lost on its way."""
 
 
 class Ear:
@@ -71,12 +71,12 @@ class Ear:
         ]
 
     def of(self, *kinds: type[News]) -> list[News]:
-        """What was reported of these kinds."""
+        """Return what was reported of these kinds."""
         return [reported for reported in self.reported if isinstance(reported, kinds)]
 
 
 def assert_mostly_in_order(received: Sequence[bytes], played: Sequence[bytes]) -> None:
-    """What was heard is what was played, but for what JACK lost: a busy machine loses some before we hear them.
+    """Return what was heard is what was played, but for what JACK lost: a busy machine loses some before we hear them.
 
     That we lose nothing is tested where JACK waits for its clients: `test_burst`.
     """

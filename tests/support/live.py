@@ -35,7 +35,7 @@ Notes = list[tuple[int, int, int]]
 
 @dataclass(frozen=True, eq=False)
 class Played:
-    """What was seen.
+    """Poses that were seen.
 
     Attributes
     ----------
@@ -54,42 +54,42 @@ class Played:
 
     @property
     def times_s(self) -> FloatArray:
-        """Of the frames."""
+        """Times of the frames."""
         times_s: FloatArray = self.motion.first_frame_s + np.arange(self.motion.frames) / FPS
         return times_s
 
     @property
     def player(self) -> object:
-        """As of `PerformanceCurves`, for the judge of contacts."""
+        """The same as in `PerformanceCurves`, for the judge of contacts."""
         return self.playing.player
 
     @property
     def instrument_map(self) -> object:
-        """As of `PerformanceCurves`."""
+        """The same as in `PerformanceCurves`."""
         return self.playing.instrument_map
 
     @property
     def body(self) -> object:
-        """As of `PerformanceCurves`."""
+        """The same as in `PerformanceCurves`."""
         return self.playing.body
 
     @property
     def stopping(self) -> object:
-        """As of `PerformanceCurves`."""
+        """The same as in `PerformanceCurves`."""
         return self.playing.stopping
 
     @property
     def controls(self) -> dict[str, object]:
-        """As of `PerformanceCurves`: none, for no one knows beforehand where they are asked to be."""
+        """The same as in `PerformanceCurves`: none, since they cannot be known beforehand."""
         return {}
 
     def ankles_m(self, times_s: FloatArray) -> dict[str, FloatArray]:
-        """As of `PerformanceCurves`: the feet of a live player stay."""
+        """The same as in `PerformanceCurves`: the feet of a live player stay."""
         place = self.playing.player.place
         return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
-        """Where the fingers were."""
+        """Return where the fingers were."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)
         return {name: StationBlend(*rows[frames].T) for name, rows in self.hands.items()}
 
@@ -174,7 +174,7 @@ def motion_of(poses: list[Pose], first_s: float) -> Motion:
 
 
 def ready_spans(live: LiveMotion, player_id: str) -> tuple[tuple[float, float], ...]:
-    """Where a player's motion is made, as spans of seconds in order."""
+    """Return where a player's motion is made, as spans of seconds in order."""
     shown = live._shown
     track = shown.tracks.get(player_id)
     if track is None:

@@ -43,7 +43,7 @@ _PAGE = resource.getpagesize()
 
 @dataclass(frozen=True)
 class Footprint:
-    """What the process holds.
+    """Memory and objects that the process holds.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Footprint:
 
 
 def footprint() -> Footprint:
-    """What the process holds now, after everything that can go has gone."""
+    """Return what the process holds now, after everything that can go has gone."""
     for _ in range(3):
         QCoreApplication.processEvents()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
@@ -199,7 +199,7 @@ class LongDay:
         self.wait(0.05)
 
     def read_again(self) -> None:
-        """What another MIDI file would change is shown, and not taken."""
+        """Return what another MIDI file would change is shown, and not taken."""
         window = self.program.window
         reimport_from(self.program.editor, QUARTET)
         self.until(lambda: window.findChild(ReimportDialog) is not None)

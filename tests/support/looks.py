@@ -79,7 +79,7 @@ from widgets.viewport import figures
 
 OWN_CHARACTER = Path(__file__).parents[1] / "data" / "characters" / "toddler_vrm1.vrm"
 ELIDED = {"player_instrument", "front_player", "curve_choice", "notice", "problems_who", "problems_kind"}
-"""What may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
+"""Texts that may be cut short: all of it stands in the list that opens, in the tool tip, or beside it."""
 _JAPANESE = re.compile("[\u3040-\u30ff\u4e00-\u9fff]")
 _ID = re.compile(r"\b[a-z_]+\.[a-z_]+\b")
 _TRIES = 5
@@ -90,7 +90,7 @@ QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
 
 
 def faults(application: QApplication) -> Iterator[str]:
-    """What does not fit, is too small to hit, or lies outside of what holds it."""
+    """Return what does not fit, is too small to hit, or lies outside of what holds it."""
     for window in application.topLevelWidgets():
         for widget in (window, *window.findChildren(QWidget)) if window.isVisible() else ():
             if widget.isVisible():
@@ -444,7 +444,7 @@ def look_at(screen: str, pictures: Path | None) -> None:
 
 
 def load() -> None:
-    """What is the same at every scale: modules, the piece's plans, and its figures."""
+    """Return what is the same at every scale: modules, the piece's plans, and its figures."""
     for package in (widgets.dialogs, app.shell):
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             importlib.import_module(module.name)

@@ -26,7 +26,7 @@ _CURVES: Final = IdentityCache[PerformanceCurves](16)
 
 @dataclass(eq=False)
 class _Known:
-    """What was made of some curves.
+    """Motion that was made of some curves.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class _Prepared(IdentityCache[PerformanceCurves]):
         self._plans = plans
 
     def helped(self, function: Any, help: Any, *inputs: Any, **named: Any) -> Any:
-        """As of any other cache."""
+        """The same as in any other cache."""
         if any(inputs[0] is plan for plan in self._plans()):
             made = _CURVES.helped(function, help, *inputs, **named)
             _KNOWN.setdefault(made, _Known())

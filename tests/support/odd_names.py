@@ -10,7 +10,7 @@ import pytest
 from hypothesis import strategies as st
 
 NAME = "クラリネット"
-"""What such a name was meant to be."""
+"""Name that was meant."""
 
 on_bytes = pytest.mark.skipif(sys.platform != "linux", reason="names are text there")
 
@@ -21,7 +21,7 @@ def odd(folder: Path, ending: str = "") -> Path:
 
 
 def is_odd(path: Path | str) -> bool:
-    """Whether a path ends with the bytes of `NAME` in CP932."""
+    """Return whether a path ends with the bytes of `NAME` in CP932."""
     return Path(os.fsencode(path).decode("latin-1")).stem.encode("latin-1") == NAME.encode("cp932")
 
 

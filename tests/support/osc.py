@@ -69,7 +69,7 @@ def _string(data: bytes, at: int) -> tuple[str, int]:
 
 @dataclass
 class Frame:
-    """What one frame of a stream said."""
+    """Content of one frame of a stream."""
 
     at_s: float
     time_s: float = -1.0
@@ -149,7 +149,7 @@ class Receiver:
 
     @property
     def frames(self) -> list[Frame]:
-        """What came so far, of frames that are whole."""
+        """Return what came so far, of frames that are whole."""
         found = frames(list(self.packets))
         return found if not found or found[-1].applied else found[:-1]
 

@@ -86,7 +86,7 @@ support_hand = "right"
 """
 
 LINE = ["E R1 R2 R3", "R1 R2 R3", "F R1 R2 R3", "R1 R2", "G R1 R2", "R1", "", "D", "C"]
-"""What the lower joint adds to the three holes of the upper one, from the lowest note upwards."""
+"""Fingers that the lower joint adds to the three holes of the upper one, from the lowest note upwards."""
 
 
 def fingerings() -> list[tuple[int, str]]:

@@ -26,7 +26,7 @@ _CONTROL_EVERY_S: Final = 0.2
 
 
 class Manner(NamedTuple):
-    """What a player does.
+    """Habits of a made-up player.
 
     Attributes
     ----------
@@ -110,7 +110,8 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
 
 
 def _half_bars(onset_ticks: list[int], contents: PieceContents) -> list[int]:
-    """Where the half bar of each onset begins, in ticks; a bar of an odd number of beats has a beat left over."""
+    """Return where the half bar of each onset begins, in ticks; a bar of an odd number of beats has a beat left
+    over."""
     starts = [metre.tick for metre in contents.metres]
     result = []
     for tick in onset_ticks:

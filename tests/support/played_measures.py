@@ -1,4 +1,4 @@
-"""How far a played version of a file is planned as the engraved file is: players, fingerings and breaths.
+"""Comparison of the plans of a played file and its engraved one: players, fingerings and breaths.
 
     python -m tests.support.played_measures FOLDER [SEED]
 

@@ -1,4 +1,4 @@
-"""What `./test --quick` changes: nothing of Qt is loaded, so that no package of the system is needed.
+"""Test what `./test --quick` changes: nothing of Qt is loaded, so that no package of the system is needed.
 
 The plug-ins for Qt and the display are left out (``-p no:pytest-qt -p no:xvfb``); their options are known all
 the same. A test that loads one of Qt's modules fails here, wherever Qt is installed.

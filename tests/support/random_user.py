@@ -93,12 +93,12 @@ class Clock:
         self.now_s = 0.0
 
     def monotonic(self) -> float:
-        """As `time.monotonic`."""
+        """Stand-in for `time.monotonic`."""
         return self.now_s
 
 
 class Log:
-    """What happened, line by line; what is written is the system's, and outlives the process."""
+    """Record of events, line by line; lines that are written are the system's, and outlive the process."""
 
     def __init__(self, stream: IO[str], clock: Clock) -> None:
         self._stream, self._clock = stream, clock
@@ -374,7 +374,7 @@ class SessionRun:
 
 @dataclass
 class Journey:
-    """What came of a number of sessions.
+    """Result of a number of sessions.
 
     Attributes
     ----------
@@ -469,7 +469,7 @@ def read_log(path: Path) -> list[dict[str, Any]]:
 
 
 def _digests_of_files(events: list[dict[str, Any]]) -> list[str]:
-    """Of what the files hold that a session had open last or named for a save, which may be done when it is killed."""
+    """Digests of the files that a session had open last or named for a save, which may be done when it is killed."""
     opened = next((event["path"] for event in reversed(events) if event["event"] == "deed"), "")
     paths = [Path(path) for path in {opened, *(event["path"] for event in events if event["event"] == "named")} if path]
     found = []
@@ -482,7 +482,7 @@ def _digests_of_files(events: list[dict[str, Any]]) -> list[str]:
 
 
 def lost_work(events: Sequence[dict[str, Any]], found: Sequence[str]) -> str:
-    """What of a killed session's work is nowhere, in words; empty where nothing is lost but the last seconds.
+    """Return what of a killed session's work is nowhere, in words; empty where nothing is lost but the last seconds.
 
     Parameters
     ----------

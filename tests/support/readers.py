@@ -45,7 +45,7 @@ _KNOW_RATE = ("structure", "ufbx", "fbxsdk", "usd")
 
 @dataclass(frozen=True)
 class Expected:
-    """What the readers should find.
+    """Content that the readers should find.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Expected:
 
 @functools.cache
 def installed(reader: str) -> bool:
-    """Whether a reader is there to be asked."""
+    """Return whether a reader is there to be asked."""
     if reader in ("structure", "gltf"):  # built in
         return True
     if reader == "assimp":
@@ -131,7 +131,8 @@ def judge(
 
 
 def _differences(reader: str, found: dict[str, object], expected: Expected) -> list[str]:
-    """What the tool itself does not compare: hierarchy, number of frames, rate; as far as the reader can tell."""
+    """Return what the tool itself does not compare: hierarchy, number of frames, rate; as far as the reader can
+    tell."""
     problems = []
     parents = found["parent"]
     assert isinstance(parents, dict)

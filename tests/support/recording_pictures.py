@@ -75,7 +75,7 @@ class Wind:
 
 
 def blow() -> None:
-    """What the player's process does."""
+    """Return what the player's process does."""
     with WindPlayer("EWI5000", "MIDI 1") as wind:
         for line in sys.stdin:
             for ns, raw in json.loads(line):

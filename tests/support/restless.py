@@ -380,7 +380,7 @@ def by_hand(project: Project) -> object:
 
 
 class Complaints:
-    """What Qt logs and what no one caught."""
+    """Lines that Qt logs, and exceptions that were not caught."""
 
     def __init__(self) -> None:
         self.found: list[str] = []

@@ -1,4 +1,4 @@
-"""What a GLB or USD file shows at a frame, evaluated as its specification says and by none of our code.
+"""Evaluation of a GLB or USD file at a frame, as its specification says and by none of our code.
 
 Both give, in centimetres, where every joint is (J, 3), the weights of the morphs by name, and where the corners of all
 faces of each material are (corners, 3), in the order of the file's faces.
@@ -74,7 +74,7 @@ class GlbFile:
         return np.frombuffer(self._bytes, dtype, count * width, start).reshape(count, width)
 
     def shown(self, frame: int) -> Shown:
-        """What a frame shows."""
+        """Return what a frame shows."""
         nodes = self._gltf.nodes
         world: dict[int, np.ndarray] = {}
 
@@ -139,7 +139,7 @@ class UsdFile:
         self.fps = self._stage.GetFramesPerSecond()
 
     def shown(self, frame: int) -> Shown:
-        """What a frame shows."""
+        """Return what a frame shows."""
         from pxr import Usd
 
         time = Usd.TimeCode(frame)

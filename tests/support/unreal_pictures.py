@@ -34,7 +34,7 @@ SIZE: Final = (1000, 500)
 
 
 class Artist:
-    """Who exports the quartet into a project."""
+    """User who exports the quartet into a project."""
 
     def __init__(self, folder: Path, language: str, theme: str) -> None:
         self.application = make_application()

@@ -57,7 +57,7 @@ def viewer_of(answers: Sequence[Answer], name: str = "answers.csv") -> ViewerFil
 
 
 def opinion(truth: Mapping[Variant, float], variant: Variant, aspect: Aspect, scale: Scale, late: float) -> float:
-    """What viewers think on average; late fingers are seen in the synchrony of fingers alone."""
+    """Return what viewers think on average; late fingers are seen in the synchrony of fingers alone."""
     lost = late if (variant, aspect, scale) == ("shifted", "fingers_arms", "synchrony") else 0.0
     return truth[variant] - lost
 
@@ -72,7 +72,7 @@ def viewers(
     presentations: Sequence[Presentation] = ("single",),
     skips: float = 0.0,
 ) -> list[ViewerFile]:
-    """So many viewers, each in an order of his or her own.
+    """Made-up viewers, each with a random order of clips.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from typing import Self
 from app.capture.midi_library import PythonRtmidi, load_library
 
 Played = tuple[float, bytes]
-"""When a message is due, seconds from the begin, and its bytes."""
+"""Time at which a message is due, seconds from the begin, and its bytes."""
 
 
 def phrase(pitches: Sequence[int], *, beat_s: float = 0.4, seed: int = 0, ghosts: int = 0) -> list[Played]:

@@ -1,4 +1,4 @@
-"""What a click can change in the editor, by subject."""
+"""Table of the changes by clicks in the editor, by subject."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ import numpy as np
 import pygltflib as gltf
 
 FOLDER = "SUISOU_FOREIGN_PACKAGES"
-"""Where ``./test`` puts packages that are read, not run."""
+"""Place where ``./test`` puts packages that are read, not run."""
 
 
 def source() -> Path | None:

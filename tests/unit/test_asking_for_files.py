@@ -1,4 +1,4 @@
-"""Whether a file is there is asked in a way that cannot raise."""
+"""Test that the code asks for files in a way that cannot raise."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ def test_the_structures_of_windows_have_their_sizes() -> None:
 
 
 def windows(refuses: bool = False) -> tuple[SimpleNamespace, list[str]]:
-    """As much of Windows as a job needs, and what was asked of it."""
+    """The part of Windows that a job needs, and the calls that it got."""
     calls: list[str] = []
 
     def create(security: None, name: None) -> int:

@@ -1,4 +1,4 @@
-"""What is wrong with tables of acting is worded in Japanese too."""
+"""Test that errors in tables of acting are worded in Japanese too."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ FOR_MAKERS = frozenset(
         *(f"instrument_maps/validate{part}.py" for part in ("", "_fingerings", "_hold")),
     }
 )
-"""What is wrong with an instrument map of one's own is worded in English, for those who make one."""
+"""Problems of a user's own instrument map: worded in English, for those who make one."""
 MADE_OF_OTHERS = frozenset({"7: 7", "7 (7)"})
 """An exception of ours by its name, and a detail with its place."""
 FOLDERS = ("app", "instrument_maps", "metadata")

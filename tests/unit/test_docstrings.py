@@ -10,7 +10,7 @@ from pathlib import Path
 from app.messages import WORDINGS
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = ("app", "widgets", "instrument_maps", "metadata")
+FOLDERS = ("app", "widgets", "instrument_maps", "metadata", "resources", "packaging", "tests")
 FILES = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")]
 ID = re.compile(r"[a-z_]+(?:\.[a-z_]+)+")
 TEMPLATE = re.compile(r'"[^"`]*\{[a-z_]+(?:[:!][^"}]*)?\}[^"`]*"')

@@ -26,7 +26,7 @@ def texts(tree: ast.Module) -> list[tuple[int, str]]:
 
 
 def names_one(text: str) -> bool:
-    """Whether a text has the id of an instrument as a word."""
+    """Return whether a text has the id of an instrument as a word."""
     return not bundled_maps().keys().isdisjoint(re.findall(r"\w+", text))
 
 

@@ -24,7 +24,7 @@ INSTEAD = {
     **dict.fromkeys(("linkActivated", "anchorClicked", "setOpenExternalLinks", "setOpenLinks"), "a button"),
     **dict.fromkeys(("QtWebEngineWidgets", "QtWebEngineCore", "QtQuick", "QtQml"), "widgets"),
 }
-"""What shows HTML, or could, and what to take for it."""
+"""Classes that show HTML, or could, and those to use instead."""
 MENTIONED = re.compile("|".join(map(re.escape, INSTEAD)))
 """In what is parsed: most modules are not."""
 ALLOWED = {
@@ -59,7 +59,7 @@ def names(tree: ast.AST) -> Iterator[tuple[int, str]]:
 
 
 def faults(source: str, allowed: set[str]) -> list[str]:
-    """What a module must not use."""
+    """Return what a module must not use."""
     if not MENTIONED.search(source):
         return []
     found = {(line, name) for line, name in names(ast.parse(source)) if name in INSTEAD and name not in allowed}

@@ -1,4 +1,4 @@
-"""What the recorder costs and loses, over JACK's dummy server in step with its clients (64 frames: 1.33 ms).
+"""Cost and losses of the recorder, over JACK's dummy server in step with its clients (64 frames: 1.33 ms).
 
 Beside the recorder a calibration listens to the same player: a process of its own, with the same precedence, that does
 nothing but stamp. What a stamp comes later than the calibration's is ours; what both are late is JACK's period and the
@@ -29,7 +29,7 @@ from tests.support.wind_player import WindPlayer, burst
 
 PERIOD_MS = QUICK_FRAMES / RATE_HZ * 1e3
 MOST_OURS_MS = 2.0
-"""How much later than a bare callback's our stamp may be, at the 99th percentile."""
+"""Measure of how much later than a bare callback's our stamp may be, at the 99th percentile."""
 HEADER = JournalHeader("p", "player", "EWI", "ewi_usb", 0.0, "")
 
 pytestmark = pytest.mark.bench

@@ -20,7 +20,7 @@ from tests.fuzz.harness.seeds import hostile
 from tests.support.random_user import Journey, travel
 
 DEEDS, KILLS = 300, 6
-"""Of one journey."""
+"""Numbers of one journey."""
 SHOWN: Final = ("midi", "project", "audio", "gltf", "foreign_fbx")
 """Kinds that the user opens in the window."""
 WINDOW: Final = "tests.bench.hostile.window"

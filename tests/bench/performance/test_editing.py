@@ -1,4 +1,5 @@
-"""What an animator waits for: plans after an edit, the pose under the playhead, memory. Printed, never asserted."""
+"""Measures of an animator's waits: plans after an edit, the pose under the playhead, memory. Printed, never
+asserted."""
 
 from __future__ import annotations
 

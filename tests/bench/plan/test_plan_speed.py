@@ -1,4 +1,4 @@
-"""How long a plan takes, as a part of the music's own time."""
+"""Time of planning, as a part of the music's own time."""
 
 from __future__ import annotations
 

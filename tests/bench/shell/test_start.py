@@ -1,4 +1,4 @@
-"""How soon the window is up, against importing its libraries alone; each in a process of its own."""
+"""Time until the window is up, against importing its libraries alone; each in a process of its own."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ program.end()
 
 
 def seconds(script: str, *arguments: str) -> float:
-    """What a script says it took, the best of some runs."""
+    """Return what a script says it took, the best of some runs."""
     command = [sys.executable, "-c", script, *arguments]
     runs = [subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True) for _ in range(RUNS)]
     return min(float(run.stdout.strip().splitlines()[-1]) for run in runs)

@@ -46,7 +46,7 @@ class Turn:
     cpu_s: float = 0.0
     wall_s: float = 0.0
     drawing_s: float = 0.0
-    """Of the CPU: drawing the players; while GL is still, Python's part of it."""
+    """Time of the CPU: drawing the players; while GL is still, Python's part of it."""
     drawing_wall_s: float = 0.0
     """The same of the wall time."""
 
@@ -71,7 +71,7 @@ class LargeEditor:
     folder: Path
     stalls: dict[str, Stall] = field(default_factory=dict)
     seen: Turn = field(default_factory=Turn)
-    """What the last awaited picture took."""
+    """Time of the last awaited picture."""
     phase: str = "open"
 
     def __post_init__(self) -> None:
@@ -181,7 +181,7 @@ class LargeEditor:
         return whole
 
     def floor_s(self) -> float:
-        """What the window's composing costs where nothing but a point has changed: median CPU, seconds."""
+        """Return what the window's composing costs where nothing but a point has changed: median CPU, seconds."""
         label = self.window.status
 
         def point() -> None:
@@ -220,11 +220,11 @@ class LargeEditor:
         return self.program.generator.live.pose(player_id, self.session.playhead_s) is not None
 
     def is_planned(self) -> bool:
-        """Whether the plans are those of the project."""
+        """Return whether the plans are those of the project."""
         return self.session.performance.project is self.session.project
 
     def is_right(self, player_id: str) -> bool:
-        """Whether the viewport has a player's newest pose at the playhead."""
+        """Return whether the viewport has a player's newest pose at the playhead."""
         live, at_s = self.program.generator.live, self.session.playhead_s
         if live.performance.project is not self.session.project:
             return False

@@ -1,4 +1,4 @@
-"""What the user feels in the whole window with fifty players and a hundred thousand notes. Printed, never asserted."""
+"""Reaction times of the whole window with fifty players and a hundred thousand notes. Printed, never asserted."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FRAMES = 40
 LONG_S = 150.0
 """Everything is made within this time, for the memory at rest."""
 CORRECTIONS = 3
-"""How often each is made; the median is reported."""
+"""Number of times that each is made; the median is reported."""
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def editor(qapp: QApplication, tmp_path: Path) -> Iterator[LargeEditor]:
 
 
 class Frames:
-    """What is done sixty times a second."""
+    """Work that is done sixty times a second."""
 
     def __init__(self, editor: LargeEditor) -> None:
         self.editor = editor

@@ -21,7 +21,7 @@ from tests.fuzz.harness.seeds import HOSTILE, ROOT, hostile
 MOST_CPU_S: Final = 20.0
 """Four times the goal: seconds of CPU are longer where other processes share the caches."""
 MOST_MB: Final = 1024.0
-"""Of the whole process, for a file of at most 100 KB."""
+"""Bound of the whole process, for a file of at most 100 KB."""
 SIZES: Final = (1_000, 10_000, 100_000)
 _POOL: Final = 200
 _MINIMISE_S: Final = 20.0
@@ -29,7 +29,7 @@ _MINIMISE_S: Final = 20.0
 
 @dataclass(frozen=True)
 class Result:
-    """What a reader did with a file.
+    """Result of reading one file.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Result:
 
     @property
     def failure(self) -> str:
-        """What is wrong, in few words; empty where nothing is."""
+        """Return what is wrong, in few words; empty where nothing is."""
         if self.outcome not in ("accepted", "refused"):
             return f"{self.outcome}: {self.place}"
         if self.cpu_s > MOST_CPU_S:
@@ -162,7 +162,7 @@ def _place(said: str) -> str:
 
 @dataclass
 class Tally:
-    """What came of the attacks on one kind.
+    """Results of the attacks on one kind of file.
 
     Attributes
     ----------

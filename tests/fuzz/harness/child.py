@@ -127,7 +127,7 @@ def forget_peak() -> None:
 
 
 def status_kb(field: str) -> int:
-    """What Linux says of this process's memory; 0 elsewhere."""
+    """Return what Linux says of this process's memory; 0 elsewhere."""
     try:
         lines = Path("/proc/self/status").read_text().splitlines()
     except OSError:

@@ -31,7 +31,7 @@ PLACES: Final = {
        (("UpperArm", 0.15, 0.2), ("LowerArm", 0.25, 0.0), ("Hand", 0.25, 0.0),
         ("UpperLeg", 0.1, 0.0), ("LowerLeg", 0.0, -0.45), ("Foot", 0.0, -0.45))},
 }  # fmt: skip
-"""Of a figure that can play, so that what is made of it costs too; from the joint above."""
+"""Files of a figure that can play, so that what is made of it costs too; from the joint above."""
 
 
 # glTF

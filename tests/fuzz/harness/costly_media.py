@@ -10,7 +10,7 @@ from typing import Final
 from tests.support.media import ffmpeg
 
 _BYTES_PER_S: Final = 2000
-"""Of the sound and the pictures below, about."""
+"""Rate of the sound and the pictures below, about."""
 
 
 def _made(name: str, *arguments: str) -> bytes:
@@ -81,6 +81,6 @@ def mp3_slow(size: int) -> bytes:
 COSTLY_MEDIA: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "film": (mkv_gap, mp4_late_sound, mkv_large_pictures, transport),
 }
-"""As `tests.fuzz.harness.costly_files.COSTLY_FILES`."""
+"""The same as `tests.fuzz.harness.costly_files.COSTLY_FILES`."""
 COSTLY_RECORDINGS: Final = (m4a_gap, m4a_gaps, m4a_minutes, mkv_days, mkv_gap, mp4_late_sound, transport, mp3_slow)
 """Those of the kind "audio"."""

@@ -82,7 +82,7 @@ def _channels(size: int) -> bytes:
 
 
 def _everyone(size: int, quarter_us: int, quarters: int, *first: bytes, division: int = 96) -> bytes:
-    """As many players as there may be, from the beginning to the end."""
+    """The greatest possible number of players, from the beginning to the end."""
     tempo = b"\0\xff\x51\x03" + quarter_us.to_bytes(3, "big")
     track = b"\0\x90\x40\x50\x60\x40\0" + note(64, 96, (quarters - 2) * division) + END
     count = max(min((size - 60) // (8 + len(track)), 128), 1)
@@ -261,7 +261,7 @@ STUCK: Final[dict[str, Callable[[int], bytes]]] = {
     ),
     "instruments by turns": _turns,
 }
-"""What a report of a file costs beyond reading it."""
+"""Cost of a report of a file beyond reading it."""
 
 WORST: Final = {
     "everyone often for twelve hours": 40_000,

@@ -12,7 +12,7 @@ from app.formats.fbx.encode import Element
 from tests.fuzz.harness.costly_files import ABOVE, PACKED_FBX, PLACES, fbx, figure, glb
 
 TICKS_PER_S: Final = 46_186_158_000
-"""Of FBX."""
+"""Unit of FBX."""
 
 
 def _body(channels: str) -> str:
@@ -184,4 +184,4 @@ COSTLY_MOTION: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     "fbx_motion": (fbx_longest_motion, fbx_half_an_hour, fbx_still_nodes, *PACKED_FBX),
     "gltf_motion": (glb_longest_motion, glb_hours_of_motion, glb_still_nodes, glb_targets, glb_dense_keys),
 }
-"""As `tests.fuzz.harness.costly_files.COSTLY_FILES`."""
+"""The same as `tests.fuzz.harness.costly_files.COSTLY_FILES`."""

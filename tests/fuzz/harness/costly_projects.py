@@ -92,8 +92,8 @@ def _corrected(items: Sequence[Correction], notes: int = 0) -> Project:
 
 
 def _each(make: Callable[..., Correction]) -> Way:
-    """As many corrections as notes: what looks for each of one among all of the other shows here. What makes one takes
-    its number and, if it takes two arguments, where the piece ends."""
+    """One correction for each note: work that searches all notes for every correction shows here. The function that
+    makes a correction takes its number and, if it takes two arguments, the end of the piece."""
 
     def way(count: int) -> Project:
         more = (QUARTER * max(count, NOTES),) if make.__code__.co_argcount > 1 else ()

@@ -63,7 +63,7 @@ def flac_wide_silence(size: int) -> bytes:
 
 
 def flac_steps(size: int) -> bytes:
-    """As many steps as there are bytes for, in as much time as they may last."""
+    """The greatest number of steps for these bytes and this duration."""
     seconds = 550.0 + size / 600
     return flac(size, block=min(int(seconds * 48_000 / (size / 15)), _LARGEST_BLOCK), loud=True)
 

@@ -338,7 +338,7 @@ def _midi_chunks(data: bytes) -> tuple[bytes, list[list[tuple[int, bytes]]]] | N
 
 
 def _midi_events(data: bytes) -> list[tuple[int, bytes]]:
-    """What of a track can be taken apart; running status is written out."""
+    """Return what of a track can be taken apart; running status is written out."""
     events: list[tuple[int, bytes]] = []
     at, status = 0, 0
     while at < len(data):

@@ -96,7 +96,7 @@ def answers_of_quotes(size: int) -> bytes:
 
 
 def key_of_clips(size: int) -> bytes:
-    """As many clips as there is room for."""
+    """The greatest number of clips that fits."""
     import msgspec
 
     from app.evaluation.key import encoded_key
@@ -184,4 +184,4 @@ COSTLY_OWN: Final[dict[str, tuple[Callable[[int], bytes], ...]]] = {
     **dict.fromkeys(("instrument_map", "metadata", "expression", "preset", "character_entry", "settings"), _TABLES),
     **dict.fromkeys(("unreal_description", "unreal_manifest", "unreal_project"), _JSON),
 }
-"""As `tests.fuzz.harness.costly_files.COSTLY_FILES`."""
+"""The same as `tests.fuzz.harness.costly_files.COSTLY_FILES`."""

@@ -1,4 +1,4 @@
-"""What is attacked: one function for each kind of file, which reads it as the program does and checks what came of it.
+"""Targets of attacks: one function for each kind of file, which reads it as the program does and checks the result.
 
 A reader may raise `AppError`, which is a refusal. `Broken` says that a promise was broken after the file was accepted;
 any other exception has escaped. Imports are inside, so that a process loads only what it attacks.
@@ -23,7 +23,7 @@ from tests.fuzz.harness.own_readers import answers, cuts, evaluation_key, export
 
 
 class Broken(AssertionError):
-    """What was accepted does not do what it must."""
+    """A file was accepted, and its result does not do its work."""
 
 
 class Refused(Exception):
@@ -32,7 +32,7 @@ class Refused(Exception):
 
 @contextmanager
 def accepted(step: str) -> Iterator[None]:
-    """What was read must get through this step: a refusal comes too late."""
+    """Return what was read must get through this step: a refusal comes too late."""
     try:
         yield
     except AppError as error:
@@ -225,7 +225,7 @@ def journal(path: Path, folder: Path) -> None:
 
 
 def clip(path: Path, folder: Path) -> None:
-    """What another program has put on the clipboard as notes is pasted and saved."""
+    """Return what another program has put on the clipboard as notes is pasted and saved."""
     from app.project.edit.notes import paste, read_clip
 
     notes = read_clip(path.read_bytes())

@@ -18,7 +18,7 @@ GOAL_MB: Final = 1024.0
 
 
 class Cost(NamedTuple):
-    """What a file of one way and size did."""
+    """Cost of reading a file of one kind and size."""
 
     kind: str
     way: str

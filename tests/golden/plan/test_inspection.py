@@ -1,4 +1,4 @@
-"""What ``suisou inspect --json`` prints about music that others engraved, judged by an independent reading."""
+"""Test what ``suisou inspect --json`` prints about music that others engraved, judged by an independent reading."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def performance(name: str) -> Performance:
 
 
 def is_usual(share: float, line: MonophonicPart) -> bool:
-    """Whether three notes of a line at least are followed by silence for this part of their steps."""
+    """Return whether three notes of a line at least are followed by silence for this part of their steps."""
     steps = [
         (after.onset_tick - before.onset_tick, before.duration_tick) for before, after in itertools.pairwise(line.notes)
     ]

@@ -250,7 +250,7 @@ WINDS = {
     "trumpet_duet_bach_minuet": ["trumpet_Bb"] * 2,
     "trumpet_organ_brown_wedding_CCBY4": ["trumpet_Bb"],
 }  # fmt: skip
-"""Who plays the winds of each file, in its order, as its title and its score say."""
+"""Players of the winds of each file, in its order, as its title and its score say."""
 
 
 @pytest.mark.parametrize(("name", "expected"), WINDS.items(), ids=WINDS)

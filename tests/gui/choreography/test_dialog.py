@@ -51,7 +51,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 @pytest.fixture
 def dialog(session: Session, qtbot: QtBot, files: tuple[Path, Path]) -> ChoreographyDialog:
-    """With two dancers, the second one selected, in a piece with claves."""
+    """The dialog for two dancers, the second one selected, in a piece with claves."""
     project = replace(session.project, score=with_claves(session.project.score))
     for path in files:
         project, _ = add_dancer(project, path, "Dancer")

@@ -1,4 +1,4 @@
-"""Why one would take a fingering: shown and typed in the user's language."""
+"""Test why one would take a fingering: shown and typed in the user's language."""
 
 from __future__ import annotations
 

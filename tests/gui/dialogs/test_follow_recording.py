@@ -1,4 +1,4 @@
-"""What is taken from a recording is chosen in a dialog."""
+"""Test the dialog that chooses what is taken from a recording."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ class Page:
         delete_now()
 
     def line(self) -> QLineEdit:
-        """What is typed into."""
+        """Return what is typed into."""
         (line,) = self.table.viewport().findChildren(QLineEdit)
         return line
 

@@ -1,4 +1,4 @@
-"""What a re-import would do is read before it is done: changes by hand that stay, and those the file overrules."""
+"""Test the list of changes before a re-import: changes by hand that stay, and those the file overrules."""
 
 from __future__ import annotations
 

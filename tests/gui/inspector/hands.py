@@ -1,4 +1,4 @@
-"""What the user's hands do to the inspector."""
+"""Test the inspector by mouse and keys."""
 
 from __future__ import annotations
 

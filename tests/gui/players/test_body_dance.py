@@ -1,4 +1,4 @@
-"""What players dance while they play, chosen by mouse and keys in the Players panel and judged by the project."""
+"""Test dances of players while they play, chosen by mouse and keys in the Players panel and judged by the project."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is folded stays folded, also in the next editor."""
+"""Test that folded sections stay folded, also in the next editor."""
 
 from __future__ import annotations
 

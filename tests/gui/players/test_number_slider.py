@@ -15,7 +15,7 @@ from widgets.common.number_slider import NumberSlider
 
 
 class Reported:
-    """What the control said."""
+    """Signals that the control sent."""
 
     def __init__(self, slider: NumberSlider) -> None:
         self.values: list[float] = []

@@ -71,14 +71,14 @@ class Answers:
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """As if no one touched the dialog."""
+        """Import without a change in the dialog."""
         self.asked.append("import")
         return ImportRequest(usual_rows(contents, bundled_maps()), self.dances) if self.imports else None
 
 
 @pytest.fixture
 def answers() -> Answers:
-    """What the user answers."""
+    """Return what the user answers."""
     return Answers()
 
 

@@ -60,7 +60,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture(autouse=True)
 def _nothing_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:
-    """How a new body holds its instrument takes long to find, and is judged elsewhere."""
+    """Return how a new body holds its instrument takes long to find, and is judged elsewhere."""
     monkeypatch.setattr(Generator, "_plan", lambda self, project: None)
 
 

@@ -91,7 +91,7 @@ OPENED: dict[str, Open] = {
 
 
 def kinds(base: type[QDialog]) -> set[type[QDialog]]:
-    """What is made from a class and is no base of others."""
+    """Return what is made from a class and is no base of others."""
     below = base.__subclasses__()
     return set().union(*map(kinds, below)) if below else {base}
 

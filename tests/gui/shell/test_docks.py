@@ -75,7 +75,7 @@ def test_ctrl_and_a_drag_tear_a_dock_off(program: Program, qtbot: QtBot) -> None
 
 
 def has_frame(dock: Dock) -> bool:
-    """Whether it floats, and the system draws a frame around it."""
+    """Return whether it floats, and the system draws a frame around it."""
     flags = dock.windowFlags()
     framed = bool(flags & Qt.WindowType.WindowTitleHint) and not flags & Qt.WindowType.FramelessWindowHint
     return dock.isFloating() and dock.isVisible() and framed

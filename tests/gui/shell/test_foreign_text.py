@@ -177,7 +177,7 @@ def menus(program: Program, judge: Judge) -> None:
 
 
 def notices(program: Program, judge: Judge) -> None:
-    """What is said and what can be undone."""
+    """Return what is said and what can be undone."""
     session = program.session
     session.streaming.set(state="no_receiver", lines=session.streaming.planned(session.project, session.players))
     session.notice(Message("midi.empty", {"file": judge.canary.name("notice")}), Severity.ERROR)

@@ -214,7 +214,7 @@ class Work:
 def test_motion_that_no_one_waits_for_gives_way(
     generator: Generator, monkeypatch: pytest.MonkeyPatch, others_s: float, is_seen: bool, rests: bool
 ) -> None:
-    """Where others had the processor the worker rests longer than they did, unless someone waits for what it makes."""
+    """The worker rests longer where others had the processor, unless someone waits for its result."""
     generator.close()
     clock = Clock()
     live = Work(clock, others_s, is_seen)

@@ -30,7 +30,7 @@ def buttons(program: Program, qtbot: QtBot) -> Buttons:
 
 
 def keeps_space(button: QToolButton) -> bool:
-    """Whether Space is the button's, and not the window's, where it plays."""
+    """Return whether Space is the button's, and not the window's, where it plays."""
     assert QApplication.focusWidget() is button
     asked = QKeyEvent(QEvent.Type.ShortcutOverride, Qt.Key.Key_Space, Qt.KeyboardModifier.NoModifier, " ")
     asked.ignore()

@@ -24,7 +24,7 @@ DRAWN = ("widgets.viewport.renderer._Solid", "vispy.gloo.")
 go with the figures."""
 OF_A_PIECE = ("app.performance.chunks.Chunk", "app.performance.chunks.Pose", "widgets.viewport.cast.Member")
 MOST_MB = 48.0
-"""What the graphics driver holds rises and falls by this much from round to round, while what Python holds stays the
+"""Rise and fall of the graphics driver's memory from round to round, while what Python holds stays the
 same to 0.1 MB: so only growth that no later round gives back is a leak."""
 
 

@@ -1,4 +1,4 @@
-"""Which file is written: nothing is replaced that no one was asked about."""
+"""Test which file is written: nothing is replaced without a question."""
 
 from __future__ import annotations
 

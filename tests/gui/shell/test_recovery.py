@@ -40,7 +40,7 @@ def crash(program: Program) -> None:
 
 
 def offered(program: Program) -> tuple[Recoverable, ...]:
-    """What editors that are gone left behind."""
+    """Return what editors that are gone left behind."""
     found: list[tuple[Recoverable, ...]] = []
     program.editor.files.find_recoverable(found.append)
     return found[-1]

@@ -1,4 +1,4 @@
-"""What a body cannot reach is the same problem wherever it is reported."""
+"""Test that a place that a body cannot reach is the same problem wherever it is reported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was selected and is gone, by undo for one, is selected no more; no command trips over it."""
+"""Test that selected things that are gone, by undo for one, are selected no more; no command trips over them."""
 
 from __future__ import annotations
 

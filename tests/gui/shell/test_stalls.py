@@ -1,4 +1,4 @@
-"""What the costliest files ask for is done beside the window: its thread is never busy for long."""
+"""Test that work for the costliest files is done beside the window: its thread is never busy for long."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the status line says: it costs no picture of its own, and nothing is listed twice in a row."""
+"""Test what the status line says: it costs no picture of its own, and nothing is listed twice in a row."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the editor streams, heard by a receiver of our own over real UDP."""
+"""Test the editor's stream, received by a receiver of our own over real UDP."""
 
 from __future__ import annotations
 

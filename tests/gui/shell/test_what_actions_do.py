@@ -59,7 +59,7 @@ Right = Callable[[Desk], bool]
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """What an action must do.
+    """Required effect of an action.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Case:
 
 
 def typing_name(field: str) -> Right:
-    """Whether a name is being typed."""
+    """Return whether a name is being typed."""
 
     def right(desk: Desk) -> bool:
         found = desk.program.window.players.findChild(QLineEdit, field)
@@ -277,7 +277,7 @@ def within_bar_3(desk: Desk) -> None:
 
 
 def began_at(desk: Desk) -> float:
-    """Where the playhead went first: by now a slow machine may be seconds further."""
+    """Return where the playhead went first: by now a slow machine may be seconds further."""
     places = desk.seen["places"]
     assert isinstance(places, list)
     return float(places[0])
@@ -307,7 +307,7 @@ def set_language(code: str) -> Deed:
 
 
 def owners(desk: Desk) -> list[str]:
-    """Which takes the part has, from its beginning on."""
+    """Return which takes the part has, from its beginning on."""
     return [span.take_id for span in desk.project.takes[desk.player.id].comp]
 
 
@@ -362,7 +362,7 @@ def go(ready_s: Callable[[Desk], float], requested_s: Callable[[Desk], float]) -
 
 
 def reads_back(desk: Desk, path: Path) -> bool:
-    """Whether a MIDI file holds what the players play."""
+    """Return whether a MIDI file holds what the players play."""
     score = read_midi(path, maps=map_choices(bundled_maps().values()))
     played = [(part.name, [(n.onset_tick, n.duration_tick, n.pitch) for n in part.notes]) for part in score.parts]
     return played == [

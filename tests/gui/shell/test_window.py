@@ -40,7 +40,7 @@ PANELS = {
     "inspector": Qt.DockWidgetArea.RightDockWidgetArea,
     "timeline": Qt.DockWidgetArea.BottomDockWidgetArea,
 }
-"""What is open at first, and where."""
+"""Panels that are open at first, and their places."""
 
 
 def edit(program: Program, title: str = "Another") -> None:

@@ -52,7 +52,7 @@ def front_plan(session: Session) -> PlayerPlan:
 
 
 def region_of(lane: RegionLane, event_id: str) -> Region:
-    """How a lane shows an event."""
+    """Return how a lane shows an event."""
     return next(region for region in lane.regions if region.event_id == event_id)
 
 
@@ -62,7 +62,7 @@ def middle(lane: RegionLane, event_id: str) -> QPoint:
 
 
 def viewport(lane: Lane) -> QWidget:
-    """What gets the mouse."""
+    """Return what gets the mouse."""
     return lane.plot
 
 
@@ -72,7 +72,7 @@ def click(lane: Lane, place: QPoint | QPointF, modifiers: Qt.KeyboardModifier = 
 
 
 def double_click(lane: Lane, place: QPoint | QPointF) -> None:
-    """As Qt has it: press, release, double press, release."""
+    """Double-click by the events of Qt: press, release, double press, release."""
     QTest.mouseClick(viewport(lane), LEFT, NONE, _point(place))
     QTest.mouseDClick(viewport(lane), LEFT, NONE, _point(place))
 

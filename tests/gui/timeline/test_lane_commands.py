@@ -243,7 +243,7 @@ def test_what_does_not_fit_is_said_beside_the_note_with_what_does(panel: Timelin
 
 
 def test_what_is_shown_again_while_it_is_shown_has_its_room(panel: TimelinePanel, session: Session) -> None:
-    """Of 1 and 2 neither fits: it is said at the first key, and again at the second."""
+    """Neither 1 nor 2 fits: it is said at the first key, and again at the second."""
     lane = panel.lanes["fingering"]
     assert isinstance(lane, FingeringLane)
     choose(session, next(note for note in notes(session) if not labels_of(session, note) & {"1", "12", "2"}))

@@ -75,7 +75,7 @@ def place(lane: DanceLane, number: int, row: int = 0) -> QPointF:
 
 
 def states(lane: DanceLane, dancer_id: str = MARY) -> list[int]:
-    """What the project's dancer dances, worked out anew."""
+    """Return what the project's dancer dances, worked out anew."""
     performance = lane.session.performance
     return [step.state for step in dancing_of(performance, lane.session.project.dancer(dancer_id)).steps()]
 

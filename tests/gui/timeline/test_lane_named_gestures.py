@@ -33,7 +33,7 @@ def said(session: Session) -> tuple[object, ...]:
 
 
 def add_shrug(lane: ActingLane) -> None:
-    """With the right button at a free place of the lane."""
+    """Add a shrug with the right button, at a free place of the lane."""
     menu = lane.context_menu(lane.mouse_at(QPointF(600.0, 60.0)))
     menus = [action.menu() for action in menu.actions()]
     entries = {entry.text(): entry for one in menus if isinstance(one, QMenu) for entry in one.actions()}

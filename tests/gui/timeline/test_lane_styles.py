@@ -47,7 +47,7 @@ def said(session: Session, player: int = 0) -> list[PlayStyle]:
 
 
 def choose(panel: TimelinePanel, menu_name: str, style: str, tick: int, y_px: float = 5.0) -> None:
-    """As from the menu of the lane at a place."""
+    """Choose from the menu of the lane at a place."""
     lane = acting(panel)
     x_px = lane.axis.x_px(panel.session.project.score.tempo_map.seconds(float(tick)))
     menu = lane.context_menu(lane.mouse_at(QPointF(x_px, y_px)))

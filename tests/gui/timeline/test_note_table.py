@@ -16,7 +16,7 @@ from widgets.timeline.roll.drawn_notes import picture_behind
 
 
 def table(number: int, *notes: tuple[int, int, int]) -> NoteTable:
-    """Of notes (onset and length in quarters, pitch)."""
+    """Table of notes (onset and length in quarters, pitch)."""
     made = tuple(
         Note(f"{number}:{place}", TPQ * onset, TPQ * length, pitch, 80)
         for place, (onset, length, pitch) in enumerate(notes)

@@ -21,7 +21,7 @@ STEP = TPQ // 4
 
 
 def press_key(stage: Stage, key: Qt.Key, keys: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:
-    """As from a keyboard: shortcuts hear it too."""
+    """Press a key of the keyboard: shortcuts hear it too."""
     stage.roll.plot.setFocus()
     stage.table.refresh()
     QTest.keyClick(stage.roll.plot, key, keys)

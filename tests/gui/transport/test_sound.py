@@ -1,4 +1,4 @@
-"""What is heard follows the project; playing moves the playhead; the recording finds its place."""
+"""Test that sound follows the project, playing moves the playhead, and the recording finds its place."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def wait_ready(sound: EditorSound, qtbot: QtBot) -> None:
 
 
 def excerpt(sound: EditorSound, start_s: float, end_s: float) -> np.ndarray:
-    """What the playback would play."""
+    """Return what the playback would play."""
     return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
 
 

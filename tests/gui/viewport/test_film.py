@@ -32,7 +32,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def film(capsys: pytest.CaptureFixture[str], *options: str | Path) -> str:
-    """What is printed."""
+    """Return what is printed."""
     assert main(["film", str(QUARTET), *map(str, options)]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""

@@ -1,4 +1,4 @@
-"""Who is played now is seen as it plays, and the others as the performance has them."""
+"""Test that a player who is played live moves as played, and the others as in the performance."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     assert far > 0.05
 
     def steps(count: int) -> list[float]:
-        """How far from the performance, frame by frame, in parts of the whole way."""
+        """Return how far from the performance, frame by frame, in parts of the whole way."""
         found = []
         for _ in range(count):
             now_s[0] += 1 / 60

@@ -79,7 +79,7 @@ def drag(
 
 
 def place_of(viewport: ViewportPanel, row: int, joint: str = "chest") -> QPointF:
-    """Where a joint is in the picture."""
+    """Return where a joint is in the picture."""
     assert viewport.scene.loaded is not None
     size = canvas(viewport).size()
     (place,), _ = viewport.camera.project(viewport.scene.stage.joint_m(row, joint), size.width(), size.height())
@@ -226,7 +226,7 @@ def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel,
 def test_the_windows_thread_copies_no_figures(
     session: Session, poses: MadeNow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What all players are drawn from is made with the figures, beside the window, and forgotten once it is sent."""
+    """Drawing data of all players is made with the figures, beside the window, and forgotten once it is sent."""
     session.set_playhead(AT_S)
     panel = ViewportPanel(session, poses)
     qtbot.addWidget(panel)

@@ -74,7 +74,7 @@ class Listener(PlayAlong):
 
 
 def held_live(stream: list[tuple[int, bytes]]) -> list[tuple[float, set[int]]]:
-    """Which pitches the live player holds after each message."""
+    """Return which pitches the live player holds after each message."""
     player = Listener(live_player())
     at_ms, found = 0, []
     for gap_ms, message in stream:

@@ -56,7 +56,7 @@ OTHERS: dict[str, Any] = {
     "numerator": 3,
     "denominator": 8,
 }
-"""Where the type does not say what else is possible."""
+"""Fields whose type does not say what else is possible."""
 
 
 WHOLE = frozenset({"parts", "metres", "changes", "ticks", "values"})

@@ -1,4 +1,4 @@
-"""What is made from the performance before an edit equals what is made from nothing."""
+"""Test that a performance made from the one before an edit equals a new one."""
 
 from __future__ import annotations
 

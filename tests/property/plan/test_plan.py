@@ -1,4 +1,4 @@
-"""What holds for every plan, whatever the notes, tempi and parameters are."""
+"""Test properties of every plan, whatever the notes, tempi and parameters are."""
 
 from __future__ import annotations
 

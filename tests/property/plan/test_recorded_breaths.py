@@ -19,7 +19,7 @@ from tests.support.plan import make_plans, piece_of, time_frame
 
 TRUMPET = bundled_maps()["trumpet_Bb"]
 LEFT_OUT = {"breath.catch_dropped": 1, "breath.catch_dropped_two": 2}
-"""So many notes are left out for such a breath."""
+"""Notes that are left out for such a breath."""
 LEVELS = (0.0, 0.0, 0.01, 0.03, 0.4, 0.8, 1.0)
 
 

@@ -53,7 +53,8 @@ SLOW = {"deadline": None, "suppress_health_check": list(HealthCheck)}
 
 
 def check(read: Callable[[], Project]) -> bool:
-    """Whether a reader accepts what it is given; then the project can be edited with it, saved and read again."""
+    """Return whether a reader accepts what it is given; then the project can be edited with it, saved and read
+    again."""
     try:
         project = read()
         Document(PROJECT).apply(EDIT, project)

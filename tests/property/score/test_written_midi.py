@@ -205,7 +205,7 @@ def test_another_program_reads_the_same_notes(score: Score) -> None:
 
 
 def are_ended_where_struck_again(again: Sequence[Note], notes: Sequence[Note]) -> bool:
-    """Whether each note ends where one of its pitch ended or began, and lasts into the next by a legato at most.
+    """Return whether each note ends where one of its pitch ended or began, and lasts into the next by a legato at most.
 
     Notes struck together are a unison of two players.
     """

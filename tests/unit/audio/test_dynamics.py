@@ -46,7 +46,7 @@ def expressive(seeds: dict[str, int]) -> Project:
 
 
 def plain(project: Project) -> Project:
-    """What the score alone says."""
+    """Return what the score alone says."""
     parts = tuple(msgspec.structs.replace(part, curves=()) for part in project.score.parts)
     return replace(project, score=msgspec.structs.replace(project.score, parts=parts))
 
@@ -78,7 +78,7 @@ def values_at(curve: ControllerCurve, ticks: np.ndarray) -> np.ndarray:
 
 
 def correlation(project: Project, curves: dict[str, ControllerCurve], part_id: str) -> float:
-    """Of ranks, while the part sounds."""
+    """Correlation of ranks, while the part sounds."""
     part = next(part for part in project.score.parts if part.id == part_id)
     ticks = np.concatenate([np.arange(note.onset_tick, note.end_tick, 60) for note in part.notes])
     return float(spearmanr(values_at(curves[part_id], ticks), values_at(part.curves[0], ticks)).statistic)

@@ -58,7 +58,7 @@ def followed(sound: np.ndarray, project: Project | None = None, pinned: dict[int
 
 
 def onset_errors_s(found: Following, earlier_s: float = 0.0, from_s: float = 0.0) -> np.ndarray:
-    """Of every note that is in the recording, which begins so much earlier than the music."""
+    """Errors of every note that is in the recording, which begins this much earlier than the music."""
     notes = np.array([note.onset_tick for part in quartet().score.parts for note in part.notes], np.float64)
     true_s = truth().score.tempo_map.seconds(notes) + earlier_s
     there = true_s > from_s
@@ -274,7 +274,7 @@ def test_a_pinned_beat_stays_and_beats_far_away_do_not_feel_it() -> None:
 
 
 def test_a_pin_says_where_it_goes_on_after_a_repeat() -> None:
-    """Of two places that sound alike the pinned one is taken."""
+    """Take the pinned one of two places that sound alike."""
     sound = recorded()
     twice = np.concatenate([sound[: 50 * RATE_HZ], sound[28 * RATE_HZ :]])
     bar = quartet().metre_map.bar_of_tick(int(truth().score.tempo_map.ticks(40.0)))

@@ -1,4 +1,4 @@
-"""What is heard of a project: tracks, mutes, places, and films' sound."""
+"""Test the sound of a project: tracks, mutes, places, and films' sound."""
 
 from __future__ import annotations
 

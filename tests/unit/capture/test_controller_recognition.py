@@ -1,4 +1,4 @@
-"""What breathes is found by blowing."""
+"""Test that the breath controller is found by blowing."""
 
 from __future__ import annotations
 

@@ -25,7 +25,8 @@ def player(
 
 
 def most_wrong_s(jitter_s: float, count: int) -> float:
-    """So far is a median of normal hits off, once in a hundred thousand: its standard error times that quantile."""
+    """Greatest error of a median of normal hits, exceeded once in a hundred thousand: its standard error times that
+    quantile."""
     return NormalDist().inv_cdf(1.0 - 5e-6) * 1.2533 * jitter_s / count**0.5
 
 

@@ -1,4 +1,4 @@
-"""Where no MIDI system can be had."""
+"""Test recording without a MIDI system."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the recorder does with a system that is made up here: no transport, no process."""
+"""Test what the recorder does with a system that is made up here: no transport, no process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What of a dance a player takes over: about the place, seen from where the dancer faces, within its bounds."""
+"""Test what of a dance a player takes over: about the place, seen from where the dancer faces, within its bounds."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ def arm_swings(fps: int, swings_s: tuple[float, ...] = (1.0, 2.5, 4.0, 5.5, 7.0)
 
 
 def noisy(clip: MotionClip, seed: int) -> MotionClip:
-    """With 0.5 degrees (root mean square) of white noise on every segment."""
+    """Motion with 0.5 degrees (root mean square) of white noise on every segment."""
     spread = np.radians(0.5) / np.sqrt(3.0)
     noise = spread * np.random.default_rng(seed).standard_normal((*clip.rotations.shape[:2], 3))
     return replace(clip, rotations=quaternion.multiply(clip.rotations, quaternion.from_rotation_vector(noise)))

@@ -1,4 +1,4 @@
-"""What a dancer hears of a piece without percussion; every symbol can be followed by hand."""
+"""Test what a dancer hears of a piece without percussion; every symbol can be followed by hand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is written is read back to the bit; what is damaged is refused with file and place, and nothing else happens."""
+"""Test that a written file is read back to the bit, and a damaged one is refused with file and place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where music begins is found where it was put, and certain only where it can be."""
+"""Test that the begin of music is found where it was put, and certain only where it can be."""
 
 from __future__ import annotations
 

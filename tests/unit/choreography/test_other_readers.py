@@ -45,7 +45,7 @@ def shortened(clip: Path, folder: Path) -> Path:
 
 
 def places(path: Path) -> list[dict[str, FloatArray]]:
-    """Of each frame every joint's place as our reader has it, by scipy's rotations."""
+    """Places of every joint in each frame as our reader has it, by scipy's rotations."""
     clip = read_bvh(path)
     found = []
     for frame in range(FRAMES):

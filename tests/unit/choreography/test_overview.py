@@ -1,4 +1,4 @@
-"""What a choreography says of its basic motions, against slow counts."""
+"""Test what a choreography says of its basic motions, against slow counts."""
 
 from __future__ import annotations
 

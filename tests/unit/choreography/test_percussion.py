@@ -1,4 +1,4 @@
-"""What a dancer hears of a piece: beats, and the hits of its percussion."""
+"""Test what a dancer hears of a piece: beats, and the hits of its percussion."""
 
 from __future__ import annotations
 

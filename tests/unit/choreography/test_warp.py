@@ -12,7 +12,7 @@ from tests.support.dances import beaten
 
 
 def even(length_s: float, every_s: float) -> TimeMap:
-    """As captured, with a knot every so often."""
+    """Warp that changes nothing, with knots at equal distances."""
     times_s = np.arange(0.0, length_s + 1e-9, every_s)
     return TimeMap(times_s, times_s.copy())
 

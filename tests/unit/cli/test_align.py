@@ -37,7 +37,7 @@ def concert(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def errors_s(path: Path, begins_s: float) -> np.ndarray:
-    """Of the notes of an aligned file, whose tick 0 is at this second of the recording."""
+    """Errors of the notes of an aligned file, whose tick 0 is at this second of the recording."""
     score = load(path).score if path.suffix == ".suisou" else read_midi(path, maps=map_choices(bundled_maps().values()))
     notes = np.array([note.onset_tick for part in score.parts for note in part.notes], np.float64)
     true_s = truth().score.tempo_map.seconds(notes * truth().score.ticks_per_quarter / score.ticks_per_quarter)

@@ -1,4 +1,4 @@
-"""What `suisou film` refuses before anything is drawn; what it draws is in tests/gui/viewport/test_film.py."""
+"""Test what `suisou film` refuses before anything is drawn; what it draws is in tests/gui/viewport/test_film.py."""
 
 from __future__ import annotations
 

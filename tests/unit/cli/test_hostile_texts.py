@@ -31,7 +31,7 @@ KEPT = "曲 ガ\u3000é👩\u200d🎤"
 
 
 def harmless(printed: str) -> str:
-    """What was printed, without anything that a terminal obeys or that begins a line of its own."""
+    """Return what was printed, without anything that a terminal obeys or that begins a line of its own."""
     assert not [c for c in printed if c != "\n" and unicodedata.category(c) in ("Cc", "Zl", "Zp", "Cs")]
     assert "\u202e" not in printed
     assert f"\n{FORGED}" not in printed

@@ -1,4 +1,4 @@
-"""What `suisou inspect` prints for people."""
+"""Test what `suisou inspect` prints for people."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ def _reload() -> None:
 
 
 def readable(printed: str) -> str:
-    """What was printed: the names as they were meant, and nothing that is escaped."""
+    """Return what was printed: the names as they were meant, and nothing that is escaped."""
     printed.encode()
     assert "\\udc" not in printed
     return printed

@@ -1,4 +1,4 @@
-"""What the user types."""
+"""Test options and their values, as users type them."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ NUMBERS = {
     for name, action in options(parser())
     if action.type not in (None, Path) and name != " stream --host"
 }
-"""How the options read their texts that are more than a text or a path."""
+"""Functions by which options read their texts that are more than a text or a path."""
 
 
 @pytest.mark.parametrize(

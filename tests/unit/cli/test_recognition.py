@@ -1,4 +1,4 @@
-"""Who plays a track, by its name, its number or its notes: whole files through ``suisou inspect``."""
+"""Test who plays a track, by its name, its number or its notes: whole files through ``suisou inspect``."""
 
 from __future__ import annotations
 

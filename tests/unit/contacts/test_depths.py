@@ -1,4 +1,4 @@
-"""How deep hands are inside an instrument, against slower judges.
+"""Test how deep hands are inside an instrument, against slower judges.
 
 One deforms every vertex one by one and measures it to every body; the other is the search by groups of the same frames
 that the judge was before.
@@ -138,7 +138,7 @@ def test_what_is_less_than_asked_for_may_be_left_out(share: float) -> None:
 
 
 def test_the_deepest_of_all_frames_are_as_without_a_least_depth() -> None:
-    """What is found of some frames says what need not be found of others."""
+    """Findings of some frames hold for those that are not looked at."""
     scene = played(2, (0.004, -0.003, 0.002), 8.0, "sax_alto_Eb")
     for skin in scene.hands:
         judge = HandDepths(skin, scene.instrument.proxy)

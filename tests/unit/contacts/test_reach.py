@@ -1,4 +1,4 @@
-"""Who cannot reach a place is reported, note by note; against the exported motion's own hands."""
+"""Test that players who cannot reach a place are reported, note by note; against the exported motion's own hands."""
 
 from __future__ import annotations
 

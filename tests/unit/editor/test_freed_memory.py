@@ -1,4 +1,4 @@
-"""What was freed between two things that stay is returned to the system."""
+"""Test that memory freed between two things that stay is returned to the system."""
 
 from __future__ import annotations
 

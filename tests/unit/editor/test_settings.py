@@ -1,4 +1,4 @@
-"""What is chosen is there in the next run, with its type; whatever the file holds, the editor has settings."""
+"""Test that settings are there in the next run, with their types, whatever the file holds."""
 
 from __future__ import annotations
 

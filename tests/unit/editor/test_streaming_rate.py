@@ -1,4 +1,4 @@
-"""When frames are sent, by a clock that a test turns: at the rate while something moves, seldom at rest."""
+"""Test when frames are sent, by a clock that a test turns: at the rate while something moves, seldom at rest."""
 
 from __future__ import annotations
 

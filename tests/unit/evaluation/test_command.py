@@ -1,4 +1,4 @@
-"""What `suisou evaluate` refuses before anything is drawn, and which videos; what it draws is in
+"""Test what `suisou evaluate` refuses before anything is drawn, and which videos; what it draws is in
 tests/gui/evaluation/test_command.py."""
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ def press_until_focused(page: Page, id: str) -> None:
 
 
 def fits(page: Page) -> bool:
-    """Whether nothing has to be scrolled sideways."""
+    """Return whether nothing has to be scrolled sideways."""
     return bool(page.value("document.documentElement.scrollWidth <= window.innerWidth"))
 
 

@@ -179,7 +179,7 @@ def test_few_viewers_are_explained(count: int) -> None:
 
 
 def test_the_least_number_of_viewers_is_the_least() -> None:
-    """What is said to be the least number of viewers is: with one fewer nothing can be shown."""
+    """The least number of viewers is right: with one fewer nothing can be shown."""
     results = tabulate(KEY, viewers(KEY, 2))
     [few] = [message for message in conclude(results).may_not if message.id == "results.too_few"]
     least = int(few.arguments["least"])

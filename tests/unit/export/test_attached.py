@@ -83,7 +83,7 @@ def test_measures_stage_and_report(free: tuple[Path, dict[str, Any]], tmp_path: 
 
 
 def test_more_than_one_process_writes_the_same(tmp_path: Path) -> None:
-    """What is asked of skeletons is sent to them, too."""
+    """Options of skeletons are sent to machines of the scheduler, too."""
     arguments = ["--fps", "12", "--from-bar", "1", "--to-bar", "1", "--player", "Trumpet 1", "--player", "Trombone 2"]
     arguments += ["--format", "fbx", "--instrument", "socket", "--rest-pose", "t"]
     for jobs in ("1", "2"):

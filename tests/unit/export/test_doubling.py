@@ -25,7 +25,7 @@ from tests.support.doubled import flutist
 
 FPS = Fraction(30)
 REPORTED = {"limits of leftHand sideways"}
-"""Of a lowered flute with this body, whoever plays the piccolo: half a degree."""
+"""Report of a lowered flute with this body, whoever plays the piccolo: half a degree."""
 
 
 def exported(project: Project, folder: Path, asked: int, formats: frozenset[str] = frozenset(("fbx", "glb"))) -> Report:

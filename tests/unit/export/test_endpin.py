@@ -1,4 +1,4 @@
-"""What stands on a pin stands on the floor: exported as the user would, read back, for every body."""
+"""Test that an instrument on a pin stands on the floor: exported as the user would, read back, for every body."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ from tests.unit.formats import scenes
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 FPS = Fraction(60)
 FBX_STEADY_DEG = 0.001
-"""What the file itself may add: an axis that changes by less is written once."""
+"""Error that the file itself may add: an axis that changes by less is written once."""
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +101,7 @@ def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
 
 
 def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, played: Scene) -> dict[str, np.ndarray]:
-    """How far every landmark of a played scene is off, frame by frame, by skinning its vertices."""
+    """Return how far every landmark of a played scene is off, frame by frame, by skinning its vertices."""
     assert played.clip is not None
     frames, result, found = scene.clip.frames, {}, []
     for one in (scene, played):
@@ -120,7 +120,7 @@ def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, pl
 
 
 def _curve_keys(path: Path) -> list[tuple[int, bool]]:
-    """Of every curve of an FBX file, the number of keys and whether all are alike."""
+    """The number of keys of every curve of an FBX file, and whether all are alike."""
     objects = read_elements(path.read_bytes(), path.name).child("Objects")
     assert objects is not None
     values = [curve.child("KeyValueFloat") for curve in objects.children or () if curve.name == "AnimationCurve"]
@@ -214,7 +214,7 @@ def test_other_programs_play_all_formats_within_the_bounds(
 
 
 def _expected(scene: Scene, sampled: list[int] | None = None) -> readers.Expected:
-    """What every reader should find, with every key."""
+    """Return what every reader should find, with every key."""
     assert scene.clip is not None
     clip = scene.clip
     sampled = list(range(clip.frames)) if sampled is None else sampled

@@ -1,4 +1,4 @@
-"""What a skeleton is equipped with, on the files read back: body, skin and instrument are where they were."""
+"""Test sockets and other additions to skeletons on the files read back: body, skin and instrument stay in place."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ TOGETHER = (RigOptions("ik", "motion", "a", True), RigOptions("socket", "place",
 
 @dataclass(frozen=True)
 class Files:
-    """What was read of a character's and an instrument's file."""
+    """Content of a character's and an instrument's file."""
 
     character: Character
     target: TargetSkeleton
@@ -71,7 +71,7 @@ class Files:
         return JointPlayback(ScenePlayback(scene, scene.clip), self.target, self.character)
 
     def instrument(self) -> np.ndarray:
-        """Where the instrument's bones are (F, N, 4, 4), in the player's own space."""
+        """Return where the instrument's bones are (F, N, 4, 4), in the player's own space."""
         held = self.held
         for socket in socket_names(self.target):
             held = in_world(held, self.scene, socket)
@@ -135,7 +135,7 @@ def world_m(scene: Scene) -> np.ndarray:
 
 
 def rest_m(scene: Scene) -> dict[str, np.ndarray]:
-    """Where bones are at rest, by their names."""
+    """Return where bones are at rest, by their names."""
     clip = scene.clip
     assert clip is not None
     turns = np.stack([bone.rotation_xyzw for bone in scene.bones])[None]

@@ -151,7 +151,7 @@ def what_it_holds(scene: Scene) -> readers.Expected:
 
 
 def without_morphs(scene: Scene) -> Scene:
-    """What no option changes, and what takes readers longest."""
+    """Return what no option changes, and what takes readers longest."""
     assert scene.clip is not None
     meshes = tuple(replace(mesh, morphs=()) for mesh in scene.meshes)
     return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights={}))

@@ -128,7 +128,7 @@ def test_skin_is_where_it_is_on_ours() -> None:
 
 
 def test_a_missing_upper_chest_leaves_arms_where_they_were() -> None:
-    """What hangs from a joint that the file lacks is moved on its parent: contacts are worth more than a fixed rib."""
+    """A bone below a joint that the file lacks is moved on its parent: contacts are worth more than a fixed rib."""
     character = foreign(ours(), lacking=("upperChest", "leftToes", "jaw"))
     motion = random_motion(5)
     target = own_target(character)
@@ -259,7 +259,7 @@ def test_the_mannequin_moves_as_ours(seed: int) -> None:
 
 
 def test_the_mannequins_skin_is_ours() -> None:
-    """As long as the eyes look ahead, which it has no bones for."""
+    """The eyes look ahead, since it has no bones for them."""
     motion = random_motion(4)
     eyes = [ours().skeleton.index(name) for name in ("leftEye", "rightEye")]
     motion.rotations[:, eyes] = quaternion.IDENTITY
@@ -271,7 +271,7 @@ def test_the_mannequins_skin_is_ours() -> None:
 
 
 def test_an_assets_rest_rotations_are_taken() -> None:
-    """With the axes of an asset a rotation means on our file what it means on the asset's."""
+    """A rotation on our file means the same as on the asset's if both have the same axes."""
     plain = mannequin_target(ours().skeleton)
     _, turned = world_placements(plain.parents, plain.offsets_m, plain.t_pose)
     random = Rotation.random(len(plain.names), random_state=3)

@@ -77,7 +77,7 @@ def test_a_folder_made_for_a_failure_goes_again(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("refused", range(1, 4))
 def test_what_is_refused_halfway_is_given_back(root: Path, monkeypatch: pytest.MonkeyPatch, refused: int) -> None:
-    """As on Windows, where a file that a program has open cannot be replaced."""
+    """Behave as Windows does, where a file that a program has open cannot be replaced."""
     replace, moved = Path.replace, []
 
     def refusing(source: Path, target: Path) -> Path:

@@ -1,4 +1,4 @@
-"""Where results are kept."""
+"""Test where results are kept."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="counts what children
 
 
 class TooMuch(Exception):
-    """What a check raises."""
+    """Exception of a check."""
 
 
 def at_most(seconds: float) -> Callable[[float], None]:

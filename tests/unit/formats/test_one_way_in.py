@@ -1,4 +1,4 @@
-"""What comes from outside is read by `app.formats.files` alone: no one else can forget pipes, sizes or odd errors."""
+"""Test that files from outside are read by `app.formats.files` alone, which minds pipes, sizes and odd errors."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ MENTIONED = re.compile("|".join((*READING, r"\bopen\s*\(")))
 
 
 def readings(path: Path) -> Iterator[tuple[str, int]]:
-    """What in a module reads a file by itself, and in which line."""
+    """Return what in a module reads a file by itself, and in which line."""
     source = path.read_text(encoding="utf-8")
     if not MENTIONED.search(source):
         return

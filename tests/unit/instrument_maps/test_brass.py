@@ -111,7 +111,7 @@ def first_choice(name: str, written: int) -> str:
 
 
 def reported(name: str, written: int) -> dict[str, set[int]]:
-    """What the chart says of a note, without what this instrument has no valve for."""
+    """Return what the chart says of a note, without what this instrument has no valve for."""
     chart, shift = CHART_OF[name]
     signs = {control.label for control in MAPS[name].controls if control.label}
     acoustics = MAPS[name].acoustics
@@ -126,7 +126,8 @@ def uncharted(name: str) -> set[int]:
 
 
 def deviation_cents(instrument: InstrumentMap, valves: tuple[str, ...], written: int) -> float:
-    """How far the nearest harmonic of the tube with these valves is from a note, from the tube's lengths alone."""
+    """Return how far the nearest harmonic of the tube with these valves is from a note, from the tube's lengths
+    alone."""
     acoustics = instrument.acoustics
     added = {name: 2 ** (semitones / 12) - 1 for name, semitones in acoustics.semitones.items()}
     again = sum(length for name, length in added.items() if name in valves and name == acoustics.compensator)
@@ -234,7 +235,7 @@ def test_a_tuba_of_another_key_is_the_same_table_moved(name: str, semitones: int
 
 @pytest.mark.parametrize("name", BRASS)
 def test_first_choices_are_in_tune_unless_a_valve_sum_is_too_long(name: str) -> None:
-    """What players correct by lip and slides: published are 54 cents for 123."""
+    """Players correct by lip and slides: published are 54 cents for 123."""
     for written in written_range(MAPS[name]):
         concert = written - MAPS[name].transposition_semitones
         fingering = MAPS[name].fingerings_for(concert)[0]

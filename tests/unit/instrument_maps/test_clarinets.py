@@ -37,7 +37,7 @@ TOGETHER = ({"T", "R"}, {"S3", "S4"}, {"S1", "S2"})
 
 
 def possible(label: str) -> bool:
-    """Whether ten fingers can do it."""
+    """Return whether ten fingers can do it."""
     asked: dict[str, set[str]] = defaultdict(set)
     for sign in label.split():
         if sign not in FINGER:

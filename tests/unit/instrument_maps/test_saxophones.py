@@ -45,7 +45,7 @@ def charts() -> dict[int, dict[str, list[int]]]:
 
 
 def possible(label: str) -> bool:
-    """Whether ten fingers can do it."""
+    """Return whether ten fingers can do it."""
     asked: dict[str, set[str]] = defaultdict(set)
     for sign in label.split() if label != "(open)" else ():
         asked[FINGER[sign]].add(sign)

@@ -20,7 +20,7 @@ EXPECTED = (
     *("baritone_Bb", "euphonium_Bb_bassclef", "euphonium_baritone_Bb_treble"),
     *("tuba_F", "tuba_Eb", "tuba_CC", "tuba_BBb", "sousaphone_BBb", "recorder_soprano_C", "recorder_alto_F", "ewi"),
 )
-"""As on a band's score: woodwinds, brass, the others; in a family from high to low."""
+"""Order of a band's score: woodwinds, brass, the others; in a family from high to low."""
 
 
 def test_lists_are_in_score_order() -> None:
@@ -49,7 +49,7 @@ def test_keys_are_written_with_the_sign_of_a_flat() -> None:
 
 
 def test_names_begin_with_a_capital_and_go_on_without() -> None:
-    """As in sentences and other lists; keys, valves and abbreviations are written as they are."""
+    """Names are written like words of a sentence; keys, valves and abbreviations stay."""
     words = [word for one in bundled_maps().values() for word in one.name.en.split()[1:]]
     assert [word for word in words if word.istitle() and len(word.strip("()♭")) > 1] == []
 

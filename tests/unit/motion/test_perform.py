@@ -1,4 +1,4 @@
-"""What must hold of every motion, measured by forward kinematics and not by the solvers' own numbers."""
+"""Test what must hold of every motion, measured by forward kinematics and not by the solvers' own numbers."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ from tests.support.doubled import flutist
 
 FPS = Fraction(30)
 MOST_RAD_S = 7.0
-"""Of trunk and arms at a change; a musician throws an arm three times as fast."""
+"""Speed of trunk and arms at a change; a musician throws an arm three times as fast."""
 
 
 @cache

@@ -1,4 +1,4 @@
-"""What an edit costs is known before it is planned, and a plan can be stopped."""
+"""Test that the cost of an edit is known before it is planned, and a plan can be stopped."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What is looked at is made first, memory stays within its bound, and a pose is there at once when it must be."""
+"""Test that visible motion is made first, memory stays within its bound, and a pose is there at once when it must
+be."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""How many frames a report looks at: as many in all usual pieces, few in hours with little in them, and what it says
-of that."""
+"""Test how many frames a report looks at: as many in all usual pieces, few in hours with little in them, and what it
+says of that."""
 
 from __future__ import annotations
 
@@ -146,7 +146,7 @@ def test_everyone_is_looked_at_in_known_pieces(players: int, notes: int, seconds
 
 
 def of_length(seconds: float, fps: Fraction) -> Performance:
-    """What is asked of a performance."""
+    """Return what is asked of a performance."""
     return cast(Performance, SimpleNamespace(project=SimpleNamespace(fps=fps), time_frame=TimeFrame(0.0, seconds)))
 
 

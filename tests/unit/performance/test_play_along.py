@@ -32,7 +32,7 @@ from tests.support.live import FPS, LATE_S, QUARTER, Played, line, performance_o
 KINDS = ("trumpet_Bb", "trombone_tenor_F_attachment", "flute", "clarinet_Bb")
 NOTES = 10
 SLACK = 2.0
-"""What is not known beforehand starts with more of a jerk, within this of the bounds, or of what a performance of the
+"""Live motion starts with more of a jerk, within this of the bounds, or of what a performance of the
 same notes has."""
 
 
@@ -208,7 +208,8 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
 
 
 def strokes(step_s: float, velocities: list[int]) -> list[tuple[float, float, float]]:
-    """How far tip and back of the tongue come up, and how hard the breath pushes, in each of some attacked notes."""
+    """Return how far tip and back of the tongue come up, and how hard the breath pushes, in each of some attacked
+    notes."""
     breath, found = breathing(), list[tuple[float, float, float]]()
     for place, velocity in enumerate(velocities):
         onset_s = 1.0 + place * step_s

@@ -1,4 +1,4 @@
-"""What the bundled rules place in long rests, by instrument, style and seed."""
+"""Test what the bundled rules place in long rests, by instrument, style and seed."""
 
 from __future__ import annotations
 

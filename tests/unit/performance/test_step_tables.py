@@ -1,4 +1,4 @@
-"""What steps read is of the type that they are given, which the type checker cannot see through a table of names."""
+"""Test that steps read values of their types, which the type checker cannot see through a table of names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What style, habits, variation and the section's intensity make of a player's amounts."""
+"""Test what style, habits, variation and the section's intensity make of a player's amounts."""
 
 from __future__ import annotations
 

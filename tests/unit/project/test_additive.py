@@ -23,7 +23,7 @@ PATH = Path("/nowhere/piece.suisou")
 
 @pytest.fixture
 def project() -> Project:
-    """With nothing but one curve of the first player."""
+    """Project with nothing but one curve of the first player."""
     bare = full_project("/nowhere")
     player = bare.players[0].id
     bare = edit.delete_curves(bare, player, [curve.name for curve in edit.curves_of(bare, player)])

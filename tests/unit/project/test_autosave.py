@@ -65,7 +65,7 @@ def later(project: Project) -> Project:
 
 
 def made(autosave: Autosave, writing: Writing, now_s: float) -> AutosaveResult:
-    """What the shell does with a writing that is due."""
+    """Return what the shell does with a writing that is due."""
     try:
         written = writing.run()
     finally:
@@ -85,7 +85,7 @@ def open_in(autosave: Autosave, document: Path) -> Project:
 
 
 def recover(item: Recoverable, autosave: Autosave) -> Project:
-    """What the shell does with work that is taken over."""
+    """Return what the shell does with work that is taken over."""
     project, base = load_work(item)
     autosave.opened(item.document, base, item.facts, item.autosave)
     autosave.changed(project, 0.0)

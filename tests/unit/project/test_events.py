@@ -81,7 +81,7 @@ def event(plan: PlayerPlan, event_id: str) -> Event:
 
 
 def same_but(one: PlayerPlan, other: PlayerPlan, *event_ids: str) -> bool:
-    """Whether two plans have the same events but for these."""
+    """Return whether two plans have the same events but for these."""
     first, second = edit.events_of(one), edit.events_of(other)
     return {key: value for key, value in first.items() if key not in event_ids} == {
         key: value for key, value in second.items() if key not in event_ids
@@ -437,7 +437,7 @@ def test_a_breath_drawn_out_at_its_start_keeps_its_preparation_before_it(event_i
 
 
 def test_an_instrument_lowered_by_hand_is_raised_as_much_sooner_as_its_breath() -> None:
-    """What the generator lowers ends before the breath wherever that goes; what a hand put there did not."""
+    """A lowering by the generator ends before the breath wherever that goes; one that a hand put there does not."""
     for lowered in placed(GestureEvent):
         breath_id = lowered.id.replace("lower_instrument", "breath")
         if not lowered.id.startswith("lower_instrument:") or breath_id not in breath_ids:

@@ -1,4 +1,4 @@
-"""What the user may set, and what is said when it is wrong."""
+"""Test what the user may set, and what is said when it is wrong."""
 
 from __future__ import annotations
 

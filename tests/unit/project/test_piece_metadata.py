@@ -1,4 +1,4 @@
-"""What was said of a piece's acting: saved, loaded, compared."""
+"""Test a piece's acting metadata: saved, loaded, compared."""
 
 from __future__ import annotations
 

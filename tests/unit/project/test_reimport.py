@@ -1,4 +1,4 @@
-"""What reading a changed MIDI file again keeps, brings and leaves behind."""
+"""Test what reading a changed MIDI file again keeps, brings and leaves behind."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def read(path: Path) -> Project:
 
 
 def from_file(score: Score, **changes: object) -> Score:
-    """As a file would bring it: ids counted anew."""
+    """Notes like those of a file: ids counted again."""
     parts = tuple(
         msgspec.structs.replace(
             part,

@@ -1,4 +1,4 @@
-"""What cannot be saved takes nothing else with it."""
+"""Test that a value that cannot be saved takes nothing else with it."""
 
 from __future__ import annotations
 

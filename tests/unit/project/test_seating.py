@@ -1,4 +1,4 @@
-"""Who sits where: sections in a band's rows, and no one's instrument in a neighbour."""
+"""Test who sits where: sections in a band's rows, and no one's instrument in a neighbour."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def corners(place: StagePosition, taken: Footprint) -> np.ndarray:
 
 
 def apart(one: np.ndarray, other: np.ndarray) -> bool:
-    """Whether a line parts two rectangles: along a side of either."""
+    """Return whether a line parts two rectangles: along a side of either."""
     for box in (one, other):
         for side in (box[1] - box[0], box[2] - box[1]):
             normal = np.array([-side[1], side[0]])

@@ -130,7 +130,7 @@ def test_the_last_channel_of_a_node_holds(tmp_path: Path) -> None:
 
 
 def test_scaled_armatures_are_multiplied_out(tmp_path: Path) -> None:
-    """As Blender writes what it had from FBX: a root of a hundredth, its bones a hundred times as large."""
+    """Blender writes a file that it had from FBX so: a root of a hundredth, its bones a hundred times as large."""
     data = encode_glb(scene_of(CLIP, 3))
     length = struct.unpack_from("<I", data, 12)[0]
     document = json.loads(data[20 : 20 + length])

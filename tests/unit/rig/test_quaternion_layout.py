@@ -55,7 +55,7 @@ def test_values_do_not_depend_on_memory(name: str) -> None:
 
 
 def test_many_lie_component_after_component() -> None:
-    """What is computed with one component of many then runs along the memory."""
+    """Arithmetic with one component of many then runs along the memory."""
     for made in (quaternion.multiply(Q, R), quaternion.rotate(Q, V), quaternion.columns(ANGLES, 0.0, ANGLES)):
         assert made[:, 0].flags.c_contiguous
     repeated = quaternion.repeated(np.array([1.0, 2.0, 3.0]), 5)

@@ -47,7 +47,7 @@ class Part:
     notes: list[tuple[int, int]]
     name: str
     heard: list[tuple[int, int]] = field(default_factory=list)
-    """Of a drum part: (tick, number of General MIDI 2)."""
+    """Hits of a drum part: (tick, number of General MIDI 2)."""
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""What the user wants of a file's tracks."""
+"""Test the assignment of a file's tracks."""
 
 from __future__ import annotations
 

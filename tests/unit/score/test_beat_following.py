@@ -1,4 +1,4 @@
-"""Which bars of a piece a recording has, and how sure that is."""
+"""Test which bars of a piece a recording has, and how sure that is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which controllers of a file are dynamics."""
+"""Test which controllers of a file are dynamics."""
 
 from __future__ import annotations
 

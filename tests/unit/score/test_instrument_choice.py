@@ -1,4 +1,4 @@
-"""Which map plays a part: keys and sizes of one instrument, names in five languages, what the title says."""
+"""Test which map plays a part: keys and sizes of one instrument, names in five languages, what the title says."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What instruments are called, in many languages."""
+"""Test what instruments are called, in many languages."""
 
 import tomllib
 import unicodedata

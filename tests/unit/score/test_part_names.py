@@ -1,4 +1,4 @@
-"""What parts are called in scores of seven languages: a table written before the vocabulary was extended."""
+"""Test what parts are called in scores of seven languages: a table written before the vocabulary was extended."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which tracks are played, by which instrument map, and why the others are not."""
+"""Test which tracks are played, by which instrument map, and why the others are not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What bytes mean, and what happens to those that mean nothing."""
+"""Test what bytes mean, and what happens to those that mean nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was played in a take, and what of it was meant."""
+"""Test what was played in a take, and what of it was meant."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Which tracks of MIDI files are takes, and that they are imported clean and, where requested, as they were played."""
+"""Test which tracks of MIDI files are takes, and that they are imported clean and, where requested, as they were
+played."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who plays what in a track that players share."""
+"""Test who plays what in a track that players share."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_a_line_is_one_voice() -> None:
 
 
 def scale(count: int, length: float = 1.0) -> list[tuple[float, float, int]]:
-    """So many notes in a row that touch, as (onset, duration in quarters, pitch)."""
+    """Notes in a row that touch, as (onset, duration in quarters, pitch)."""
     return [(index * length, length, 60 + index % 8) for index in range(count)]
 
 

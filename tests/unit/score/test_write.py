@@ -1,4 +1,4 @@
-"""What a MIDI file cannot hold is reported, and bounds are kept."""
+"""Test that values a MIDI file cannot hold are reported, and bounds are kept."""
 
 from __future__ import annotations
 

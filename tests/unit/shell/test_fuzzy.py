@@ -1,4 +1,4 @@
-"""How well typed letters fit a name."""
+"""Test how well typed letters fit a name."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from metadata.library import bundled_gestures, metadata_library
 
 ROOT = Path(__file__).parents[3]
 SHOWN = 40
-"""So much of a path that is wrong is shown."""
+"""Characters of a wrong path that are shown."""
 GUIDES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
 
 
@@ -39,7 +39,7 @@ def paths(place: int) -> list[re.Pattern[str]]:
 
 
 def wrong(text: str, place: int) -> list[str]:
-    """What begins with a menu of the bar and ``>`` and goes on with none of its menus and commands."""
+    """Return what begins with a menu of the bar and ``>`` and goes on with none of its menus and commands."""
     known, flowing = paths(place), " ".join(text.split())
     bar = "|".join(re.escape(without_key(TEXTS[f"menu.{name}"][place])) for name in BAR)
     starts = [found.start() for found in re.finditer(rf"(?<!> )(?<![A-Za-z])(?:{bar}) > ", flowing)]

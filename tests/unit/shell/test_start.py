@@ -1,4 +1,4 @@
-"""What the first picture does not need is not loaded for it."""
+"""Test that modules the first picture does not need are not loaded for it."""
 
 from __future__ import annotations
 

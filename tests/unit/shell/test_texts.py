@@ -28,7 +28,7 @@ TABLES = {path: tomllib.loads(path.read_text("utf-8")) for path in FILES if path
 FUNCTIONS = frozenset(
     {"tr", "Caption", "Button", "Check", "ColumnList", "IconButton", "OkCancel", "PictureButton", "in_form"}
 )
-"""What is given ids as positional arguments; `texted` has them by keyword."""
+"""Functions that are given ids as positional arguments; `texted` has them by keyword."""
 KINDS = {*REMOVABLE, "embouchure", "pose", "additive", "vary", "style"}
 """First parts of the ids of events that a person may select."""
 NAMES = {f"expression_name.{name}" for name in load_expressions()} | {
@@ -66,7 +66,7 @@ ID = re.compile(r"[a-z_]+\.\w+")
 
 
 def fields(text: str) -> set[tuple[str, str]]:
-    """What a template is filled with: names, and how they are formatted; plurals are English."""
+    """Return what a template is filled with: names, and how they are formatted; plurals are English."""
     parsed = string.Formatter().parse(text)
     return {(name, spec or "") for _, name, spec, _ in parsed if name is not None and "|" not in (spec or "")}
 

@@ -35,7 +35,7 @@ Change = Callable[[TimeView, float, float], TimeView]
 
 
 class Desk:
-    """What gestures need of the session."""
+    """The part of the session that gestures need."""
 
     def __init__(self) -> None:
         part = Part("1.1.1", "One", 0, 0, 0, None, None, "trumpet_Bb", (Note("1:0", 0, TPQ, 60, 80),))

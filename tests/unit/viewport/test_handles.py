@@ -1,4 +1,4 @@
-"""What a drag of a handle means, from several sides."""
+"""Test what a drag of a handle means, from several sides."""
 
 from __future__ import annotations
 

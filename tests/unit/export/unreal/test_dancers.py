@@ -64,7 +64,7 @@ def test_a_dancer_is_written_as_a_player_is(unreal: UnrealProject, export: Expor
 
 
 def test_the_file_holds_the_dance(unreal: UnrealProject, export: Export, danced: Project) -> None:
-    """Where the hips and feet are at every frame, against the motion that the viewport shows."""
+    """Hips and feet are at every frame where the motion of the viewport has them."""
     request = request_of(danced, ("Ana",), last_bar=3)
     export(request)
     (dancer,) = read(unreal, "performance.json")["dancers"]

@@ -1,4 +1,4 @@
-"""Which folders are Unreal projects, and what is said of those that are not."""
+"""Test which folders are Unreal projects, and what is said of those that are not."""
 
 from __future__ import annotations
 

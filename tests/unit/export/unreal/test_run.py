@@ -343,7 +343,7 @@ def test_the_plug_in_is_put_there_once(exported: UnrealProject, export: Export) 
 
 
 def plugin_of_before(place: Path, version: int) -> None:
-    """As an export of another version left it."""
+    """Plug-in that an export of another version left."""
     files = {"Suisou.uplugin": json.dumps({"CreatedBy": "Suisou", "Version": version}), "Content/Python/old.py": "1\n"}
     for name, content in files.items():
         (place / name).parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""How the body turns to an instrument, and how far the instrument goes along with the body."""
+"""Test how the body turns to an instrument, and how far the instrument goes along with the body."""
 
 from __future__ import annotations
 

@@ -70,13 +70,13 @@ class Case:
 
     @cached_property
     def joints(self) -> JointTransforms:
-        """Of the frames looked at."""
+        """Joints in the frames looked at."""
         rotations = self.motion.rotations[self.frames].astype(np.float64)
         return forward(self.character.skeleton, rotations, self.motion.hips_m[self.frames].astype(np.float64))
 
     @property
     def placed(self) -> tuple[np.ndarray, np.ndarray]:
-        """Where the instrument is in these frames."""
+        """Return where the instrument is in these frames."""
         place_m, turn = self.motion.instrument_position_m[self.frames], self.motion.instrument_rotation[self.frames]
         return place_m.astype(np.float64), turn.astype(np.float64)
 
@@ -198,7 +198,7 @@ def _shells(character: Character) -> tuple[Shell, ...]:
 
 
 Skin = list[tuple[np.ndarray, np.ndarray, np.ndarray]]
-"""Of each shell vertices, normals, and which are at an open edge."""
+"""Vertices and normals of each shell, and which are at an open edge."""
 
 
 def _skins(character: Character, joints: JointTransforms) -> Iterator[Skin]:
@@ -219,7 +219,8 @@ def _skins(character: Character, joints: JointTransforms) -> Iterator[Skin]:
 
 
 def _depth_m(skin: Skin, points_m: np.ndarray) -> float:
-    """How deep any of the points is inside a shell: behind all of the nearest vertices, none of them at an edge."""
+    """Return how deep any of the points is inside a shell: behind all of the nearest vertices, none of them at an
+    edge."""
     deepest_m = 0.0
     low_m, high_m = points_m.min(axis=0) - OUT_OF_SIGHT_M, points_m.max(axis=0) + OUT_OF_SIGHT_M
     for vertices_m, normals, rim in skin:

@@ -18,7 +18,7 @@ FRAMES = 400
 
 
 class _Hips:
-    """Of a body's motion what moves the hips."""
+    """The part of a body's motion that moves the hips."""
 
     knee_rad: FloatArray
 

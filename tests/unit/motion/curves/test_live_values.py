@@ -1,4 +1,4 @@
-"""What moves without knowing what comes: it starts where it is, never jumps, and comes to rest where it was
+"""Test motion that cannot know the future: it starts where it is, never jumps, and comes to rest where it was
 reported."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What makes a face look alive: properties of the curves, and measures on the bundled quartet as it is made."""
+"""Test what makes a face look alive: properties of the curves, and measures on the bundled quartet as it is made."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What was blown is seen: cheeks and lips follow the curve within a note, a vibrato at its own rate, contacts hold."""
+"""Test that recorded breath shows: cheeks and lips follow the curve within a note, a vibrato at its own rate, contacts
+hold."""
 
 from __future__ import annotations
 

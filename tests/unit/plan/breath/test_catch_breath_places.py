@@ -1,4 +1,4 @@
-"""Where players breathe when no rest comes in time: against engraved marks, and the single reasons for a place."""
+"""Test where players breathe when no rest comes in time: against engraved marks, and the single reasons for a place."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def test_a_played_line_is_breathed_in_where_the_written_one_is(seed: int) -> Non
 
 
 def test_a_line_that_overlaps_throughout_is_breathed_in_where_a_detached_one_is() -> None:
-    """As a wind controller or a keyboard plays legato: only repeated notes do not overlap."""
+    """Play legato like a wind controller or a keyboard: only repeated notes do not overlap."""
     lengths = [1, 1, 0.5, 0.5, 1, 1.5, 0.5, 1, 1] * 8
     onsets = [round(sum(lengths[:place]) * Q) for place in range(len(lengths))]
     rows = list(zip(onsets, (round(length * Q) for length in lengths), strict=True))

@@ -1,4 +1,4 @@
-"""How full the lungs are: never more than full, never owing air."""
+"""Test how full the lungs are: never more than full, never owing air."""
 
 from __future__ import annotations
 

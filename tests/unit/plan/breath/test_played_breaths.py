@@ -92,7 +92,7 @@ def test_the_mark_nearest_to_a_loudness() -> None:
 @pytest.mark.parametrize("early_s", [0.035, 0.05])
 @pytest.mark.parametrize("lung_s", [6.0, 6.5])
 def test_rests_after_notes_let_go_early_serve_as_written_ones(early_s: float, lung_s: float) -> None:
-    """Which rest is breathed in and how much air it brings is read from the score."""
+    """The rest that is breathed in and the air that it brings are read from the score."""
     lengths, sounds = (1.5, 1, 0.25, 0.75, 0.5, 1, 1, 1, 1) * 10, (1.5, 1, 0.25, 0, 0.5, 1, 1, 0.5, 1) * 10
     onsets = np.concatenate(([0.0], np.cumsum(lengths)))
     rows = [

@@ -1,4 +1,4 @@
-"""Which rests are breathed in: by seconds, playing and air."""
+"""Test which rests are breathed in: by seconds, playing and air."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who leads, when the nod comes, and after which rests."""
+"""Test who leads, when the nod comes, and after which rests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much of the head turns with a glance: more of it only while the instrument is down."""
+"""Test how much of the head turns with a glance: more of it only while the instrument is down."""
 
 from __future__ import annotations
 

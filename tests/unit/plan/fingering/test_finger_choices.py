@@ -1,4 +1,4 @@
-"""What players of each family choose, worked out by hand: little fingers in turn, forked F, trill keys, thumb."""
+"""Test what players of each family choose, worked out by hand: little fingers in turn, forked F, trill keys, thumb."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SLOW, EASY, FAST = 960, 240, 120
 def keys(
     pitches: list[int], instrument: InstrumentMap, step_tick: int = EASY, bpm: float = 120.0, sounds: float = 1.0
 ) -> list[frozenset[str]]:
-    """What is held on each note of an even line, of which each note sounds a part."""
+    """Return what is held on each note of an even line, of which each note sounds a part."""
     notes = line_of(*((at * step_tick, round(sounds * step_tick), pitch) for at, pitch in enumerate(pitches)))
     times = line_times(MonophonicPart("p", notes, instrument), PlainClock(((0, bpm),)))
     return [frozenset(event.controls) for event in plan_fingerings(notes, times, instrument, {})[0]]

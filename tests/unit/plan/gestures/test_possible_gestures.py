@@ -1,4 +1,4 @@
-"""Where the instrument is off the lips, asked span by span and all at once."""
+"""Test where the instrument is off the lips, asked span by span and all at once."""
 
 from __future__ import annotations
 

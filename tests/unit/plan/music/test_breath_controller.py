@@ -43,7 +43,7 @@ def breaths(plan: PlayerPlan) -> list[BreathEvent]:
 
 
 def slow_gaps(at_s: list[float], values: list[float], until_s: float) -> BoolArray:
-    """Whether someone blows, millisecond by millisecond."""
+    """Return whether someone blows, millisecond by millisecond."""
     blows, result = False, []
     for millisecond in range(int(until_s * 1000)):
         value = None

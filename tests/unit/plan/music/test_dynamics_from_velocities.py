@@ -289,7 +289,7 @@ def test_no_notes_have_no_dynamics() -> None:
 
 
 def test_an_accent_of_musescore_is_a_fifth_louder() -> None:
-    """As `Instrument::updateVelocity` of MuseScore 3 has it: the velocity times 120 / 100, in whole numbers."""
+    """`Instrument::updateVelocity` of MuseScore 3: the velocity times 120 / 100, in whole numbers."""
     for velocity, louder in ((33, 39), (49, 58), (64, 76), (80, 96), (96, 115)):
         assert [velocity + more for more, _ in articulated(ladder_of("MuseScore", None), velocity)] == [
             velocity,

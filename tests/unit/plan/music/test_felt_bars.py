@@ -1,4 +1,4 @@
-"""Where bars are felt to begin in files that do not mark their pickups."""
+"""Test where bars are felt to begin in files that do not mark their pickups."""
 
 from __future__ import annotations
 

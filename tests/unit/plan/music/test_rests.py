@@ -1,4 +1,4 @@
-"""What is a rest of the score, and what the end of a detached note."""
+"""Test what is a rest of the score, and what the end of a detached note."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which notes are slurred, by the habit of the line."""
+"""Test which notes are slurred, by the habit of the line."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.plan.music.piece import slurs_next
 
 
 def slurred(gates: Sequence[float], note_ticks: int = 480) -> list[bool]:
-    """Whether each of some notes in a row, which last so much of the time to the next one, is slurred to it."""
+    """Return whether each of some notes in a row, which last so much of the time to the next one, is slurred to it."""
     onsets = np.arange(len(gates)) * note_ticks
     found = slurs_next(onsets, onsets + np.rint(np.array(gates) * note_ticks).astype(np.int64))
     return [bool(one) for one in found[:-1]]

@@ -1,4 +1,4 @@
-"""Where in its bar a note stands that someone played: where it would be written."""
+"""Test the written place of a played note in its bar."""
 
 from __future__ import annotations
 
@@ -95,7 +95,8 @@ def test_simplest_places_are_the_first_of_a_slow_search(rows: list[tuple[int, in
 def test_what_a_line_divides_a_quarter_by_is_what_its_early_notes_are(
     parts: tuple[float, ...], bar: int, seed: int
 ) -> None:
-    """Of 48 quarters of sixteenths, in bars that begin between quarters, none is a triplet, nor the other way round."""
+    """No one of 48 quarters of sixteenths, in bars that begin between quarters, is a triplet, nor the other way
+    round."""
     chance = Random(seed)
     written = np.concatenate(([0.0], np.cumsum(parts * 48)))
     played = np.rint((written + [chance.uniform(-0.05, 0.05) for _ in written]) * 480).astype(np.int64)

@@ -37,12 +37,12 @@ def marked(markers: tuple[Marker, ...]) -> Project:
 
 
 def own_assets(editor: Editor) -> set[str]:
-    """What we name; materials bear their own names."""
+    """Return what we name; materials bear their own names."""
     return {path for path, asset in editor.studio.assets.items() if type(asset).__name__ != "Material"}
 
 
 def figure_assets(kind: str, name: str) -> set[str]:
-    """Of a character the animation alone: its body may be another's too."""
+    """Assets of a character's animation alone: its body may be another's too."""
     prefixes = ("SK", "SKEL", "A") if kind == "Instruments" else ("A",)
     return {f"{ROOT}/{kind}/{name}/{prefix}_{name}" for prefix in prefixes}
 

@@ -1,4 +1,4 @@
-"""What is wrong is reported in a dialog, before anything is changed."""
+"""Test that errors are reported in a dialog, before anything is changed."""
 
 from __future__ import annotations
 

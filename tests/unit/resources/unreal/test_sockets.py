@@ -20,7 +20,7 @@ from tests.unit.resources.unreal.test_import import bindings, description, trans
 FREE, SOCKET, IK = RigOptions(), RigOptions("socket"), RigOptions("ik")
 PLAYER, HELD = "Trumpet 1", "Trumpet 1 (trumpet_Bb)"
 TURNED = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
-"""What an importer puts before the root of a file with Y up: Z is up then, and the right hand still the right one."""
+"""Rotation by which importers turn the root of a file with Y up: Z is up then, the right hand still the right one."""
 MIRRORED = np.diag([1.0, -1.0, 1.0, 1.0])
 """Unreal's left-handed space of a right-handed one."""
 
@@ -58,13 +58,13 @@ def test_an_instrument_hangs_on_the_bone_of_its_player(game: Path, rig: RigOptio
 
 
 def in_unreal(place: np.ndarray) -> np.ndarray:
-    """Where a bone of a file is in its actor: the importer turns the root and mirrors everything."""
+    """Return where a bone of a file is in its actor: the importer turns the root and mirrors everything."""
     result: np.ndarray = MIRRORED @ TURNED @ place @ MIRRORED
     return result
 
 
 def skin_in_unreal(place: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Where points (N, 3) on a bone are, centimetres."""
+    """Return where points (N, 3) on a bone are, centimetres."""
     homogeneous = np.concatenate([points, np.ones((len(points), 1))], axis=1)
     result: np.ndarray = (in_unreal(place) @ MIRRORED @ homogeneous.T).T[:, :3]
     return result

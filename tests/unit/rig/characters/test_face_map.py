@@ -33,7 +33,7 @@ def short(shape: str) -> str:
 
 
 def explus(shape: str) -> str:
-    """As Character Creator numbers them; the number says nothing."""
+    """Names with the numbers of Character Creator, which mean nothing."""
     return f"A{ARKIT_MORPHS.index(shape) + 1:02d}_{words(shape)}"
 
 

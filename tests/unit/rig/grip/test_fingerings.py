@@ -72,7 +72,7 @@ class Fingered:
         return place[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
 
     def points_m(self, contact: Contact) -> np.ndarray:
-        """Where (F, 3) a contact of the map is."""
+        """Return where (F, 3) a contact of the map is."""
         place, turn = node_transforms(self.model, self.instrument, self.controls, len(self))
         node = self.model.node_names.index(contact.node)
         aside = aside_m(contact, self.instrument, self.controls.get(contact.control or "", np.ones(len(self))))
@@ -214,7 +214,7 @@ def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fi
 
 
 def _skin_of(character: Character, hand: HandHold, table: FingerTable) -> skinning.Patch:
-    """What a finger carries."""
+    """Return what a finger carries."""
     mark = character.landmarks[f"{hand.side}.hand"]
     mesh = skinning.mesh_named(character, mark.mesh)
     carried = np.isin(mesh.joints[mark.vertices], table.joints) * mesh.weights[mark.vertices]
@@ -222,7 +222,7 @@ def _skin_of(character: Character, hand: HandHold, table: FingerTable) -> skinni
 
 
 def test_no_finger_is_thrown_about_on_its_way(fingered: Fingered) -> None:
-    """Where it cannot be lifted as far as asked, it went from one end of its joints' range to the other at once."""
+    """A finger that cannot be lifted as far as asked went from one end of its joints' range to the other at once."""
     shares = np.linspace(0.0, 1.0, 121)
     still = {one.name: np.full(len(shares), one.rest_value) for one in fingered.instrument.controls}
     home = np.zeros(len(shares))

@@ -19,7 +19,7 @@ SUITE = (
     ),
     *("46d-PickupMeasure-ImplicitMeasures", "72b-TransposingInstruments-Full"),
 )
-"""Of the test suite for MusicXML of the LilyPond project, which music21 brings: one of each subject."""
+"""Files of the test suite for MusicXML of the LilyPond project, which music21 brings: one of each subject."""
 
 
 @pytest.mark.readers

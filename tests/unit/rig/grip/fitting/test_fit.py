@@ -1,4 +1,4 @@
-"""How the bundled bodies hold the bundled instruments, measured again through the whole character's skin."""
+"""Test how the bundled bodies hold the bundled instruments, measured again through the whole character's skin."""
 
 import os
 import subprocess
@@ -74,7 +74,7 @@ def _numbers(held: SettingBinding, place: int) -> dict[str, int]:
 
 
 def _at(held: SettingBinding, place: int) -> dict[str, Station]:
-    """Where the fingers are in a round."""
+    """Return where the fingers are in a round."""
     return {finger: stations(held.instrument)[finger][number] for finger, number in _numbers(held, place).items()}
 
 

@@ -1,4 +1,4 @@
-"""How a hand gives way for two fingers at once."""
+"""Test how a hand gives way for two fingers at once."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def existing(path: str) -> unreal.Object | None:
 
 
 def is_ours(asset: unreal.Object, piece: str) -> bool:
-    """Whether an asset was made here for a piece."""
+    """Return whether an asset was made here for a piece."""
     return unreal.EditorAssetLibrary.get_metadata_tag(asset, PIECE_TAG) == piece
 
 
@@ -131,7 +131,7 @@ def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
 
 
 def _order(path: str) -> tuple[int, str]:
-    """What uses others goes before them."""
+    """Return what uses others goes before them."""
     prefixes = ("A_", "SK_", "SKEL_")
     name = path.rpartition("/")[2]
     return next((index for index, prefix in enumerate(prefixes) if name.startswith(prefix)), len(prefixes)), path

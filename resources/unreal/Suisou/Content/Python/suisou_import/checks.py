@@ -13,7 +13,7 @@ PLUGINS = {
     "SequencerScripting": ("MovieSceneScriptingDoubleChannel",),
     "LevelSequenceEditor": ("LevelSequenceFactoryNew", "LevelSequenceEditorSubsystem"),
 }
-"""What each plug-in brings; without it the names are not there."""
+"""Names that each plug-in brings; without it they are not there."""
 FUNCTIONS = {
     "LevelSequence": (
         "add_track",
@@ -28,7 +28,7 @@ FUNCTIONS = {
     "ScopedSlowTask": ("should_cancel",),
     "FbxFactory": (),
 }
-"""What an older engine may lack."""
+"""Names that an older engine may lack."""
 
 
 def check_engine() -> None:

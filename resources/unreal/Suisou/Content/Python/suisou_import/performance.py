@@ -1,4 +1,4 @@
-"""What Suisou exported: ``performance.json``, read and held against the files that it speaks of."""
+"""Reads the description of an export, ``performance.json``, and compares it with the files that it names."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _FILE = re.compile(r"[A-Za-z0-9_]+/[A-Za-z0-9_]+\.(fbx|wav)")
 
 
 class Place(NamedTuple):
-    """Where an actor stands: Unreal's centimetres and degrees."""
+    """Place of an actor: Unreal's centimetres and degrees."""
 
     x_cm: float
     y_cm: float
@@ -50,7 +50,7 @@ class Figure(NamedTuple):
 
 
 class Sound(NamedTuple):
-    """What is heard, and when it begins."""
+    """The sound, and the time at which it begins."""
 
     file: str
     asset: str
@@ -104,7 +104,7 @@ class Performance(NamedTuple):
         return list({figure.mesh: figure for figure in reversed(self.figures)}.values())[::-1]
 
     def path(self, file: str) -> Path:
-        """Where a file is."""
+        """Return where a file is."""
         return self.folder.joinpath(*file.split("/"))
 
 

@@ -1,4 +1,4 @@
-"""What is reported to the user in a dialog."""
+"""A problem, reported to the user in a dialog."""
 
 from __future__ import annotations
 

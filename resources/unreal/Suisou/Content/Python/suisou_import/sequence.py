@@ -82,7 +82,8 @@ def shown_with(performance: Performance) -> set[str]:
 
 
 def last_frame(performance: Performance) -> int:
-    """Where everything ends: an animation of n keys lasts n - 1 frames, and a section that is longer begins again."""
+    """Return where everything ends: an animation of n keys lasts n - 1 frames, and a section that is longer begins
+    again."""
     return max(performance.frames - 1, 1)
 
 
@@ -221,7 +222,7 @@ def _put(binding: unreal.MovieSceneBindingProxy, figure: Figure, before: Place |
 
 
 def _moved(channels: dict[str, unreal.MovieSceneScriptingDoubleChannel], left: dict[str, float]) -> bool:
-    """Whether someone has moved an actor since it was put somewhere."""
+    """Return whether someone has moved an actor since it was put somewhere."""
     return any(
         channels[name].get_num_keys() > 0 or abs(channels[name].get_default() - value) > _NEAR
         for name, value in left.items()
@@ -320,8 +321,8 @@ def _mark(sequence: unreal.LevelSequence, performance: Performance, before: set[
 
 
 def _labels(performance: Performance) -> dict[int, str]:
-    """What is written at which frame. A frame has one mark: a marker is reported with its bar, which also keeps a
-    letter of the piece apart from the letters that the editor gives an artist's own marks."""
+    """Return what is written at which frame. A frame has one mark: a marker is reported with its bar, which also keeps
+    a letter of the piece apart from the letters that the editor gives an artist's own marks."""
     labels = {frame: text("bar", number=number) for number, frame in performance.bars}
     named: dict[int, list[str]] = {}
     for name, bar, frame in performance.markers:
@@ -334,7 +335,7 @@ def _labels(performance: Performance) -> dict[int, str]:
 
 
 def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
-    """What was put into a sequence the last time; nothing if that cannot be reported."""
+    """Return what was put into a sequence the last time; nothing if that cannot be reported."""
     try:
         state = json.loads(unreal.EditorAssetLibrary.get_metadata_tag(sequence, STATE_TAG))
         figures = dict(_known(*item) for item in state["figures"].items())
@@ -344,7 +345,8 @@ def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
 
 
 def _known(key: str, figure: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-    """What was put for a figure, by its animation; an earlier Suisou kept it by the mesh, of which each had its own."""
+    """Return what was put for a figure, by its animation; an earlier Suisou kept it by the mesh, of which each had its
+    own."""
     if "mesh" in figure:
         return key, figure
     folder, _, name = key.rpartition("/SK_")

@@ -1,4 +1,4 @@
-"""What the user reads, in the editor's language."""
+"""Texts for the user, in the editor's language."""
 
 from __future__ import annotations
 
