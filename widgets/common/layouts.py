@@ -84,24 +84,25 @@ class Scrolled(QScrollArea):
     def __init__(self, layout: QLayout) -> None:
         super().__init__()
         layout.setContentsMargins(0, 0, 0, 0)
+        self._contents = panel(layout)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setWidgetResizable(True)
-        self.setWidget(panel(layout))
+        self.setWidget(self._contents)
 
     def _with_bar(self, size: QSize) -> QSize:
         return size + QSize(self.verticalScrollBar().sizeHint().width(), 0)
 
     def sizeHint(self) -> QSize:
-        return self._with_bar(self.widget().sizeHint())
+        return self._with_bar(self._contents.sizeHint())
 
     def minimumSizeHint(self) -> QSize:
-        least = self.widget().minimumSizeHint()
+        least = self._contents.minimumSizeHint()
         return self._with_bar(QSize(least.width(), min(least.height(), _LEAST_SCROLLED_PX)))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Contents that need more room make the whole wider."""
-        if watched is self.widget() and event.type() == QEvent.Type.LayoutRequest:
+        if watched is self._contents and event.type() == QEvent.Type.LayoutRequest:
             self.updateGeometry()
         return super().eventFilter(watched, event)
 

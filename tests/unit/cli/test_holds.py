@@ -26,6 +26,7 @@ from app.rig.characters.character_library import character_named
 from app.rig.grip.fitting.grip_files import hold_for
 from app.rig.grip.grip_pose import GripPose
 from app.rig.instrument import load_instrument
+from app.steps import StepRuns
 from instrument_maps.library import model_path
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -124,7 +125,8 @@ def test_what_our_own_body_misses_on_a_users_own_instrument_is_reported() -> Non
 
     def lacking(instrument: InstrumentMap) -> list[str]:
         bodies.hold_now(player, instrument)
-        return [message.id for message in body_problems(player, instrument, (), waiting=False).lacking]
+        found = body_problems(player, instrument, (), waiting=False, runs=StepRuns())
+        return [message.id for message in found.lacking]
 
     assert lacking(own) == ["character.touches_missed"]
     # Holds of ours on ours are known to meet all.
