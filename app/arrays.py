@@ -21,12 +21,12 @@ ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
 
 def rows_of(values: npt.NDArray[Any], count: int) -> npt.NDArray[Any]:
-    """(count, N - count + 1): in each column so many neighbouring values; N is at least as many."""
+    """(count, N - count + 1): in each column ``count`` neighbouring values; N is at least ``count``."""
     return np.array([values[place : len(values) - count + 1 + place] for place in range(count)])
 
 
 def running_medians(values: AnyFloatArray | IntArray, count: int) -> FloatArray:
-    """(N - count + 1,): medians of so many neighbouring values, an odd number; faster than by `numpy.median`."""
+    """(N - count + 1,): medians of ``count`` neighbouring values, an odd number; faster than by `numpy.median`."""
     rows = rows_of(np.asarray(values, np.float64), count)
     rows.sort(axis=0)
     return np.asarray(rows[count // 2])

@@ -69,7 +69,7 @@ class MetadataLibrary(NamedTuple):
         return load_expressions() | {expression.name: expression for expression in own}
 
     def is_still(self, other: MetadataLibrary) -> bool:
-        """Return whether both are of the very same reading."""
+        """Return whether both are of the same reading of the files."""
         return all(mine is others for mine, others in zip(self, other, strict=True))
 
     @property

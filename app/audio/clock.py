@@ -39,7 +39,7 @@ class DeviceClock:
         self._time_s = 0.0
 
     def observe(self, processed_s: float) -> None:
-        """The device says that it has played so much."""
+        """Take note that the device has played this much."""
         if processed_s == self._processed_s:
             return
         moved_first = self._processed_s == 0.0

@@ -164,7 +164,7 @@ class _Sounding:
         return cls(at_s, _count(start_s, end_s, at_s) > 0, pitches[last])
 
     def curve(self, score: Score, values: FloatArray, audible: BoolArray) -> ControllerCurve:
-        """Steps of a controller: in rests it goes on to what comes next."""
+        """Steps of a controller; in a rest it moves on to the value of the next note."""
         from scipy.ndimage import gaussian_filter1d
 
         values = np.interp(self.at_s, self.at_s[audible], values[audible])

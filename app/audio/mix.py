@@ -79,7 +79,7 @@ def player_gains(project: Project) -> dict[str, tuple[float, float]]:
 
 
 def recording_track(recording: AudioRecording, offset_s: float) -> MixTrack:
-    """A recording at its place."""
+    """The recording as a track of the mix, shifted by its offset."""
     return MixTrack([AudioSegment(round(offset_s * RATE_HZ), recording.samples)])
 
 

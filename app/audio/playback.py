@@ -153,7 +153,7 @@ class Playback(QObject):
         self.playing_changed.emit(False)
 
     def seek(self, position_s: float) -> None:
-        """Go to a moment; goes on playing there if it plays."""
+        """Go to a moment, without stopping if it plays."""
         if self._sink is None:
             self._position_s = position_s
             return

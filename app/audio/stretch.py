@@ -65,7 +65,7 @@ class TimeStretcher:
         return out
 
     def _best(self, ideal: int) -> int:
-        """Return where near the ideal place the sound goes on as after the frame before."""
+        """Return the place near the ideal one at which the sound continues the frame before most smoothly."""
         assert self._before is not None
         goes_on = self._before + HOP
         low = max(ideal - _SEARCH, self._first)

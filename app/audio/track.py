@@ -60,7 +60,7 @@ class MixTrack:
         return max((len(piece.samples) for piece in self.pieces), default=0)
 
     def moved(self, samples: int) -> MixTrack:
-        """The track with everything so many samples later."""
+        """The track, later by a number of samples."""
         track = MixTrack(AudioSegment(piece.start + samples, piece.samples) for piece in self.pieces)
         track.gains = self.gains
         return track

@@ -66,7 +66,7 @@ NO_PINS: Final = Pins(np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class Jump:
-    """A jump of a recording: the seconds where it leaves the score and where it goes on."""
+    """A jump of a recording: the seconds at which it leaves the score, and at which it joins it again."""
 
     from_s: float
     to_s: float
@@ -74,7 +74,7 @@ class Jump:
     recording_to_s: float
 
     def later(self, score_s: float) -> Jump:
-        """The same in a score that begins so much earlier."""
+        """The same in a score that begins earlier by an offset."""
         return replace(self, from_s=self.from_s + score_s, to_s=self.to_s + score_s)
 
     def agrees_with(self, pins: Pins) -> bool:
@@ -96,8 +96,8 @@ class Warped:
     """Duration of the score."""
 
     def later(self, score_s: float, end_s: float) -> Warped:
-        """The same, found in a part of a score that begins so much later than the whole, which lasts until ``end_s``;
-        what is beyond the part is missing."""
+        """The same for a whole score, of which this is a part from ``score_s`` on. It lasts until ``end_s``; all beyond
+        the part is missing."""
         last_s = score_s + self.length_s
         missing = tuple(UnmatchedSpan(span.start + score_s, span.end + score_s) for span in self.missing)
         outside = [UnmatchedSpan(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
@@ -230,14 +230,14 @@ def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
 
 
 def _pooled(shapes: FloatArray, count: int) -> FloatArray:
-    """(n, 12): the mean of every so many frames."""
+    """(n, 12): means over groups of frames."""
     whole = shapes.shape[1] // count * count
     result: FloatArray = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
     return result
 
 
 def _with_fillers(frames: FloatArray, step: int) -> tuple[FloatArray, IntArray]:
-    """Frames with one of silence before every so many and at the end, and the place of each before, -1 of those."""
+    """Frames with one of silence before every group and at the end, and the place of each before, -1 of those."""
     places = np.append(np.arange(0, len(frames), step), len(frames))
     filled = np.insert(frames, places, 0.0, axis=0)
     return np.ascontiguousarray(filled), np.insert(np.arange(len(frames)), places, -1)

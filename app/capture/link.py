@@ -210,7 +210,7 @@ class RecorderLink:
                 self._put(Restarted(Message("capture.recorder_ended")))
 
     def _started(self, resumed_ns: int | None) -> StartedChild[News] | None:
-        """A new recorder that goes on where the last one ended; None after the link was closed."""
+        """A new recorder that continues the work of the last one; None after the link was closed."""
         with self._lock:
             if self._is_closed:
                 return None

@@ -44,7 +44,7 @@ class MessageRow(msgspec.Struct, frozen=True):
 
 
 class MessageLog:
-    """The last messages. Between two notes, what swells and fades takes one line, however many messages tell it.
+    """The last messages. Between two notes, a swell takes one line, however many messages make it.
 
     Parameters
     ----------

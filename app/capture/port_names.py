@@ -39,7 +39,7 @@ _OF_A_KIND: Final = re.compile(r" \(\d+\)$")
 
 
 class Port(msgspec.Struct, frozen=True):
-    """A port as it is now.
+    """A port that is connected now.
 
     Attributes
     ----------

@@ -49,7 +49,7 @@ class Stop(_Report, frozen=True):
 
 
 class Leave(_Report, frozen=True):
-    """End, the journal as it is: another recorder goes on with it."""
+    """End and keep the journal: another recorder continues it."""
 
 
 class Ports(_Report, frozen=True):
@@ -126,7 +126,7 @@ class EventsSaved(_Report, frozen=True):
 
 
 class Moved(_Report, frozen=True):
-    """The running journal goes on at another path, whole, because its disk takes nothing more."""
+    """The running journal continues, whole, at another path, because its disk is full."""
 
     path: bytes
     reason: str

@@ -81,7 +81,7 @@ def held(clip: MotionClip) -> int:
 
 
 def without_held(clip: MotionClip, count: int) -> MotionClip:
-    """The first of every so many frames that are the same, at the frame rate of these."""
+    """The first of every group of equal frames, at the frame rate of these."""
     if count == 1:
         return clip
     changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1)) + 1

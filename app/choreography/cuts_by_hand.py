@@ -28,7 +28,7 @@ MOST_FILE_BYTES: Final = 2**20
 
 
 def check_cuts(cuts: Sequence[Cut], frames: int, motion: str) -> None:
-    """Refuse what is no segmentation of a clip of so many frames.
+    """Refuse cuts that are no segmentation of a clip of this length.
 
     Raises
     ------

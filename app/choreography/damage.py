@@ -157,7 +157,7 @@ def _lengths(fps: float) -> list[int]:
 def _off_the_cubic(
     clip: MotionClip, speeds: FloatArray, length: int, tolerance: float
 ) -> Iterator[tuple[int, int, int]]:
-    """Spans (start, stop, part) that are far from the cubic over windows of so many steps."""
+    """Spans (start, stop, part) that are far from a cubic fitted over a window of steps."""
     count = len(speeds) - length - 1
     if count < 1:
         return

@@ -76,7 +76,7 @@ def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> t
 def dance_together(
     choreographer: Choreographer, rhythm: Rhythm, cast: tuple[Role, ...], fps: Fraction
 ) -> tuple[Dance, ...]:
-    """The dances of some roles, each at its place, all of one length. The same arguments give the same to the bit."""
+    """The dances of some roles, each at its place, all of one length. The same arguments give identical results."""
     rhythms = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
     end_s = max((float(one.beats_s[-1]) for one in rhythms if len(one.beats_s)), default=0.0) + ENDS_S
     return tuple(

@@ -272,7 +272,7 @@ class Choreographer:
         return np.asarray(0.5 * STANDING * (self._stitcher.feet_standing(frames) - 2.0))
 
     def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int) -> _Plan:
-        """Segments, each first put at its place, then all arrivals of the body on beats."""
+        """Segments at their first places, then with all arrivals of the body on beats."""
         if not chosen:
             return _Plan((), None, np.zeros(0))
         candidates, segments = self.candidates, np.array([segment for _, segment in chosen])

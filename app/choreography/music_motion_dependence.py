@@ -1,4 +1,4 @@
-"""Test of a learned choreography: does its music tell anything about its motion?
+"""Test of a learned choreography: can its motion be predicted from its music?
 
 Two thirds of the motions of each source are learned from; of the last third it is asked how much surer the sounds make
 which basic motion is danced, in bits a motion, beyond how often its dancer dances each. The same is asked with the
@@ -115,7 +115,7 @@ class _Test:
         return len(self._states) >= LEAST and min(map(len, self._parts)) > 0
 
     def bits(self, sounds: FloatArray) -> float:
-        """Bits a motion that these sounds (S, 47) tell of the motions held out."""
+        """Bits per motion by which these sounds (S, 47) predict the motions held out."""
         tried = self._told(*self._parts, sounds, TRUSTS)
         trust = TRUSTS[max(1, int(tried.argmax()))]
         return float(self._told(self._learned, self._held_out, sounds, (trust,))[0])
@@ -132,7 +132,7 @@ class _Test:
         return order
 
     def _told(self, learned: IntArray, asked: IntArray, sounds: FloatArray, trusts: tuple[float, ...]) -> FloatArray:
-        """(T,) bits a motion that sounds tell of the motions asked for, at each trust in them."""
+        """(T,) bits per motion by which sounds predict the motions asked for, at each trust in them."""
         counts = np.zeros((*self._shape, len(SYMBOLS)))
         np.add.at(counts, (self._clips[learned], self._states[learned]), sounds[learned])
         of_all = counts.sum(axis=0) + 1.0 / len(SYMBOLS)

@@ -60,7 +60,7 @@ def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
 
 
 def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
-    """The rhythm as a voice of a canon has it that comes in so many beats later, in the tempo that holds then."""
+    """The rhythm for a voice of a canon that enters some beats later, in the tempo of that place."""
     if len(rhythm.beats_s) < 2:
         return rhythm
     count = np.arange(len(rhythm.beats_s), dtype=np.float64)

@@ -141,7 +141,7 @@ class SegmentMoves:
         self._shortest_s = float(self._lasts_s.min(initial=np.inf)) / SPEEDS[1]
 
     def possible(self, gap_s: float) -> bool:
-        """Return whether any motion can last so long from accent to accent."""
+        """Return whether any motion can last this long from accent to accent."""
         return self._shortest_s <= gap_s <= self._longest_s
 
     def table(self, earlier: int, place: int, *, every: bool) -> MoveTable:

@@ -140,7 +140,7 @@ class _Moves:
         self.journal = journal
 
     def follow(self, reported: Moved) -> None:
-        """It goes on there."""
+        """Note the journal's new path, and report it."""
         former, self.journal = self.journal, Path(os.fsdecode(reported.path))
         files = {"file": str(former), "journal": str(self.journal)}
         warn(said("record.goes_on_elsewhere", reason=reported.reason, **files))

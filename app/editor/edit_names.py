@@ -68,7 +68,8 @@ def edit_of_notes(
 def edit_at(
     project: Project, name: str, count: int, player_ids: Collection[str], ticks: Iterable[int], **more: Argument
 ) -> Message:
-    """Return the name of an edit of so many things of some players, from the first of these ticks to the last."""
+    """Return the name of an edit of a number of things of some players, with its place: from the first to the last of
+    these ticks."""
     of = " · ".join(filter(None, (_named(project, player_ids), _range(project, ticks))))
     return Message(name, {**more, "count": count, "of": of})
 

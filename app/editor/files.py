@@ -155,7 +155,7 @@ class Files(QObject):
 
     @property
     def unwritten(self) -> bool:
-        """True if the project as it is is in no file, not even in that of unsaved work."""
+        """True if the project has changes that are in no file, not even in that of unsaved work."""
         project = self.session.project
         return not self.session.document.is_saved and (self.autosave is None or not self.autosave.has(project))
 
@@ -222,7 +222,7 @@ class Files(QObject):
         self.session.attempt(Message("edit.set_video"), lambda project: set_video(project, path))
 
     def locate(self, missing: Path, path: Path | None) -> None:
-        """A recording or reference video that was not at its place lies here now, at the same time; None: it goes."""
+        """Set the new path of a recording or reference video that was not found; its offset stays. None: remove it."""
         audio, video = self.session.project.audio, self.session.project.video
         is_audio = audio is not None and audio.path == os.fspath(missing)
         others = video is not None and video.path == os.fspath(missing)

@@ -221,7 +221,7 @@ class PlanWorker(Generic[T]):
             self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), requests)
 
     def _rest(self, rest_s: float, requests: int) -> None:
-        """Until something else is requested than these, at most so long."""
+        """Wait until the request changes, at most this long."""
         with self._changed:
             self._changed.wait_for(
                 lambda: self._closed or self._pending is not None or self._requests != requests, timeout=rest_s

@@ -187,7 +187,7 @@ class Recorder(QObject):
             self.choose(found[0])
 
     def set_count_in(self, bars: int) -> None:
-        """Count so many bars before a take, from now on."""
+        """Set the number of bars that are counted before a take."""
         self._settings.count_in_bars = bars
         self._state.set(count_in_bars=bars)
 
@@ -198,7 +198,7 @@ class Recorder(QObject):
         self._know(self._state.port)
 
     def set_mapping(self, mapping: ControllerMapping) -> None:
-        """Say with what the device sends breath and bite, as it was learned or chosen."""
+        """Set the MIDI messages by which the device sends breath and bite."""
         for name, value in (("channel", str(mapping.channel)), ("breath", mapping.breath), ("bite", mapping.bite)):
             self._settings.set_midi_device(self._state.port, name, value)
         self._know(self._state.port)

@@ -244,7 +244,7 @@ class Settings(StoredSettings):
         return self._shortcuts.get(action_id)
 
     def set_shortcut(self, action_id: str, keys: str | None) -> None:
-        """Give an action a shortcut custom; None: as it comes."""
+        """Set a user's own shortcut for an action; None: the default."""
         others = {id: own for id, own in self._shortcuts.items() if id != action_id}
         self._shortcuts = others if keys is None else {**others, action_id: keys}
 

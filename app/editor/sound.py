@@ -216,7 +216,7 @@ class EditorSound(QObject):
             self._take()
 
     def _take(self) -> None:
-        """Play the project as it is now."""
+        """Play the present project."""
         project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""

@@ -64,7 +64,7 @@ class Watched(Generic[T]):
         return self if holder is None else cast("T", vars(holder).get(self._name, self._initial))
 
     def put(self, holder: QObject, value: T) -> bool:
-        """Set the value without the signal; whether it is another one."""
+        """Set the value without the signal; return whether it is a different one."""
         before = self.__get__(holder, type(holder))
         vars(holder)[self._name] = value
         return bool(before != value)

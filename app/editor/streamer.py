@@ -208,7 +208,7 @@ class Streamer(QObject):
         self._state.set(state=state, sent_hz=sent_hz, trouble=None)
 
     def _fail(self, message: Message) -> None:
-        """Said once; it is tried again as long as it is requested and the computer is known."""
+        """Report the failure once, and try again as long as streaming is on and the computer is known."""
         if self._state.trouble != message:
             self._session.notice(message, Severity.ERROR)
         self._state.set(state="failed", trouble=message, sent_hz=0)

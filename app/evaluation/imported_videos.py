@@ -33,7 +33,7 @@ _EARLY_S: Final = 0.05
 
 @dataclass(frozen=True, eq=False)
 class ImportedVideo:
-    """A video at its place in the piece.
+    """A video with its offset in the piece.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ def import_video(
     stop_requested: StopRequested,
     follow: bool = False,
 ) -> tuple[ImportedVideo, Project]:
-    """A video at its place, and the project at the video's tempo if that was asked for.
+    """A video with its offset, and the project at the video's tempo if that was asked for.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def holds_motion(path: str | os.PathLike[str]) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class PlayerKeyframes:
-    """One player's file at its place in the piece.
+    """One player's motion file with its offset in the piece.
 
     Attributes
     ----------

@@ -83,7 +83,7 @@ def summary(values: Sequence[float]) -> Summary | None:
 
 
 def compared(differences: Sequence[float]) -> Comparison | None:
-    """Wilcoxon's signed-rank test of one difference for each viewer; None of no one.
+    """Wilcoxon's signed-rank test of one difference for each viewer; None without viewers.
 
     Zeros are left out (Wilcoxon's own way). Differences that are equal up to rounding of the mean share a rank.
     """
@@ -128,7 +128,7 @@ def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -
 
 
 def smallest_p(differing: int) -> float:
-    """The smallest two-sided p that so many viewers can give, if all agree."""
+    """The smallest two-sided p that this number of viewers can give, if all agree."""
     return min(1.0, 2.0 ** (1 - differing))
 
 

@@ -153,7 +153,8 @@ class PlaybackBones:
         return [self.row_of[bone] for bone in bones]
 
     def room(self, frames: int) -> tuple[FloatArray, FloatArray]:
-        """Arrays for `world` of so many frames: to get them again for every few takes longer than to fill them."""
+        """Arrays for `world` of some frames, to be used again: allocating them for every few takes longer than filling
+        them."""
         return np.empty((len(self.row_of), 3, 4, frames)), np.empty((len(self._moving), 3, 4, frames))
 
     def world(self, first: int, last: int, room: tuple[FloatArray, FloatArray] | None = None) -> FloatArray:

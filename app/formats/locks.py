@@ -57,7 +57,7 @@ if sys.platform != "win32":
 
 @contextlib.contextmanager
 def locked_here(path: Path) -> Iterator[bool]:
-    """Lock an existing file for the time of the block; whether no one else has. Raises OSError."""
+    """Lock an existing file for the time of the block; yields whether no other process has it. Raises OSError."""
     with path.open("r+b") as stream:
         yield lock(stream)
 

@@ -1,4 +1,4 @@
-"""Skin weights as the formats want them that list a fixed number of influences for every vertex."""
+"""Skin weights for formats that list a fixed number of influences for every vertex."""
 
 from __future__ import annotations
 

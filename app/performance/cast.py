@@ -125,6 +125,6 @@ def dancings_of(
 
 
 def require_players(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:
-    """Raise ``player.all_left_out``: no one is left."""
+    """Raise ``player.all_left_out``: no player is left."""
     reasons = "; ".join(f"{one.player.name}: {wording(one.reason)}" for one in left_out)
     raise FileError("player.all_left_out", file=file, reasons=reasons)

@@ -61,7 +61,8 @@ class MakerOfDances(Protocol):
 
 
 def maker_of_dances() -> MakerOfDances | None:
-    """Return who makes dances, loaded; ask only for pieces with dances, for it takes time. None: no one."""
+    """Return the feature that makes dances, loaded; ask only for pieces with dances, for it takes time. None: there is
+    none."""
     return next((cast(MakerOfDances, module) for _, module in modules("dances")), None)
 
 

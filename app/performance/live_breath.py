@@ -191,7 +191,7 @@ class LiveBreath:
         self._follow(now_s, elapsed_s)
 
     def _pause(self, now_s: float) -> None:
-        """Breathe in, hold the breath, let go."""
+        """Breathe in, hold the breath, and release it."""
         waits_s = FULL_PAUSE_S + (EMPTY_PAUSE_S - FULL_PAUSE_S) * self._spent
         paused_s = now_s - self._paused_s
         if now_s >= self._inhaled_s:

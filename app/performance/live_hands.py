@@ -129,7 +129,7 @@ class LiveHands:
         self._silent_s = min(self._silent_s, now_s)
 
     def advance(self, now_s: float) -> None:
-        """Do what time brings: correct a held note, let go in a silence, go home."""
+        """Do what is due now: correct a held note, release in a silence, return to rest."""
         grip = self._grip
         if grip is not None and now_s >= self._silent_s + LET_GO_S:
             self._let_go(self._silent_s + LET_GO_S)
@@ -161,7 +161,7 @@ class LiveHands:
         return Hands(controls, placed, np.full(FRAMES, raised), arrived_s)
 
     def carry(self, now_s: float, length_s: float) -> None:
-        """Let controls that carry a hand take at least so long from now on."""
+        """Let controls that carry a hand take at least this long from now on."""
         for name in self._carrying if length_s > 0.0 else ():
             reach = self._reaches[name]
             if not reach.ended(now_s) and reach.end_s < now_s + length_s:

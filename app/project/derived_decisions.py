@@ -43,7 +43,7 @@ def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
 
 
 def derived_decisions(project: Project, contents: PieceContents, choices: Sequence[MapChoice]) -> ImportDecisions:
-    """The decisions that a project's parts tell.
+    """The decisions that follow from a project's parts.
 
     Parameters
     ----------

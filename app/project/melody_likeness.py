@@ -70,7 +70,7 @@ def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list
 
 def sketch(found: FloatArray) -> tuple[int, ...]:
     """A few turns that stand for all of them: those of the smallest hashes (bottom-k sketch; Cohen and Kaplan, 2007).
-    Two sketches tell how much their melodies have in common."""
+    Two sketches measure how much their melodies have in common."""
     mixed = (found.astype(np.int64).astype(np.uint64) * _MIX) >> np.uint64(64 - SKETCH_BITS)
     return tuple(np.unique(mixed)[:SKETCH].tolist())
 

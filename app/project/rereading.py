@@ -176,7 +176,7 @@ def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoic
 
 
 def _understood(track: TrackChannel | TrackMark) -> int:
-    """Return how much the names of a track tell: 2, an instrument; 1, one perhaps; 0, nothing."""
+    """Return how well the names of a track name an instrument: 2, one; 1, one perhaps; 0, none."""
     named = [vocabulary().by_name(text) for text in (track.name, track.instrument_name) if text]
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 

@@ -60,7 +60,7 @@ class Document:
 
     @property
     def project(self) -> Project:
-        """The project as it is now."""
+        """The present project."""
         return self._project
 
     @property

@@ -45,7 +45,7 @@ def read_motion_file(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
 
 
 def _kind(head: bytes) -> str:
-    """Return the suffix that a file with this beginning should have, empty where the beginning tells nothing."""
+    """Return the suffix that a file with this beginning should have, empty where the beginning does not show it."""
     text = head.decode("utf-16" if head[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", "replace").lstrip()
     if text[:9].upper() == "HIERARCHY":
         return ".bvh"

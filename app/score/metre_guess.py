@@ -224,7 +224,7 @@ def _add_line(sums: FloatArray, kinds: FloatArray, onsets: IntArray, ends: IntAr
 
 
 def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
-    """(T,): how different the pitch classes of so many cells up to each and after it are, 0..1."""
+    """(T,): difference of the pitch classes of the cells up to each and after it, 0..1."""
     count = classes.shape[1]
     total = np.cumsum(np.pad(classes, ((0, 0), (reach, reach))), axis=1)[:, : count + 2 * reach]
     before, after = (total[:, k + reach : k + reach + count] - total[:, k : k + count] for k in (0, reach))
@@ -235,7 +235,7 @@ def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
 
 
 def _alike(kinds: FloatArray, lag: int) -> float:
-    """Return how much of the notes is as it was so many cells before, 0..1."""
+    """Return the share of notes that equal those some cells before, 0..1."""
     now, before = kinds[:, lag:], kinds[:, :-lag]
     if now.shape[1] < 16:
         return 0.0

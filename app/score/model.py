@@ -287,7 +287,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
 
 def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
-    """The notes so much higher; those that MIDI has no number for as far as it goes."""
+    """The notes, transposed by semitones; those beyond MIDI's range as far as it goes."""
     if not semitones:
         return notes
     return tuple(msgspec.structs.replace(note, pitch=min(max(note.pitch + semitones, 0), 127)) for note in notes)

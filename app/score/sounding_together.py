@@ -83,7 +83,7 @@ def players_needed(spans: VoiceSpans, depths: IndexArray, pitches: IntArray) -> 
 
 
 def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
-    """Return which notes sound where so many sound together."""
+    """Return which notes sound where the given number of notes sound together."""
     counts = np.concatenate(([0], np.cumsum(depths >= more)))
     first = np.searchsorted(spans.onsets, spans.onsets, side="left")
     last = np.searchsorted(spans.onsets, spans.releases, side="left")
@@ -91,7 +91,7 @@ def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
 
 
 def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -> bool:
-    """Return whether so many players are needed over several notes in a row and for a while."""
+    """Return whether this number of players is needed over several notes in a row and for a while."""
     struck = depths >= more
     if np.count_nonzero(struck) < several:
         return False

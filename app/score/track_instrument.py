@@ -105,8 +105,8 @@ def _is_after_a_drum(channel: TrackChannel, named: Instrument, numbered: Instrum
 
 
 def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
-    """Return what the names of a track mean: the first that tells, and the first that may mean a part of any
-    instrument."""
+    """Return the instruments that a track's names mean: the first that is certain, and the first that may mean a part
+    of any instrument."""
     words = vocabulary()
     named = [found for text in (channel.name, channel.instrument_name) if text and (found := words.by_name(text))]
     telling = next((found for found in named if not found.vague), None)
@@ -137,7 +137,7 @@ def _names_kit(pitches: Sequence[int]) -> bool:
 
 
 def says_nothing(channel: TrackChannel) -> bool:
-    """Return whether a melody has neither a name nor a program that tells more than a section; the piano's program is
+    """Return whether a melody has neither a name nor a program that is more than a section's; the piano's program is
     what many programs write for none."""
     if channel.played_on or is_named(channel) or any(_named(channel)):
         return False

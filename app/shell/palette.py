@@ -31,7 +31,7 @@ _PLACE, _KEYS = _ID + 1, _ID + 2
 
 
 class Palette(Retranslated, QFrame):
-    """A field and a list under it; goes away by itself."""
+    """A field and a list under it; closes by itself."""
 
     def __init__(self, session: Session, table: ActionTable, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)

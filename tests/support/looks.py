@@ -390,7 +390,7 @@ class Look:
         self.do("file.compare_metadata")
 
     def _follow_recording(self) -> None:
-        """With a recording in the piece, which has a lane then."""
+        """Follow a recording in the piece, which has a lane then."""
         path = self.folder / "tone.wav"
         if not path.exists():
             soundfile.write(path, 0.1 * np.sin(np.arange(22_050) * 0.1), 22_050)

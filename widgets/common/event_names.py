@@ -14,7 +14,7 @@ def kind_name(kind: str) -> str:
 
 
 def expression_name(name: str) -> str:
-    """The name of a bundled expression; custom are called what they are called."""
+    """The translated name of a bundled expression; a user's own keeps its name."""
     return _named("expression_name", name)
 
 

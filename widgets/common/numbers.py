@@ -52,6 +52,6 @@ def _worked_out(node: ast.expr) -> float:
 
 
 def number_text(value: float, decimals: int) -> str:
-    """A number with so many decimals, a true minus sign and no negative zero."""
+    """A number with some decimals, a true minus sign and no negative zero."""
     rounded = round(value, decimals) + 0.0
     return f"{rounded:.{decimals}f}".replace("-", "−")

@@ -1,6 +1,6 @@
-"""The instruments and their fingerings: a table that can be edited beside the drawn fingering, saved as custom.
+"""The instruments and their fingerings: a table that can be edited next to the drawn fingering.
 
-What the bundled map says stays what it is: a change makes a map of the user's own that extends it.
+The bundled maps stay unchanged: a change makes a map of the user's own that extends one.
 """
 
 from __future__ import annotations

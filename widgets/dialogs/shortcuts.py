@@ -93,7 +93,7 @@ class ShortcutsPage(Retranslated, QWidget):
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set the texts and the rows anew."""
+        """Set the texts and rows again, in another language."""
         self._fill()
 
     def _fill(self) -> None:

@@ -279,7 +279,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._put(token, weights=kept)
 
     def duplicate(self) -> None:
-        """Make custom from the expression shown, under a name of its own; one from the folder comes as it is."""
+        """Copy the shown expression into the project, under a new name; one from the user's folder unchanged."""
         expression = self.expression
         if expression is None:
             return

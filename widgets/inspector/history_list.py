@@ -25,7 +25,7 @@ class HistoryList(QWidget):
         session.changed.connect(self.show_steps)
 
     def show_steps(self, *_: object) -> None:
-        """Show the history as it is now."""
+        """Show the present history."""
         if not self.isVisible():
             return
         document = self._session.document

@@ -165,7 +165,7 @@ class ProblemList(Retranslated, QWidget):
         self.listed.emit()
 
     def height_px(self, most_rows: int | None = None) -> int:
-        """Height at which all rows, or so many of them, are in sight."""
+        """Height at which all rows, or a number of them, are in sight."""
         layout = self._column
         layout.invalidate()
         width_px = self.width()

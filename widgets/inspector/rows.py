@@ -187,7 +187,7 @@ class LineList(QListView):
         return tuple(self.lines.lines[number].key for number in numbers)
 
     def height_px(self, most_lines: int | None = None) -> int:
-        """Height at which every line, or so many of them, is in sight."""
+        """Height at which every line, or a number of them, is in sight."""
         count = self.lines.rowCount()
         lines_px = (count if most_lines is None else min(count, most_lines)) * self.sizeHintForRow(0)
         return max(lines_px + 2 * self.frameWidth(), self.minimumHeight())

@@ -178,7 +178,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._divided = True
 
     def divide(self, upper_px: int | None = None) -> None:
-        """Give the list so much of the height; None: as much as it needs."""
+        """Give the list this height; None: the height it needs."""
         self._divided = upper_px is not None
         if upper_px is not None:
             self._splitter.setSizes([upper_px, max(self._splitter.height() - upper_px, 1)])

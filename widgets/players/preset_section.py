@@ -51,7 +51,7 @@ class PresetSection(Retranslated, QWidget):
             self.show_presets()
 
     def show_presets(self) -> None:
-        """Read the folder anew and show what is there."""
+        """Read the folder again and show its presets."""
         found = presets.presets(presets.preset_folder())
         self._found = dict(found.items)
         for problem in found.problems:

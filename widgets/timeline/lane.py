@@ -132,7 +132,7 @@ class Lane(Retranslated, QWidget):
         self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
-        """Another selection; what shows only a part of it is drawn anew only where that is another."""
+        """Take another selection; redraw the parts that show a different one."""
 
     def players_changed(self) -> None:
         """Another player is in front."""
@@ -174,7 +174,7 @@ class Lane(Retranslated, QWidget):
         """The plot is dragged up or down (positive) with the middle button."""
 
     def context_menu(self, mouse: LaneMouse) -> QMenu | None:
-        """The menu at a place, made anew each time."""
+        """The menu at a place, made for each use."""
         return None
 
     def key(self, event: QKeyEvent) -> bool:
@@ -188,7 +188,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def needed_height_px(self) -> int:
-        """Height of the lane at least, while the user set none."""
+        """Smallest height of the lane, unless the user has set one."""
         return self.least_height_px
 
     # What a lane uses
@@ -229,7 +229,7 @@ class Lane(Retranslated, QWidget):
         return self.axis.lines(self.session.project.score, self.session.grid)
 
     def update_items(self) -> None:
-        """Draw everything anew."""
+        """Redraw everything."""
         self.plot.redraw()
 
     @property

@@ -44,7 +44,7 @@ class PlayerSession:
 
     @property
     def player_id(self) -> str:
-        """Id of the player who is shown; empty: no one."""
+        """Id of the player that is shown; empty: none."""
         return self._player_id
 
     def show(self, player_id: str) -> None:

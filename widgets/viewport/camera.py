@@ -148,7 +148,7 @@ def pan(camera: Camera, right_px: float, down_px: float, height_px: float) -> Ca
 
 
 def dolly(camera: Camera, steps: float) -> Camera:
-    """Come nearer by so many steps of the wheel; negative goes away."""
+    """Come nearer by steps of the wheel; negative: move away."""
     distance = camera.distance_m * DOLLY_PER_STEP**steps
     return replace(camera, distance_m=min(max(distance, NEAREST_M), FARTHEST_M))
 

@@ -35,7 +35,7 @@ def bookmark_of(eye: Eye, name: str, player_id: str) -> CameraBookmark:
 
 
 def camera_of(bookmark: CameraBookmark) -> Camera:
-    """The camera of a bookmark as it was kept."""
+    """The camera of a bookmark."""
     return Camera(bookmark.target_m, bookmark.yaw_rad, bookmark.pitch_rad, bookmark.distance_m, bookmark.fov_deg)
 
 
@@ -86,7 +86,7 @@ class BookmarkedCamera:
         return self._eye.touched
 
     def restore(self, bookmark: CameraBookmark, is_moved: bool) -> None:
-        """Look at a piece that is opened as it was looked at before."""
+        """Restore the view that a piece had when it was last open."""
         if is_moved:
             self.recall(bookmark)
             self._eye.jump(self._eye.destination)

@@ -82,7 +82,8 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self.update()
 
     def clear_stage(self) -> None:
-        """Draw no one from now on; the figures are let go of at once, since a hidden canvas draws no next picture."""
+        """Draw no players from now on; the figures are released immediately, since a hidden canvas draws no next
+        picture."""
         self._prepare = None
         if self._renderer is not None:
             self._renderer.clear_stage()

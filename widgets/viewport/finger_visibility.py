@@ -84,7 +84,7 @@ def fingers_seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_
 
 
 def _moving(instrument: InstrumentMap) -> list[str]:
-    """Fingers that play, as the names of their joints begin; thumbs, which lie behind, only where nothing else does."""
+    """First parts of the joints' names of fingers that play; thumbs, which lie behind, only if no other finger does."""
     movers = {control.finger for control in instrument.controls if control.role == "pitch"}
     named = sorted(f"{hand}{finger.capitalize()}" for hand, finger in (mover.split(".") for mover in movers))
     fingers = [name for name in named if name.endswith(_FINGERS)]

@@ -198,7 +198,7 @@ class ViewportPanel(Retranslated, QWidget):
         self.refresh()
 
     def poses_changed(self) -> None:
-        """Motion has been made or made anew; what is not at the playhead does not matter here."""
+        """Take note that motion was made; what is not at the playhead does not matter here."""
         if self._canvas is None:
             return
         at_s = self._session.playhead_s

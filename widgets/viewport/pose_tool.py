@@ -97,7 +97,7 @@ class PoseTool:
         return True
 
     def drag(self, camera: Camera, right_px: float, down_px: float, height_px: float, fine: bool, lean: bool) -> None:
-        """Drag on by so many pixels."""
+        """Continue the drag by some pixels."""
         drag = self._drag
         if drag is None:
             return

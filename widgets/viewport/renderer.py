@@ -143,7 +143,8 @@ class Renderer:
         self._fill_batch(everyone)
 
     def clear_stage(self) -> None:
-        """Draw no one from now on, and keep nothing of who was drawn; the card frees it with the next picture."""
+        """Draw no players from now on, and keep nothing of those that were drawn; the card frees it with the next
+        picture."""
         self._stage = self._shapes = self._limbs = None
         self._solids.clear()
         self._morphed.clear()

@@ -36,7 +36,7 @@ class ByteCache(Generic[K, V]):
             return self._kept[key][0]
 
     def keep(self, key: K, value: V, size: int) -> None:
-        """Keep a value that takes so many bytes."""
+        """Keep a value, and its size in bytes."""
         if size > self._largest_bytes:
             return
         with self._lock:

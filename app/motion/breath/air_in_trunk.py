@@ -101,7 +101,7 @@ def air(breaths: Sequence[BreathEvent]) -> Curve:
 
 
 def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, amount: float) -> dict[str, FloatArray]:
-    """Weights of the shapes of a trunk with so much air in it, while the belly pushes so hard, 0..1."""
+    """Weights of the shapes of a trunk with this much air in it, while the belly pushes this hard, 0..1."""
     chest, belly = BREATH_MORPHS
     full = np.clip(amount * level, 0.0, 1.0)
     return {

@@ -126,7 +126,7 @@ class _Swing:
     phase_rad: FloatArray
 
     def distance_m(self, turned_rad: FloatArray | float) -> FloatArray:
-        """From the shoulder to the target after so much of the turn."""
+        """Distance from the shoulder to the target after a part of the turn."""
         cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
         distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
         return distance

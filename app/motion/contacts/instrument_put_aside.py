@@ -77,7 +77,7 @@ class AsidePlace:
 
     @classmethod
     def of(cls, aside: Aside, skeleton: Skeleton, grip: GripPose, base: Trunk, low: InstrumentTransform) -> AsidePlace:
-        """From where a body that keeps still has the lowered instrument."""
+        """The place for an instrument put aside by a body that keeps still and holds its instrument lowered so."""
         joint, reaches_m = clavicle_of(skeleton, aside.side)
         begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
         pivot_m = (begins_m + quaternion.rotate(base.chest, reaches_m))[0]

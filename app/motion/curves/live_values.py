@@ -105,7 +105,7 @@ class Journey:
         self._length_s = LEAST_MOVE_S
 
     def go(self, now_s: float, goal: int, length_s: float) -> None:
-        """Set out for a place; a way there takes so long."""
+        """Begin to move to a value; the way takes this long."""
         self._arrive(now_s)
         if goal == self.goal:
             return

@@ -115,7 +115,7 @@ def body_motion(
 
 
 def _wandering_rad(name: str, sizes: Sizes, times_s: FloatArray, share: FloatArray | float) -> FloatArray:
-    """Return how far the head goes of itself."""
+    """Return the slow turn of the head while nothing else moves it, in radians."""
     return np.deg2rad(sizes.wander(name, sizes.body.sway.head_deg, times_s, share))
 
 

@@ -26,7 +26,7 @@ LEAST_SIZE: Final = 0.05
 
 
 class ReachingHands(NamedTuple):
-    """Hands on their way in some frames, as far as it scales with the amplitude; empty: none.
+    """Hands that are moving away or back in some frames, by the part that scales with the amplitude; empty: none.
 
     Attributes
     ----------

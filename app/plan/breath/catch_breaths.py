@@ -128,7 +128,7 @@ def _made(
 
 
 def _catch(breather: Breather, rests: IntArray, index: int) -> str:
-    """Message of a catch breath for want of air: by the slur that it is under."""
+    """Message of a catch breath for lack of air: by the slur that it is under."""
     if not breather.written.joined[index - 1]:
         return "breath.catch"
     return "breath.catch_rest_slurred" if rests[index] > 0 else "breath.catch_slurred"

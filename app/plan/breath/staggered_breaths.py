@@ -241,7 +241,7 @@ def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
 
 
 def _together(places: Sequence[int], known: frozenset[int], index: int, least: int) -> bool:
-    """Return whether at least so many places in a row, the one at an index among them, are known."""
+    """Return whether a run of known places around an index has at least this length."""
     count = 1
     for step in (-1, 1):
         place = index + step

@@ -101,7 +101,7 @@ class _Spans(msgspec.Struct, frozen=True):
         return cls(starts[order], np.maximum.accumulate(ends[order]))
 
     def sounds_before(self, tick: int, ticks: float) -> bool:
-        """Return whether something that begins before a tick sounds on within so many ticks before it."""
+        """Return whether a note that began before a tick still sounds within some ticks before it."""
         index = int(np.searchsorted(self.starts, tick)) - 1
         return index >= 0 and bool(self.ends[index] > tick - ticks)
 
@@ -126,7 +126,7 @@ def played_together(piece: Piece, tick: int) -> int:
 
 
 def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
-    """Return who begins a note within so many ticks from a tick on, and which."""
+    """Return the players that begin a note within some ticks from a tick on, and the notes."""
     found = []
     for line, times in sounding:
         index = int(np.searchsorted(times.onset_tick, tick))
@@ -180,7 +180,7 @@ def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s:
 
 
 def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[Entry]:
-    """Return where all go on at once after notes that all held so long that no one counts them."""
+    """Return entries of all players after notes that all held too long to count."""
     held: dict[int, int] = {}
     for _, times in sounding:
         ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])

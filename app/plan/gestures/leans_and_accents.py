@@ -208,7 +208,7 @@ def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, F
 
 
 def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
-    """The first of some places, in order, at or after each tick, or so many before it; they may be very many."""
+    """The first of some places, in order, at or after each tick or a little before it; there may be very many."""
     found: IntArray = places[np.clip(np.searchsorted(places, ticks) - back, 0, len(places) - 1)]
     return found
 

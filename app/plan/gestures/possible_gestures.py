@@ -29,7 +29,7 @@ class LoweredSpans:
         return Spans((first_s + down_s, last_s - up_s) for first_s, last_s in self._ordered)
 
     def hold(self, start_s: float, end_s: float, down_s: float, up_s: float) -> bool:
-        """Return whether a time lies within one of the spans, so long after its start and before its end."""
+        """Return whether a time lies within one of the spans, with margins after its start and before its end."""
         return self._narrowed(down_s, up_s).hold(start_s, end_s)
 
     def end_between(self, start_s: float, end_s: float) -> bool:

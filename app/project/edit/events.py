@@ -166,7 +166,7 @@ def add_gesture(
     amount: float = 0.5,
     gesture: str = "",
 ) -> Edited:
-    """A gesture custom; ``gesture`` is the name of one of the kind ``"named"``."""
+    """Add a gesture of the animator's; ``gesture`` is the name of one of the kind ``"named"``."""
     end_tick = max(end_tick, start_tick + 1)
     added = AddGesture(_new_name(project, player_id), kind, start_tick, end_tick, amount, gesture)
     return Edited(with_corrections(project, player_id, (added,)), (added.about,))
@@ -182,7 +182,7 @@ def add_expression(
     fade_in_s: float = 0.2,
     fade_out_s: float = 0.3,
 ) -> Edited:
-    """An expression custom."""
+    """Add an expression of the animator's."""
     end_tick = max(end_tick, start_tick + 1)
     name, fades = _new_name(project, player_id), (fade_in_s, fade_out_s)
     added = AddExpression(name, expression, start_tick, end_tick, 1.0, *fades)
@@ -190,7 +190,7 @@ def add_expression(
 
 
 def add_style(project: Project, player_id: str, style: str, start_tick: int, end_tick: int) -> Edited:
-    """A region in which the player plays in a style; it comes and goes within a felt beat, or a quarter of it."""
+    """Add a region in which the player plays in a style; it fades within a felt beat, or a quarter of its length."""
     end_tick = max(end_tick, start_tick + 1)
     fade = min(project.metre_map.felt_ticks_at(start_tick), (end_tick - start_tick) // 4)
     added = PlayStyle(_new_name(project, player_id), style, start_tick, end_tick, fade, fade)

@@ -415,7 +415,7 @@ def postures_of_musician(project: Project, player: Player) -> tuple[Posture, ...
 
 
 def join(project: Project, player_id: str, musician_id: str) -> Project:
-    """Let the body of another player play this instrument too, and what this custom body plays besides.
+    """Let the body of another player play this instrument too, and whatever this player's own body plays besides.
 
     Raises
     ------

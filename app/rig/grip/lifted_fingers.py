@@ -61,7 +61,7 @@ class _Finger:
         return carried
 
     def flexed(self, rotations: FloatArray, joint: int, angles_rad: FloatArray) -> FloatArray:
-        """Rotations (S, 3, 4) with a joint bent by so much more."""
+        """Rotations (S, 3, 4) with a joint bent further by an angle."""
         result = rotations.copy()
         turn = quaternion.from_axis_angle(self.flexion[joint], angles_rad)
         result[:, joint] = quaternion.multiply(turn, rotations[:, joint])

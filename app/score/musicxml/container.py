@@ -49,7 +49,7 @@ _BOMS: Final = (
 
 
 def is_musicxml(path: Path) -> bool:
-    """Return whether a file is to be read as MusicXML: by its first bytes, and by its name where they tell nothing.
+    """Return whether a file is to be read as MusicXML: by its first bytes, and by its name where they do not show it.
 
     Raises FileError as `open_file`.
     """

@@ -68,7 +68,7 @@ class TempoEvent(NamedTuple):
 
 
 class Held(NamedTuple):
-    """A span of ticks that a fermata makes so many times as long."""
+    """A span of ticks that a fermata lengthens by a factor."""
 
     tick: int
     end_tick: int

@@ -93,7 +93,7 @@ def choose_gesture(session: Session) -> None:
 
 
 def choose_expression(session: Session) -> None:
-    """Show the expressions where the mouse is: the program's, then custom."""
+    """Show the expressions where the mouse is: the program's, then the user's own."""
     menu = choice_menu()
     own = {item.name for item in session.project.expressions}
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):

@@ -150,7 +150,7 @@ def duplicate(session: Session) -> None:
 
 
 def transpose(session: Session, by_pitch: int) -> None:
-    """Up or down by semitones, as far as pitches go."""
+    """Transpose by semitones, within the range of MIDI."""
     _edit(
         session,
         "edit.transpose_notes",

@@ -270,7 +270,7 @@ class FirstSteps(QObject):
     # Qt overrides
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Go along with the window."""
+        """Move the bubble when the window moves."""
         if event.type() == QEvent.Type.Resize:
             self._place()
         return False

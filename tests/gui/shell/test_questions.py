@@ -99,7 +99,7 @@ ASKED: Mapping[str, Callable[[Path], object]] = {
 
 
 def rows_of(dialog: QFileDialog) -> list[list[str]]:
-    """What the list of files says of each that is there, once it is read: name, size, type and date."""
+    """Rows of the list of files, once it is read: name, size, type and date."""
     view = child(dialog, QTreeView, "treeView")
     assert wait_until(lambda: view.model().rowCount(view.rootIndex()) > 0)
     model, at = view.model(), view.rootIndex()

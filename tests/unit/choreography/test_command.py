@@ -117,7 +117,7 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
         "motion          music  seconds  segments  states  offset s  confidence",
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",
         "",
-        "There are too few motions (at least 20 are needed) to test whether the music tells anything about them.",
+        "There are too few motions (at least 20 are needed) to test whether the music predicts them.",
         "",
         "body:",
         "  swings.bvh: T-pose: hip line 0°, shoulder line 0° off level; spine 0° off upright; knees 0°, elbows 0°, "

@@ -211,7 +211,7 @@ def test_a_palm_that_is_turned_all_the_time_is_danced_so(palm_deg: float) -> Non
 
 
 def test_who_leans_ahead_all_the_time_is_danced_so() -> None:
-    """As runners do: a lean is no T-pose."""
+    """Runners lean ahead: a lean is no T-pose."""
     plain = rerigged(SALSA, REST_POSES["x"])
     lean = np.tile(quaternion.from_axis_angle((1.0, 0.0, 0.0), 0.45), (len(SALSA.rotations_xyzw), 1))
     leaning = rerigged(_turned(SALSA, {"abdomen": lean}), REST_POSES["x"])

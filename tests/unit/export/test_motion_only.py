@@ -78,7 +78,7 @@ def test_the_report_judges_the_motion_of_the_file_as_with_its_meshes(exported: d
 
 
 def test_properties_of_the_face_are_a_users_and_animated(tmp_path: Path) -> None:
-    """So the FBX SDK, and Unreal by it, takes them for curves: flags A and U, and a curve node on each."""
+    """The FBX SDK, and Unreal by it, takes such properties for curves: flags A and U, and a curve node on each."""
     scene = without_meshes(scenes.character(Fraction(60)))
     write_scene(tmp_path / "alone.fbx", scene)
     graph = ObjectGraph(read_elements((tmp_path / "alone.fbx").read_bytes(), "alone.fbx"), "alone.fbx")

@@ -244,7 +244,7 @@ class CutPlot(QWidget):
     # Between frames and pixels
 
     def time_s(self, frames: Any) -> Any:
-        """Times of the file of frames."""
+        """Convert frames of the motion's file to times in it, seconds."""
         return self._start_s + np.asarray(frames, np.float64) / float(self._fps)
 
     def x_px(self, frame: float) -> float:

@@ -22,7 +22,7 @@ from widgets.dialogs.progress_dialog import stopping
 
 @dataclass(frozen=True, eq=False)
 class LearnedChoreography:
-    """A choreography that was learned and written, the pairs it is of, and what its music tells about its motion."""
+    """A choreography that was learned and written, its pairs, and how well its music predicts its motion."""
 
     path: Path
     model: ChoreographyModel

@@ -283,7 +283,7 @@ class _Picture(QWidget):
         self.update()
 
     def image(self, factor: int) -> QImage:
-        """The picture in so many times its own size."""
+        """The picture at a multiple of its own size."""
         image = QImage(self._renderer.defaultSize() * factor, QImage.Format.Format_RGB32)
         image.fill(QColor("white"))
         painter = QPainter(image)

@@ -61,7 +61,7 @@ class NumberField(QLineEdit):
         self.selectAll()
 
     def close_field(self) -> None:
-        """Leave everything as it was."""
+        """Close without a change."""
         if self.isVisible():
             self.hide()
             self._lane.plot.setFocus()

@@ -163,7 +163,7 @@ class RegionLane(Lane):
         return True
 
     def pan_y(self, by_px: float) -> None:
-        """The rows go along with a drag of the middle button."""
+        """Scroll the rows with a drag of the middle button."""
         self._scroll_to(self._scrolled_px - by_px)
 
     def _scroll_to(self, top_px: float) -> None:
@@ -202,7 +202,7 @@ class RegionLane(Lane):
         )
 
     def refresh(self) -> None:
-        """Make the regions anew if anything they show is another value."""
+        """Make the regions again if anything they show has changed."""
         player = self.session.player
         plan = self.session.plan
         project = self.session.project

@@ -80,7 +80,7 @@ class LaneItem(Generic[AnyLane]):
         lane.plot.add(self)
 
     def update(self) -> None:
-        """Draw anew, soon."""
+        """Redraw soon."""
         self.lane.plot.redraw()
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:

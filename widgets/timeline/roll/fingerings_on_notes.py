@@ -39,7 +39,7 @@ class Labels(LaneItem[RollView]):
         """Numbers of the events, as the notes are ordered that they finger."""
 
     def forget_fonts(self) -> None:
-        """The font is another one."""
+        """Forget sizes that were measured in the former font."""
         self._texts.clear()
 
     def _know(self, table: NoteTable, plan: PlayerPlan | None) -> None:

@@ -415,7 +415,7 @@ class PianoRoll(Lane):
                 self.set_tool(self._tool)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Escape lets go of the selection."""
+        """Clear the selection by Escape."""
         if event.key() == Qt.Key.Key_Escape and self.session.selection:
             self.session.select(Selection())
             return True

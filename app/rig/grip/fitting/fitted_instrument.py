@@ -162,7 +162,7 @@ def _hands(character: Character) -> float:
 
 
 def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
-    """The instrument usually carried so much nearer to the lowest (its bell down) of its range."""
+    """The instrument usually carried nearer to the lowest of its range (its bell down), by a share."""
 
     def lower(carriage: Carriage | None) -> Carriage | None:
         if carriage is None:

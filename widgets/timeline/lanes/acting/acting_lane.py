@@ -167,7 +167,7 @@ class ActingLane(RegionLane):
         return (project.players, said, *(other.cues for other in plans.values() if other is not plan))
 
     def _varied(self, player_id: str) -> list[Region]:
-        """The bars that the user let the player perform anew."""
+        """Bars that the user has regenerated."""
         clock = self.session.project.score.tempo_map
         return [
             Region(

@@ -15,7 +15,7 @@ Place = TypeVar("Place", int, float)
 
 
 class SelectSpan(MouseGesture):
-    """A span is selected from the press on; a press alone lets go of one."""
+    """A span is selected from the press on; a press alone clears it."""
 
     def __init__(self, session: Editing, at: LaneMouse, far: Far, tick_at: Callable[[LaneMouse, bool], int]) -> None:
         super().__init__(at, far)
@@ -53,7 +53,7 @@ class Scrub(MouseGesture):
 
 
 class HoldEdge(MouseGesture):
-    """One edge of a span goes along, as far as the other one.
+    """One edge of a span moves, up to the other one.
 
     Parameters
     ----------
