@@ -14,6 +14,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.translated import tr
 from app.shell.action import ActionRow, without_dots
+from widgets.common.actions import TABLE
 from widgets.common.clicks import on_click
 from widgets.common.icons import icon
 from widgets.common.plain import verbatim
@@ -153,6 +154,7 @@ class ActionTable(QObject):
         self._editor: object | None = None
         self.rows = {row.id: row for row in rows}
         self._context = "window"
+        self.setObjectName(TABLE)
         self.actions = {row.id: RowAction(row, self) for row in rows}
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.refresh)

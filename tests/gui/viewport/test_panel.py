@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
-from PySide6.QtGui import QAction, QImage, QMouseEvent, QWheelEvent
+from PySide6.QtGui import QImage, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -23,6 +23,7 @@ from app.choreography.model_file import write_model
 from app.editor.design_tokens import LIGHT
 from app.editor.edit_names import edit_of_parameter
 from app.editor.session import Session
+from app.editor.settings import Settings
 from app.errors import AppError, Message
 from app.performance.chunks import Pose
 from app.performance.ensemble import Performance
@@ -32,6 +33,8 @@ from app.project.casting import StagePosition
 from app.project.edit.dancers import add_dancer, place_dancers, set_body_dance
 from app.project.edit.piece import new_piece
 from app.project.model import Project
+from app.shell.action import Action
+from app.shell.actions import ActionTable
 from tests.gui.conftest import planned_quartet, quartet_project
 from tests.gui.viewport.conftest import AT_S, SIZE, MadeNow
 from tests.support.dances import model
@@ -405,9 +408,11 @@ def test_where_there_is_little_room_the_views_fold_into_a_menu(qtbot: QtBot, vie
     assert folded.text() == folded.menu().actions()[4].text()
 
 
-def test_the_right_button_offers_the_tables_actions(qtbot: QtBot, viewport: ViewportPanel, session: Session) -> None:
-    action = QAction("Frame", session, objectName="viewport.frame")
-    action.triggered.connect(lambda: session.viewport.set_view("top"))
+def test_the_right_button_offers_the_tables_actions(
+    qtbot: QtBot, viewport: ViewportPanel, session: Session, tmp_path: Path
+) -> None:
+    row = Action("viewport.frame", lambda session: session.viewport.set_view("top"), "view")
+    action = ActionTable(session, Settings(tmp_path / "editor.toml"), [row]).actions[row.id]
     qtbot.mouseClick(canvas(viewport), Qt.MouseButton.RightButton, pos=QPoint(5, 5))
     menu = child(viewport, QMenu, "viewport_menu")
     assert action in menu.actions()
@@ -628,9 +633,12 @@ from PySide6.QtWidgets import QApplication, QLabel
 from app.errors import AppError
 app = QApplication(["suisou"])
 from app.shell.language import Language
+from app.shell.action import Action
+from app.shell.actions import ActionTable
 from tests.gui.conftest import planned_quartet, quartet_project
 from tests.support.tasks import ImmediateTasks
 from app.editor.session import Session
+from app.editor.settings import Settings
 from widgets.viewport.panel import ViewportPanel
 
 class Nothing:
