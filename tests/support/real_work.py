@@ -3,7 +3,8 @@
 ``python -m tests.support.real_work work FOLDER``: opens the Lutkin quartet, changes three fingerings, moves a breath,
 lowers one player's amplitude, adds a strained expression, lifts a bell, takes a recording whose offset it estimates,
 saves, edits on, and waits to be killed once the unsaved edit is written down. ``recover FOLDER``: begins the editor
-anew, takes what is offered, and exports. A picture of the window is left in the folder after every step.
+anew, takes what is offered, and exports. With ``pictures`` as a further word a picture of the window is left in the
+folder after every step.
 """
 
 from __future__ import annotations
@@ -88,7 +89,12 @@ class Work:
         viewport.refresh()
         self.application.processEvents()
         self.pictures += 1
-        self.window.grab().save(str(self.folder / f"{self.pictures:02}_{name}.jpg"))
+        self.draw(self.window, name)
+
+    def draw(self, shown: QWidget, name: str) -> None:
+        """Leave a picture of a widget, if pictures are asked for."""
+        if "pictures" in sys.argv[3:]:
+            shown.grab().save(str(self.folder / f"{self.pictures:02}_{name}.jpg"))
 
     def do(self, action_id: str) -> None:
         """Choose an action."""
@@ -320,10 +326,10 @@ def recover_and_export(folder: Path) -> None:
     work.program.editor.files.find_recoverable(offered.extend)
     work.until(lambda: bool(offered), "what was lost")
     assert len(offered) == 1, offered
-    work.window.grab().save(str(folder / "20_offered.jpg"))
+    work.pictures = 20
+    work.draw(work.window, "offered")
     work.program.editor.files.recover(offered[0])
     work.until(lambda: len(work.session.project.players) == 4, "the recovery")
-    work.pictures = 20
     work.picture("recovered")
     work.do("export.files")
     dialog = next(widget for widget in QApplication.topLevelWidgets() if widget.objectName() == "export_files")
@@ -335,7 +341,8 @@ def recover_and_export(folder: Path) -> None:
     QTest.mouseClick(dialog.findChild(QPushButton, "export_start"), Qt.MouseButton.LeftButton)
     work.until(lambda: (folder / "out" / "report.json").exists(), "the export")
     pause(300)
-    dialog.grab().save(str(folder / "22_exported.jpg"))
+    work.pictures += 1
+    work.draw(dialog, "exported")
     work.answers.answer = "save"
     work.do("file.save")
     work.until(lambda: work.session.document.is_saved, "saving")

@@ -202,8 +202,8 @@ def test_polygons_and_corners_of_their_own() -> None:
     assert len(primitive.vertices) == 8
     assert len(primitive.triangles) == 4
     np.testing.assert_allclose(np.linalg.norm(primitive.normals, axis=1), 1)
-    area = np.cross(*(corners[primitive.vertices[primitive.triangles[:, k]]] -
-                      corners[primitive.vertices[primitive.triangles[:, 0]]] for k in (1, 2)))  # fmt: skip
+    first, second, third = (corners[primitive.vertices[primitive.triangles[:, k]]] for k in range(3))
+    area = np.cross(second - first, third - first)
     np.testing.assert_allclose(area, np.tile([0, 0, 1.0], (4, 1)))
     assert square.uvs is not None
     assert primitive.uvs is not None
