@@ -27,6 +27,7 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
+from app.export.face_curves import CURVE_NAMES, DEFAULT_FACE, FACE_PARTS, FaceOptions, FacePart
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, refuse_attachment, requested
 from app.export.request import ExportRequest
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, EYE_TURNS, REST_POSES, ROOT_BONES, RigOptions
@@ -83,6 +84,9 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--sound", action="store_true")
     stage = command.add_argument("--stage", action="store_true")
     fill_help(stage, formats=names_where(lambda kind: kind.stage))
+    command.add_argument("--face-names", choices=CURVE_NAMES, default=DEFAULT_FACE.names)
+    parts = command.add_argument("--face-parts", type=face_parts, default=FACE_PARTS, metavar="PARTS")
+    fill_help(parts, parts=", ".join(FACE_PARTS))
     alone = command.add_argument("--motion-only", action="store_true")
     fill_help(alone, formats=names_where(lambda kind: kind.without_meshes))
     keys = command.add_argument("--keys", choices=KEY_CHOICES, default="every")
@@ -115,6 +119,22 @@ def file_formats(text: str) -> list[Format]:
         typed = ", ".join(map(repr, unknown))
         raise argparse.ArgumentTypeError(said("cli.no_format", typed=typed, possible=", ".join(FILE_FORMATS)))
     return [name for name in FILE_FORMATS if name in names]
+
+
+def face_parts(text: str) -> tuple[FacePart, ...]:
+    """Parts of a face from ``brows`` or ``brows,eyes``.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        Nothing, or something that is no part.
+    """
+    names = [name.strip().casefold() for name in text.split(",")]
+    unknown = [name for name in names if name not in FACE_PARTS]
+    if unknown:
+        typed = ", ".join(map(repr, unknown))
+        raise argparse.ArgumentTypeError(said("cli.no_face_part", typed=typed, possible=", ".join(FACE_PARTS)))
+    return tuple(part for part in FACE_PARTS if part in names)
 
 
 def export(arguments: argparse.Namespace) -> int:
@@ -195,6 +215,7 @@ def _request(
         dancers=tuple(project.dancers[index - count] for index in chosen if index >= count),
         processes=arguments.jobs,
         keys=arguments.keys,
+        face=FaceOptions(arguments.face_names, arguments.face_parts),
         motion_only=arguments.motion_only,
         with_ignored=arguments.ignored,
     )
@@ -213,6 +234,8 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("unreal.keys")
     if arguments.keys != "every" and not any(kind.reduces_keys for kind in requested(formats)):
         raise UsageError("keys.formats", possible=names_where(lambda kind: kind.reduces_keys))
+    if arguments.face_names != DEFAULT_FACE.names and arguments.unreal is not None:
+        raise UsageError("unreal.face_names")
     if arguments.motion_only and arguments.unreal is not None:
         raise UsageError("unreal.motion_only")
     if arguments.motion_only and not any(kind.without_meshes for kind in requested(formats)):

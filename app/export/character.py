@@ -14,6 +14,7 @@ from app.arrays import AnyFloatArray, SingleArray
 from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.bone_axes import bone_axes
 from app.export.eyes import eyes_of_file, with_turned_balls
+from app.export.face_curves import FACE_PARTS, FacePart, written_weights
 from app.export.morph_normals import with_morph_normals
 from app.export.own_skeleton import own_weights
 from app.export.target import BoneMotion, TargetSkeleton, Trajectory, bone_motion, matrices, normalised_target
@@ -36,6 +37,8 @@ def character_scene(
     creator: str,
     target: TargetSkeleton | None = None,
     held: Sequence[Trajectory] = (),
+    *,
+    face_parts: tuple[FacePart, ...] = FACE_PARTS,
 ) -> Scene:
     """The scene of one player.
 
@@ -52,6 +55,8 @@ def character_scene(
         The skeleton to write on; ours if absent.
     held : sequence of Trajectory
         Of the musician's instruments, where the target has sockets for several; none: the motion's.
+    face_parts : tuple of FacePart
+        Parts of the face that have curves.
 
     Returns
     -------
@@ -62,7 +67,7 @@ def character_scene(
     """
     target = normalised_target(character.skeleton) if target is None else target
     eyes = eyes_of_file(character, motion, target)
-    motion = eyes.motion
+    motion = replace(eyes.motion, morphs=written_weights(eyes.motion.morphs, face_parts))
     if target.choice == "own" and character.own is not None:
         meshes, weights = _own_meshes(character.own.figure, target, name), own_weights(motion.morphs, character.own)
     else:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from app.export.attachment import own_path
 from app.export.character import character_scene
+from app.export.face_curves import with_curve_names, written_weights
 from app.export.file_names import figure_stems
 from app.export.formats import FileFormat
 from app.export.humanoid import humanoid_scene
@@ -38,8 +41,15 @@ def musician_scene(
     if target.sockets:
         motions += [player_motion(request.performance, double, request.span) for double in musician.performers[1:]]
     scene = character_scene(
-        musician.character, motion, name, request.creator, target, tuple(map(instrument_path, motions))
+        musician.character,
+        motion,
+        name,
+        request.creator,
+        target,
+        tuple(map(instrument_path, motions)),
+        face_parts=request.face.parts,
     )
+    scene = with_curve_names(scene, request.face.names)
     models = [one.model for one in musician.performers]
     return keyed_character(scene, request.keys, request.formats, musician.character, target, models)
 
@@ -56,7 +66,8 @@ def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind
     name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.dancing.character
     if kind is not None and kind.humanoid:
         return _animation_scene(request, character, motion, name, cast.target_in(kind))
-    scene = character_scene(character, motion, name, request.creator, cast.target)
+    scene = character_scene(character, motion, name, request.creator, cast.target, face_parts=request.face.parts)
+    scene = with_curve_names(scene, request.face.names)
     return keyed_character(scene, request.keys, request.formats, character, cast.target)
 
 
@@ -64,6 +75,10 @@ def _animation_scene(
     request: ExportRequest, character: Character, motion: Motion, name: str, target: TargetSkeleton
 ) -> Scene:
     scene = humanoid_scene(character, motion, name, request.creator, target)
+    assert scene.clip is not None
+    # Names and the gaze are VRM's own.
+    weights = written_weights(scene.clip.morph_weights, request.face.parts)
+    scene = replace(scene, clip=replace(scene.clip, morph_weights=weights))
     # Viewers turn the keys of an animation to the rest of their figure, and not all do so with slopes.
     keys: KeyChoice = "every" if request.keys == "every" else "linear"
     return keyed_character(scene, keys, request.formats, character, target)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from app.errors import FileError, Message, StopRequested
 from app.export.equipped_skeleton import socket_names
+from app.export.face_curves import DEFAULT_FACE, FaceOptions
 from app.export.formats import FileFormat, Format, refuse_attachment, requested
 from app.export.humanoid import humanoid_target
 from app.export.rig import rig_of
@@ -63,6 +64,8 @@ class ExportRequest:
         File of the asset that the animation is for: every player's skeleton is compared with its.
     keys : KeyChoice
         Which frames have keys, in formats that can leave out some.
+    face : FaceOptions
+        Which curves faces have, and their names.
     motion_only : bool
         Whether files are without meshes, in formats that can be so.
     with_ignored : bool
@@ -86,6 +89,7 @@ class ExportRequest:
     stage: bool = False
     processes: int | None = None
     keys: KeyChoice = "every"
+    face: FaceOptions = DEFAULT_FACE
     motion_only: bool = False
     with_ignored: bool = False
 

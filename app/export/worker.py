@@ -21,6 +21,7 @@ import msgspec
 
 from app.child import MessageChannel, channel_to_parent
 from app.errors import AppError
+from app.export.face_curves import FaceOptions
 from app.export.formats import Format
 from app.export.player import ExportedPlayer, export_player
 from app.export.request import CastMusician, ExportRequest, cast_of
@@ -52,6 +53,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     sound: bool
     bvh_names: str
     keys: KeyChoice
+    face: FaceOptions
     motion_only: bool
 
 
@@ -89,6 +91,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         sound=request.sound,
         bvh_names=request.bvh_names,
         keys=request.keys,
+        face=request.face,
         motion_only=request.motion_only,
     )
 
@@ -110,6 +113,7 @@ def _request(job: ExportJob) -> ExportRequest:
         sound=job.sound,
         bvh_names=job.bvh_names,
         keys=job.keys,
+        face=job.face,
         motion_only=job.motion_only,
     )
 

@@ -32,6 +32,7 @@ from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
 from widgets.dialogs.export_destination import Destination, Done, foresee_folder, foresee_unreal, write
+from widgets.dialogs.export_face import FaceChooser
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
 from widgets.dialogs.export_range import BeatsBox, RangeChooser
@@ -152,6 +153,7 @@ class ExportDialog(WorkingDialog):
         self._skeleton = SkeletonChooser(session, self._chosen_players)
         self._skeleton.set_destination(destination)
         self._rig = RigChooser()
+        self._face = FaceChooser()
         self._files = selectable(wrapped(named(Label(), "export_outcome")))
         self._files.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # The excluded players of an orchestra may take more lines than there is room for.
@@ -195,6 +197,7 @@ class ExportDialog(WorkingDialog):
                 "export_dialog.keys": self._keys,
                 "export_dialog.skeleton": self._skeleton,
                 "export_dialog.rig": self._rig,
+                "export_dialog.face": self._face,
                 "export_dialog.range": self._range,
                 "export_dialog.pre_roll": self._preroll,
                 "export_dialog.lead_in": self._lead_in,
@@ -203,7 +206,7 @@ class ExportDialog(WorkingDialog):
         )
         self._form.addRow(Label(), self._outcome)
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
-        self.fields += (self._skeleton, self._rig, self._range, self._preroll, self._lead_in, self._rate)
+        self.fields += (self._skeleton, self._rig, self._face, self._range, self._preroll, self._lead_in, self._rate)
         columns = in_row((left, 1), (named(Scrolled(self._form), "export_choices"), 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
@@ -245,6 +248,7 @@ class ExportDialog(WorkingDialog):
             keys=self.keys if self._place.destination == "folder" else "every",
             skeleton=self._skeleton.choice,
             rig=self._rig.options,
+            face=self._face.options,
             asset=self._skeleton.asset,
             dancers=tuple(dancer for dancer in project.dancers if dancer.id in self.player_ids),
         )
@@ -330,6 +334,7 @@ class ExportDialog(WorkingDialog):
     def _show_outcome(self) -> None:
         into_folder = self._place.destination == "folder"
         self._form.setRowVisible(self._formats, into_folder)
+        self._face.set_names_shown(into_folder)
         kinds = requested(self._formats.formats) if into_folder else ()
         self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
         self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))

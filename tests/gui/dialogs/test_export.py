@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
 from app.errors import Message
+from app.export.face_curves import DEFAULT_FACE, FaceOptions
 from app.export.request import ExportRequest
 from app.export.run import export
 from app.formats import usd_package
@@ -259,3 +260,11 @@ def test_meshes_can_be_left_out_where_a_format_can_do_without(dialog: ExportDial
     assert dialog._request().motion_only
     bvh_only(dialog)
     assert not dialog._request().motion_only, "a box that is off does nothing"
+
+
+def test_curves_of_faces_are_chosen_by_name_and_part(dialog: ExportDialog) -> None:
+    assert dialog._request().face == DEFAULT_FACE
+    names = child(dialog, QComboBox, "export_face_names")
+    names.setCurrentIndex(names.findData("metahuman"))
+    child(dialog, QCheckBox, "export_face_brows").setChecked(False)
+    assert dialog._request().face == FaceOptions("metahuman", ("eyes", "gaze", "cheeks", "nose", "mouth"))

@@ -1,0 +1,131 @@
+"""Names and parts of the curves of faces in exported files, against the makers' lists."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.cli import main
+from app.cli.export import face_parts
+from app.export.character import character_scene
+from app.export.face_curves import (
+    CURVE_NAMES,
+    FACE_PARTS,
+    CurveNames,
+    curve_names,
+    part_of,
+    with_curve_names,
+    written_weights,
+)
+from app.formats.scene import MorphTarget, Scene
+from app.performance.bodies import character_of
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span
+from metadata.model import ARKIT_MORPHS
+from tests.gui.conftest import quartet_project
+from tests.support.performed import player_motion
+from tests.unit.formats import scenes
+
+LISTS = Path(__file__).parents[2] / "data" / "face_curves"
+
+
+def _list(name: str) -> set[str]:
+    """Names of a maker's list.
+
+    ``metahuman``: the 251 raw controls of a MetaHuman's face, as plug-ins for Unreal list them (Convai's
+    MetaHumanCtrlNames; Meta's Movement SDK has the same). ``unreal_arkit``: Unreal's EARFaceBlendShape without the
+    rotations of head and eyes, of which Audio2Face-3D has the same 52 first.
+    """
+    return set((LISTS / f"{name}.txt").read_text(encoding="utf-8").split())
+
+
+@pytest.mark.parametrize("names", CURVE_NAMES)
+def test_every_shape_of_arkit_has_curves_and_none_is_shared(names: CurveNames) -> None:
+    table = curve_names(names)
+    assert table.keys() == set(ARKIT_MORPHS)
+    assert all(0.0 < share <= 1.0 for curves in table.values() for share in curves.values())
+    curves = [curve for shares in table.values() for curve in shares]
+    assert len(set(curves)) == len(curves)
+
+
+def test_curves_are_in_the_makers_lists() -> None:
+    assert {curve for curves in curve_names("audio2face").values() for curve in curves} == _list("unreal_arkit")
+    raw = _list("metahuman")
+    assert len(raw) == 251
+    assert {curve for curves in curve_names("metahuman").values() for curve in curves} <= raw
+
+
+def test_eyes_look_to_the_sides_that_a_metahuman_means() -> None:
+    """ARKit looks in and out, a MetaHuman to its own left and right."""
+    table = curve_names("metahuman")
+    assert [*table["eyeLookInLeft"], *table["eyeLookOutLeft"]] == [
+        "CTRL_expressions_eyeLookRightL",
+        "CTRL_expressions_eyeLookLeftL",
+    ]
+    assert [*table["eyeLookInRight"], *table["eyeLookOutRight"]] == [
+        "CTRL_expressions_eyeLookLeftR",
+        "CTRL_expressions_eyeLookRightR",
+    ]
+
+
+def _deformed(scene: Scene, frame: int) -> np.ndarray:
+    """Vertices by the morphs alone, of all meshes."""
+    assert scene.clip is not None
+    parts = []
+    for mesh in scene.meshes:
+        places = np.array(mesh.vertices_cm, float)
+        for morph in mesh.morphs:
+            weight = scene.clip.morph_weights.get(morph.name, np.zeros(scene.clip.frames))[frame]
+            places[morph.vertex_indices] += weight * morph.position_deltas_cm
+        parts.append(places)
+    return np.concatenate(parts)
+
+
+@pytest.mark.parametrize("names", CURVE_NAMES)
+def test_a_mesh_shows_the_same_by_other_names(names: CurveNames) -> None:
+    made = scenes.character(Fraction(30))
+    assert made.clip is not None
+    funnel = MorphTarget("mouthFunnel", np.arange(9), np.random.default_rng(3).normal(size=(9, 3)))
+    body = replace(made.meshes[0], morphs=(*made.meshes[0].morphs, funnel))
+    weights = {**made.clip.morph_weights, "mouthFunnel": np.linspace(1.0, 0.2, made.clip.frames)}
+    given = replace(made, meshes=(body, *made.meshes[1:]), clip=replace(made.clip, morph_weights=weights))
+    found = with_curve_names(given, names)
+    assert found.clip is not None
+    table = curve_names(names)
+    assert found.clip.morph_weights.keys() == {curve for shape in weights for curve in table[shape]}
+    for frame in (0, 20, made.clip.frames - 1):
+        np.testing.assert_allclose(_deformed(found, frame), _deformed(given, frame), atol=1e-9)
+
+
+def test_all_shapes_belong_to_one_part_and_others_to_none() -> None:
+    assert {part_of(shape) for shape in ARKIT_MORPHS} == set(FACE_PARTS)
+    assert part_of("cheekPuff") == part_of("jawOpen") == part_of("tongueOut") == "mouth"
+    assert part_of("eyeLookInLeft") == "gaze"
+    assert part_of("chestExpand") is None
+
+
+def test_parts_that_are_not_asked_for_have_no_curves_and_keep_their_shapes() -> None:
+    performance = Performance(quartet_project())
+    player = performance.project.players[0]
+    span = bars_span(performance, Fraction(30), (1, 2), 1)
+    motion, character = player_motion(performance, player, span), character_of(player)
+    whole, lips = (character_scene(character, motion, "p", "t", face_parts=parts) for parts in (FACE_PARTS, ("mouth",)))
+    assert whole.clip is not None
+    assert lips.clip is not None
+    assert {part_of(name) for name in lips.clip.morph_weights} == {"mouth", None}
+    for name, weights in lips.clip.morph_weights.items():
+        np.testing.assert_array_equal(weights, whole.clip.morph_weights[name])
+    assert any(name.startswith("brow") for name in whole.clip.morph_weights)
+    assert [morph.name for morph in lips.meshes[0].morphs] == [morph.name for morph in whole.meshes[0].morphs]
+    np.testing.assert_array_equal(lips.clip.rotations_xyzw, whole.clip.rotations_xyzw)
+    assert set(written_weights(whole.clip.morph_weights, ())) == {"chestExpand", "bellyExpand"}
+
+
+def test_the_command_reads_parts_and_says_which_there_are(capsys: pytest.CaptureFixture[str]) -> None:
+    assert face_parts("Mouth, gaze") == ("gaze", "mouth")
+    assert main(["export", "x.mid", "--to", "out", "--face-parts", "ears"]) == 2
+    assert "brows, eyes, gaze, cheeks, nose, mouth" in capsys.readouterr().err
