@@ -200,6 +200,7 @@ def test_four_times_as_many_notes_take_about_four_times_as_many_calls(tmp_path: 
     calls = dict[int, int]()
     for bars in (100, 400):
         text = document(*[bar] * bars)
-        calls[bars] = calls_made(partial(read, tmp_path, text))
+        # What is made once for all scores is made here.
         assert len(read(tmp_path, text).channels[0].pitches) == 8 * bars
-    assert calls[400] < 3.5 * calls[100]
+        calls[bars] = calls_made(partial(read, tmp_path, text))
+    assert calls[400] < 4.2 * calls[100]
