@@ -53,7 +53,7 @@ class RecordingLoudness:
     level_db: FloatArray
 
     def at(self, seconds: FloatArray) -> FloatArray:
-        """Between the steps; beyond the ends it is silent."""
+        """Value between the steps; silence beyond the ends."""
         at_s = STEP_S * np.arange(len(self.level_db))
         result: FloatArray = np.interp(seconds, at_s, self.level_db, left=_FLOOR_DB, right=_FLOOR_DB)
         return result

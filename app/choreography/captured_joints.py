@@ -118,12 +118,12 @@ class Captured:
 
     @cached_property
     def hip_line(self) -> FloatArray:
-        """From the right to the left hip joint, (F, 3)."""
+        """Vector from the right to the left hip joint, (F, 3)."""
         return self.at("leftUpperLeg") - self.at("rightUpperLeg")
 
     @cached_property
     def shoulder_line(self) -> FloatArray:
-        """From the right to the left shoulder, (F, 3)."""
+        """Vector from the right to the left shoulder, (F, 3)."""
         return self.at("leftUpperArm") - self.at("rightUpperArm")
 
     @cached_property

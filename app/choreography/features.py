@@ -61,6 +61,6 @@ def points_m(clip: MotionClip) -> FloatArray:
 
 
 def height_m(clip: MotionClip) -> float:
-    """From the floor to the crown in the T-pose; at least `LEAST_HEIGHT_M`, also where bones have no length."""
+    """Height from the floor to the crown in the T-pose; at least `LEAST_HEIGHT_M`, also where bones have no length."""
     crown_m = rest_positions(clip.shape.skeleton)[1 + _HEAD, 1] + clip.shape.ends_m[ENDS.index("head"), 1]
     return max(LEAST_HEIGHT_M, float(crown_m))

@@ -269,7 +269,7 @@ class _Search:
         return any(self._moves.possible(gap_s) for gap_s in gaps_s)
 
     def _way_back(self, best: FloatArray, came: IntArray, first: int, stop: int) -> list[tuple[int, int]]:
-        """From the best accent near the end."""
+        """Trace the sequence back from the best accent near the end."""
         reached = best.max(axis=1)
         # The phrase ends with an accent as late as one can be; a place or two later need not have one.
         last = max((row for row in range(stop - first) if reached[row] > NEVER / 2.0), default=-1)

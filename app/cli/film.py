@@ -110,7 +110,7 @@ class _Film:
 
     @property
     def step_s(self) -> float:
-        """From one frame to the next."""
+        """Time from one frame to the next."""
         return float(1 / self.span.fps)
 
     @property

@@ -200,7 +200,7 @@ class NoteFrames:
 
     @cached_property
     def _own(self) -> tuple[IndexArray, IndexArray]:
-        """From which frame (N,) to before which each note has the frames, to the next one's onset at most."""
+        """First frame (N,) of each note, and the frame before which it ends, at the next onset at the latest."""
         following_s = np.append(self._starts_s[1:], math.inf)
         return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 

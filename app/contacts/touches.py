@@ -50,7 +50,7 @@ class Traces:
         return distance_m(self.marks_m[mark], point_m)
 
     def from_rim_m(self, instrument: InstrumentMap, mark: str) -> FloatArray:
-        """From the middle of the rim to a landmark, in the instrument's frame (F, 3)."""
+        """Vector from the middle of the rim to a landmark, in the instrument's frame (F, 3)."""
         rim_m = self.point_m(ROOT, np.asarray(instrument.mouthpiece.position_m))
         offset_m: FloatArray = np.einsum("fji,fj->fi", self.nodes[ROOT][:, :3, :3], self.marks_m[mark] - rim_m)
         return offset_m

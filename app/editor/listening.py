@@ -18,7 +18,7 @@ LEAST_SPEED, MOST_SPEED = 0.25, 2.0
 
 @dataclass(frozen=True)
 class RecordedTake:
-    """A take that is listened to without being taken.
+    """A take that is played for listening, without taking it over.
 
     Attributes
     ----------

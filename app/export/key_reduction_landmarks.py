@@ -185,7 +185,7 @@ class BoneLink:
 def rigid_links(
     marks: SkinnedMarks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
 ) -> tuple[list[BoneLink], dict[int, BoneMarks]]:
-    """Only the bones that move, and the marks on them: what is still on its parent goes with it.
+    """The links of bones that move, and the marks on them; bones that are still on their parents move with these.
 
     Parameters
     ----------

@@ -111,7 +111,7 @@ class KeySpans:
 
 
 def slerp(a: AnyFloatArray, b: AnyFloatArray, share: AnyFloatArray) -> FloatArray:
-    """Between unit quaternions (..., 4) by the shorter way; ``share`` (..., 1) is 0 at a."""
+    """Interpolate between unit quaternions (..., 4) by the shorter way; ``share`` (..., 1) is 0 at a."""
     cosine = np.einsum("...i,...i->...", a, b)[..., None]
     b = np.where(cosine < 0.0, -b, b)
     angle = np.arccos(np.clip(np.abs(cosine), 0.0, 1.0))

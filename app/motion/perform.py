@@ -1,4 +1,5 @@
-"""From a player's plan to motion: controls, face and body as curves, then the contacts, all vectorised over frames."""
+"""Turns a player's plan into motion: controls, face and body as curves, then the contacts, all vectorised over
+frames."""
 
 from __future__ import annotations
 

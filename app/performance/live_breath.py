@@ -159,7 +159,7 @@ class LiveBreath:
         return self._sounding or (self._breath is not None and self._breath > SILENT)
 
     def _turn(self, now_s: float) -> None:
-        """From blowing to a pause, or back."""
+        """Change from blowing to a pause, or back."""
         if self._blown and self._paused_s < math.inf:
             self._begin(now_s)
         elif not self._blown and self._paused_s == math.inf:

@@ -181,7 +181,7 @@ def _arrays(curve: ControllerCurve) -> ControllerSteps:
 
 
 def _span(part: Part) -> tuple[float, float] | None:
-    """From the first onset to the last note's end, ticks; None without notes."""
+    """Span from the first onset to the last note's end, ticks; None without notes."""
     return (float(part.notes[0].onset_tick), float(part.notes[-1].end_tick)) if part.notes else None
 
 

@@ -1,4 +1,4 @@
-"""From lines to plans: the ensemble's time frame, its leader and cues, then every player by pure functions."""
+"""Makes plans of lines: the ensemble's time frame, its leader and cues, then every player by pure functions."""
 
 from __future__ import annotations
 
@@ -265,7 +265,7 @@ def _leading(
     sound_corrections: tuple[Correction, ...],
     musician: str,
 ) -> MonophonicPart:
-    """Return the line as far as cues depend on it."""
+    """Return the line with only the fields that cues depend on."""
     corrections = of_kinds(sound_corrections, (SetCue, RemoveEvent, SetBreath))
     return MonophonicPart(
         player_id, played_notes, instrument, parameters_deciding(parameters, "cues"), corrections, musician=musician

@@ -129,7 +129,7 @@ def usual_posture(count: int) -> Posture:
 
 
 def _spacing(row: Sequence[Footprint]) -> float:
-    """Between neighbours, from the audience's left: each has the next at the left hand."""
+    """Distances between neighbours, from the audience's left: each has the next at the left hand."""
     needed = [max(one.left_m, ELBOW_M) + max(other.right_m, ELBOW_M) + CLEAR_M for one, other in pairwise(row)]
     return max([SPACING_M, *needed])
 

@@ -1,4 +1,4 @@
-"""From the tracks of a MIDI file to a project, as the user assigns them: who plays what, on what, as whom."""
+"""Makes a project of the tracks of a MIDI file, as the user assigns them: to players, instruments and characters."""
 
 from __future__ import annotations
 

@@ -226,7 +226,7 @@ def from_matrix(m: ArrayLike) -> FloatArray:
 
 
 def _from_entries(m: Sequence[FloatArray]) -> FloatArray:
-    """From the nine entries (...) of matrices, row by row."""
+    """Quaternions of matrices by their nine entries (...), row by row."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = m
     diagonal = (1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz)
     sums, differences = (zy + yz, xz + zx, yx + xy), (zy - yz, xz - zx, yx - xy)

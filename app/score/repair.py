@@ -243,7 +243,7 @@ def _goes_on(data: bytes, at: int) -> bool:
 
 
 def _after_system_message(data: bytes, at: int) -> int:
-    """Past a system message and its data, as far as these are there."""
+    """Return the place after a system message and its data, as far as these are there."""
     size = _SYSTEM_DATA.get(data[at], 0)
     at += 1
     while size and at < len(data) and data[at] < 0x80:

@@ -117,7 +117,7 @@ class Dock(QDockWidget):
             self.setGeometry(frame)
 
     def _frame_soon(self) -> None:
-        """Once Qt is done with what it does now: it may still be dragging."""
+        """Frame a dock once Qt is done with what it does now: it may still be dragging."""
         QTimer.singleShot(0, self, self._frame)
 
     def _frame(self) -> None:

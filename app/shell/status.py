@@ -253,7 +253,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._problems.setText(f" {text}")
 
     def _report_instruments(self) -> None:
-        """Until the last file is mended: a notice goes with the next one."""
+        """Report faulty instruments until the last file is mended: a notice goes with the next one."""
         wrong = library().problems
         tokens = self._session.tokens
         self._instruments.setVisible(bool(wrong))

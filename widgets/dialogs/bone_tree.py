@@ -96,7 +96,7 @@ class BoneTree(QWidget):
         self.chosen.emit(item.text(0))
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:
-        """From the search the arrows go to the bones, and Enter takes the one that is marked."""
+        """Let the arrows go from the search to the bones, and Enter take the marked one."""
         if watched is self.search and event.type() is QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             key = Qt.Key(event.key())
             if key in (Qt.Key.Key_Down, Qt.Key.Key_Up):

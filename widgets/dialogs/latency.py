@@ -35,7 +35,7 @@ CLICKS_S: Final = tuple(PERIOD_S * (1 + index) for index in range(LEAD + COUNTED
 
 
 class LatencyDialog(Retranslated, QDialog):
-    """Not modal; what is found or typed is taken over with a button.
+    """Window to measure or type the latency; a button applies it. It is not modal.
 
     Parameters
     ----------

@@ -160,7 +160,7 @@ class CorrectionList(Retranslated, QWidget):
         return self.tr("correction_list.added_as" if text else "correction_list.added").format(yours=text)
 
     def _stretch(self, item: Correction) -> str:
-        """Up to where it goes, and what of it there is."""
+        """Describe the end of a correction and the number of its keys."""
         end = self._session.project.metre_map.label(getattr(item, "end_tick", LATE_TICK))
         detail = self.tr(_STRETCHES[item.tag]).format(end=end, count=len(getattr(item, "keys", ())))
         return detail if getattr(item, "enabled", True) else self.tr("correction_list.curve_off").format(detail=detail)

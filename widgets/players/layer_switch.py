@@ -46,7 +46,7 @@ class LayerSwitch(Retranslated, QCheckBox):
         self._slider.setEnabled(self.checkState() != Qt.CheckState.Unchecked)
 
     def nextCheckState(self) -> None:
-        """From shown by some to shown by all."""
+        """Go from shown by some to shown by all."""
         self.setChecked(self.checkState() != Qt.CheckState.Checked)
 
     def _switch(self) -> None:

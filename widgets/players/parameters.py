@@ -246,7 +246,7 @@ class ParameterSections(Retranslated, QWidget):
             self._draw_portraits()
 
     def _draw_portraits(self) -> None:
-        """Beside the window: every body is looked at closely once."""
+        """Draw portraits outside the window's thread: every body is looked at closely once."""
         if self._session.performance.project is not self._session.project:
             # The plans of a piece that was opened come first.
             QTimer.singleShot(PORTRAITS_AFTER_MS, self, self._draw_portraits)

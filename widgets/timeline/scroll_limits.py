@@ -26,7 +26,7 @@ def scroll_limits(session: Session) -> tuple[float, float]:
 
 
 def selected_span(session: Session) -> tuple[float, float] | None:
-    """From the beginning to the end of all that is selected, seconds; None: nothing is."""
+    """Span of all that is selected, seconds; None: nothing is."""
     selection, project = session.selection, session.project
     tempo = project.score.tempo_map
     places: list[tuple[float, float]] = []

@@ -51,7 +51,7 @@ class Camera:
 
     @property
     def backward(self) -> FloatArray:
-        """From the target to the eye, unit (3,)."""
+        """Direction from the target to the eye, unit (3,)."""
         level = math.cos(self.pitch_rad)
         return np.array(
             [math.sin(self.yaw_rad) * level, math.sin(self.pitch_rad), math.cos(self.yaw_rad) * level], np.float64

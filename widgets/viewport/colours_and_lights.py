@@ -66,7 +66,7 @@ def rgb(text: str) -> Color:
 
 
 def mixed(one: Color, other: Color, share: float) -> Color:
-    """Between two colours; ``share`` 0 is the first."""
+    """A colour between two; ``share`` 0 is the first."""
     return (
         one[0] + share * (other[0] - one[0]),
         one[1] + share * (other[1] - one[1]),

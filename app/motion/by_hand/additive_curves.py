@@ -57,7 +57,7 @@ class Additive:
 
     @classmethod
     def of(cls, events: Sequence[AdditiveEvent]) -> Additive:
-        """From a plan's events."""
+        """The curves of a plan's events."""
         return cls(tuple(events), tuple(rows(event.segments) for event in events))
 
     def sample(self, times_s: FloatArray) -> dict[str, Added]:

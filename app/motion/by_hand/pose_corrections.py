@@ -49,7 +49,7 @@ class PoseCorrectionTable:
 
     @classmethod
     def of(cls, events: Sequence[PoseEvent]) -> PoseCorrectionTable:
-        """From a plan's events."""
+        """The pose corrections of a plan's events."""
         times_s = [
             (event.start_s - event.fade_in_s, event.start_s, event.end_s, event.end_s + event.fade_out_s)
             for event in events

@@ -40,7 +40,7 @@ class _Seen:
     placed: Mapping[str, StationBlend]
 
     def distance_m(self, values: FloatArray) -> FloatArray:
-        """From the shoulder joint to the wrist with the control at these values."""
+        """Distance from the shoulder joint to the wrist with the control at these values."""
         assert self.hand.motion is not None
         controls = {self.hand.motion.control: values}
         wrist_m, _ = hand_targets(self.hand, self.carried.position_m, self.carried.rotation, controls, self.placed)

@@ -110,7 +110,7 @@ def needed_help(
 
 
 def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
-    """From a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
+    """Distance from a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
     return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
 
 

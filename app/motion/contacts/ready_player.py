@@ -87,7 +87,8 @@ def _made(
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:
-    """From where one lip alone would carry the mouthpiece to where it is played, at a middling embouchure (3,)."""
+    """Vector (3,) from where one lip alone would carry the mouthpiece to where it is played, at a middling
+    embouchure."""
     morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
     grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]
     return grip_m

@@ -1,4 +1,4 @@
-"""From curves to poses: trunk, instrument, arms, legs and fingers of one player, chunk by chunk."""
+"""Turns curves into poses: trunk, instrument, arms, legs and fingers of one player, chunk by chunk."""
 
 from __future__ import annotations
 
@@ -310,7 +310,7 @@ def _drawn_m(player: PlayerBody) -> float:
 
 
 def _aside_per_turn(player: PlayerBody) -> float:
-    """From where a body that keeps still has its head after a small turn, and after a small lean of the trunk."""
+    """Lean per turn of the trunk, both in radians, that keeps the head in place: by a small turn and a small lean."""
     still, small = replace(player.still, steadied=np.ones(1)), np.array([0.1])
     without, leaning = turned_to_far_hand(still, small, 0.0), turned_to_far_hand(still, small, 1.0)
     at_m = [

@@ -126,7 +126,7 @@ class BellRoom:
 
     @classmethod
     def within(cls, down_rad: FloatArray, fits: BoolArray) -> BellRoom:
-        """From ascending angles (T,), the middle one of which is where it is played, and whether the wrists follow."""
+        """Room around the middle of ascending angles (T,), which is where it is played, as far as the wrists follow."""
         usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
         low, high = misses[misses < usual], misses[misses > usual]
         return cls(

@@ -245,7 +245,7 @@ class Envelopes:
 
     @classmethod
     def of(cls, rows: Sequence[tuple[float, float, float, float, float]] | FloatArray) -> Envelopes:
-        """From rows of (start_s, full_s, fall_s, end_s, height); times that run backwards are put in order."""
+        """A curve of rows (start_s, full_s, fall_s, end_s, height); times that run backwards are put in order."""
         table = np.array(rows, dtype=np.float64).reshape(-1, 5)
         table[:, :4] = np.maximum.accumulate(table[:, :4], axis=1)
         return cls(table[:, 0], table[:, 1], table[:, 2], table[:, 3], table[:, 4])

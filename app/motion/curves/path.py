@@ -30,7 +30,8 @@ class Path:
 
     @classmethod
     def through(cls, segments: Sequence[tuple[float, float, float]] | FloatArray) -> Path:
-        """From rows ``(start_s, end_s, value)``: it goes to each value over its span, from where it was, 0 at first.
+        """A path of rows ``(start_s, end_s, value)``: it goes to each value over its span, from where it was, 0 at
+        first.
 
         Raises ValueError where spans overlap or take no time.
         """

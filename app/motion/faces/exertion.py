@@ -203,7 +203,7 @@ def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: Bool
 
 
 def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: FloatArray) -> FloatArray:
-    """Up to a phrase's peak and down to its end, 0..1."""
+    """Rise to a phrase's peak and fall to its end, 0..1."""
     breaths_s = np.array([event.end_s for event in plan.breaths if event.draws_air])
     rested = np.append(True, starts_s[1:] - ends_s[:-1] >= PHRASE_REST_S)
     rested[np.minimum(np.searchsorted(starts_s, breaths_s - 1e-6), len(starts_s) - 1)] = True
@@ -218,7 +218,7 @@ def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: Floa
 
 
 def _tired(load: Whole) -> Whole:
-    """After a long time without a rest; in steps, so that one other note is often none."""
+    """Tiredness after a long time without a rest; in steps, so that one other note often changes nothing."""
     mean = _sum(load, TIRES_S, 0.0) // round(TIRES_S / STEP_S)
     more = (mean - round(TIRED_FROM * ONE)) * ONE // round((TIRED_AT - TIRED_FROM) * ONE)
     step = ONE // TIRED_STEPS

@@ -137,7 +137,7 @@ class Gaze:
 
 
 class Watching(NamedTuple):
-    """Beside the plan, what decides a gaze.
+    """Influences on a gaze besides the plan.
 
     Attributes
     ----------

@@ -114,7 +114,7 @@ def _silences_s(fingerings: Sequence[FingeringEvent]) -> FloatArray:
 
 
 def sampled(curve: Curve, times_s: FloatArray) -> StationBlend:
-    """Between which stations a finger is at ascending times."""
+    """Stations between which a finger is at ascending times."""
     return StationBlend(*curve.between(times_s))
 
 
@@ -204,13 +204,13 @@ class _Moves(NamedTuple):
         return cls(curve.start_s.tolist(), curve.end_s.tolist(), coming.tolist(), leaving.tolist())
 
     def down(self, visit: int, onset_s: float) -> Span:
-        """While the control goes to the place it has at the onset of a visit."""
+        """Span in which the control goes to its place at the onset of a visit."""
         index = self.coming[visit]
         there = index < len(self.end_s) and abs(self.end_s[index] - onset_s) < 1e-6
         return (self.start_s[index] if there else onset_s), onset_s
 
     def up(self, visit: int, end_s: float) -> Span:
-        """While it leaves the place it has at the last onset of a visit."""
+        """Span in which the control leaves its place after the last onset of a visit."""
         index = self.leaving[visit]
         return (end_s, end_s) if index == len(self.start_s) else (self.start_s[index], self.end_s[index])
 

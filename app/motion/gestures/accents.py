@@ -33,7 +33,7 @@ class Accents:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Accents:
-        """From a player's accents."""
+        """The motion of a player's accents."""
         rows = [
             (event.start_s, event.end_s - event.start_s, event.amount)
             for event in events

@@ -40,7 +40,7 @@ class Leads(NamedTuple):
 
     @classmethod
     def of(cls, overlap: Overlap) -> Leads:
-        """From a body's delays."""
+        """Leads of the parts of a body over the part that comes last."""
         return cls(overlap.chest_s + overlap.head_s, overlap.head_s, 0.0, overlap.head_s - overlap.elbows_s)
 
     def at(self, times_s: FloatArray) -> Overlapped:

@@ -294,7 +294,7 @@ def _lifted(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
 
 
 def _bump(times_s: FloatArray, rises_s: float, up_s: float, falls_s: float, lasts_s: float) -> FloatArray:
-    """From 0 to 1 between the first two times, and from the third on back to 0 within some time."""
+    """Rise from 0 to 1 between the first two times, and fall to 0 within some time from the third on."""
     up = minimum_jerk(np.clip((times_s - rises_s) / (up_s - rises_s), 0.0, 1.0))
     down = minimum_jerk(np.clip((times_s - falls_s) / lasts_s, 0.0, 1.0))
     return np.asarray(up * (1.0 - down))

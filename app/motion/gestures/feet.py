@@ -45,7 +45,7 @@ class Feet:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], step_s: float, generated_feet: float = 1.0) -> Feet:
-        """From what the feet of a player do; generated gestures have ``generated_feet`` of their size, those that the
+        """Feet of a player by the gestures; generated ones have ``generated_feet`` of their size, those that the
         animator has set all of it."""
         rows = [
             (

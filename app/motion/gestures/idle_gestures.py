@@ -91,7 +91,7 @@ class Counting:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Counting:
-        """From a player's counts; what overlaps the one before is not counted twice."""
+        """Counts of a player; one that overlaps the one before is not counted twice."""
         rows: list[tuple[float, float, int, int, float]] = []
         for event in events:
             free_s = rows[-1][0] + rows[-1][1] if rows else -np.inf
@@ -134,7 +134,7 @@ class Concert:
 
     @classmethod
     def of(cls, gestures: Sequence[GestureEvent], felt_beats: FeltBeats) -> Concert:
-        """From a player's gestures."""
+        """Idle motion by a player's gestures."""
         return cls(
             bow=Envelopes.of([_at_shares(event, *BOW) for event in gestures if event.part == "bow"]),
             up=Envelopes.of([_eased(event, LOOK_UP_S) for event in gestures if event.part == "audience"]),

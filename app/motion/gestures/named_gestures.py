@@ -86,7 +86,7 @@ class KeyedGestures:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Self:
-        """From a plan's gestures."""
+        """The named gestures of a plan."""
         gestures: list[Gesture] = []
         rows = []
         for event in events:

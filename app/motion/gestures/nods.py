@@ -46,7 +46,7 @@ class Nods:
 
     @classmethod
     def of(cls, cues: Sequence[CueEvent], answers: Sequence[GestureEvent] = ()) -> Nods:
-        """From a player's cues, and gestures that nod on the beat at their end."""
+        """Nods of a player's cues, and of gestures that nod on the beat at their end."""
         rows = [(cue.downbeat_s, cue.start_s, cue.beat_s, cue.amount) for cue in cues]
         rows += [(one.end_s, one.start_s, (one.end_s - one.start_s) / NOD_BEATS, one.amount) for one in answers]
         rows = [row for row in rows if row[0] > row[1]]

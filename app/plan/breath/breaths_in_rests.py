@@ -158,7 +158,7 @@ def _in_silences(
 
 
 def _event(id: str, start: tuple[int, float], end: tuple[int, float], reason: Message) -> BreathEvent:
-    """From one tick and second to another."""
+    """A breath event between two places, each given in ticks and seconds."""
     kind = BREATH_KINDS[EventId.parse(id).kind].event_kind
     return BreathEvent(
         id=id, kind=kind, start_tick=start[0], end_tick=end[0], start_s=start[1], end_s=end[1], depth=1.0, reason=reason

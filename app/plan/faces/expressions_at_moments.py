@@ -96,7 +96,7 @@ def _matching(rule: Rule, moment: Moment, found: Sequence[_Found], facts: Facts)
 
 
 def _given(notes: tuple[Note, ...], times: LineTimes, cues: tuple[CueEvent, ...]) -> list[_Found]:
-    """While a player gives an entry."""
+    """Span in which a player gives an entry."""
     onsets = {tick: index for index, tick in enumerate(times.onset_tick.tolist())} if notes else {}
     why = Message("expression.gives_entry")
     return [_Found((cue.start_s, cue.end_s), onsets.get(cue.end_tick), cue.id, why) for cue in cues]
@@ -120,7 +120,7 @@ def _taken(
 
 
 def _ended(gestures: tuple[GestureEvent, ...], ending: Ending, frame: TimeFrame) -> list[_Found]:
-    """From when the instrument is lowered after a piece that ends brightly."""
+    """Span from the lowering of the instrument on, after a piece that ends brightly."""
     lowered_s = [event.start_s for event in gestures if event.id == "lower_instrument:end"]
     if not ending.bright or not lowered_s:
         return []

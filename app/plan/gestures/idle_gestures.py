@@ -97,7 +97,8 @@ def _rest(
 
 
 def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple[float, float, int] | None:
-    """From which beat to which the last bars are counted, seconds, and how many beats; None where there is no time.
+    """First and last beat, in seconds, of the bars that are counted, and the number of beats; None where there is no
+    time.
 
     ``later`` 0..1 is how much later than others the player begins: half the time at most.
     """

@@ -71,7 +71,7 @@ def remove_pins(project: Project, ticks: Collection[int] | None = None) -> Proje
 
 @dataclass(frozen=True)
 class _Room:
-    """From where to where beats go along, in seconds of the score, and how far the beat itself may go."""
+    """The span in which beats move with a pin, in seconds of the score, and the limits of the beat itself."""
 
     start_s: float
     end_s: float

@@ -18,7 +18,7 @@ from app.score.tempo import TempoChange, TempoMap
 
 
 def set_tempo(project: Project, tick: int, bpm: float) -> Project:
-    """From a tick on this tempo holds, in quarters per minute; a change that stands there is replaced."""
+    """Set the tempo from a tick on, in quarters per minute; a change that stands there is replaced."""
     if not limits.BPM[0] <= bpm <= limits.BPM[1]:
         raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
     _check_place(tick)
@@ -96,8 +96,8 @@ def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project
 
 
 def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> Project:
-    """From a tick on this metre holds, and a bar begins there; a bar before it may be cut short by it. A pickup and the
-    bar after it are changed together where they are of one metre."""
+    """Set the metre from a tick on, at which a bar begins; a bar before it may be cut short by it. A pickup and the bar
+    after it are changed together if they are of one metre."""
     _check_metre(numerator, denominator)
     _check_place(tick)
     score = project.score

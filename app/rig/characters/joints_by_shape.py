@@ -70,7 +70,7 @@ class Tree:
     skinned: frozenset[int]
 
     def path(self, top: int, bone: int) -> list[int]:
-        """From below ``top`` down to ``bone``."""
+        """Bones from below ``top`` down to ``bone``."""
         found = [bone]
         while (parent := self.parents[found[-1]]) not in (top, -1):
             found.append(parent)
@@ -155,7 +155,7 @@ class _Halves:
         return max(both, key=self.tree.depth) if both else None
 
     def way(self, end: int) -> list[int]:
-        """From below the bone where a chain meets its mirror image down to its end."""
+        """Bones from below the one where a chain meets its mirror image down to its end."""
         top = self.meeting(end)
         return self.tree.path(-1 if top is None else top, end)
 

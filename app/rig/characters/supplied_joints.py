@@ -108,7 +108,7 @@ def _finger_offset(
     meshes: Sequence[Mesh],
     fit: Fit,
 ) -> FloatArray:
-    """From the parent, of a left hand: as long as the bone before it says, or as the whole hand is."""
+    """Offset from the parent, of a left hand: by the length of the bone before it, or of the whole hand."""
     chain = next(chain for chain in HAND_M if part in chain)
     order = list(chain).index(part)
     ways = np.diff(np.vstack([np.zeros(3), *chain.values()]), axis=0)

@@ -178,7 +178,7 @@ def _onsets_s(session: Session) -> set[float]:
 
 
 def _selected_s(session: Session) -> tuple[float, float] | None:
-    """From the first to the last of what is selected."""
+    """Span of the selection, seconds."""
     ticks, tempo_map = selected_ticks(session), session.project.score.tempo_map
     return (tempo_map.seconds(float(ticks[0])), tempo_map.seconds(float(ticks[1]))) if ticks is not None else None
 

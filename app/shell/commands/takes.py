@@ -47,7 +47,7 @@ def listen(editor: Editor, alone: bool = False) -> None:
 
 
 def _listen_from(session: Session) -> float:
-    """From the selected span on, else from where the playhead is, if that is in the take, else from its beginning."""
+    """Begin of listening: the selected span, else the playhead, if that is in the take, else the take's beginning."""
     clock, span, chosen = session.project.score.tempo_map, session.selection.span, _chosen(session)
     if span is not None:
         return clock.seconds(float(span[0]))

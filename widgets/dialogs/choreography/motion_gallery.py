@@ -64,7 +64,7 @@ class MotionModel(QAbstractListModel):
         return self.tr("motion_model.segments_s_on_average").format(count=motion.segments, seconds=motion.mean_s)
 
     def sources_text(self, state: int) -> str:
-        """From how many of the sources they are."""
+        """Text of the number of sources that they are from."""
         return self.tr("motion_model.sources_of").format(count=len(self.motions[state].sources), all=self.sources)
 
     def used_text(self, state: int) -> str:

@@ -32,7 +32,7 @@ class ActingPainter:
         self._lane = lane
 
     def paint_sway(self, painter: QPainter, x0: FloatArray, x1: FloatArray, y: FloatArray, colour: QColor) -> None:
-        """From side to side, at rest where it turns."""
+        """A wave from side to side, at rest where it turns."""
         if not len(x0):
             return
         if len(x0) > self._lane.plot_rect.width() / 3:

@@ -85,7 +85,7 @@ class DanceLane(RowLane):
 
     @property
     def dancers(self) -> tuple[Dancer, ...]:
-        """From the top."""
+        """Dancers from the top row down."""
         return self.session.project.dancers
 
     @property

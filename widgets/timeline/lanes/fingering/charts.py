@@ -63,7 +63,7 @@ class FingeringCharts:
 
     @property
     def hole_px(self) -> float:
-        """From one hole to the next."""
+        """Distance from one hole to the next."""
         room = self._lane.plot_rect.height() - 2 * MARGIN_PX
         return min(max(room, 1.0) / (self.chart.bottom - self.chart.top), MOST_HOLE_PX)
 

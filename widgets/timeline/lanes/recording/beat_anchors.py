@@ -78,7 +78,7 @@ class Anchors:
         self.chosen: int | None = None
 
     def visible(self) -> list[Anchor]:
-        """From left to right."""
+        """Visible anchors from left to right."""
         lane = self._lane
         if lane.session.listening.waveform is None:
             return []
@@ -117,7 +117,7 @@ class Anchors:
         painter.restore()
 
     def _paint_away(self, painter: QPainter, anchor: Anchor, x: float, bottom: float) -> None:
-        """From a pinned beat to where it was pinned, where tempo or offset were changed since."""
+        """Draw a line from a pinned beat to where it was pinned, if tempo or offset have changed since."""
         audio = self._lane.session.project.audio
         if audio is None or anchor.pin is None:
             return

@@ -51,7 +51,7 @@ class Headed(TakesView, Protocol):
 
 
 class TakeHeads(Retranslated, QWidget):
-    """Beside the rows, in the lane's header.
+    """Names of the rows, in the lane's header.
 
     Attributes
     ----------

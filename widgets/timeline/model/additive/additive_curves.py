@@ -87,7 +87,7 @@ class ShownCurve:
 
     @classmethod
     def of(cls, curve: AdditiveCurve, clock: TempoMap) -> ShownCurve:
-        """From the project's curve."""
+        """The shown form of a curve of the project."""
         shape = segments(msgspec.structs.replace(curve, weight=1.0), clock)
         key_s = np.array([clock.seconds(float(key.tick)) for key in curve.keys], np.float64)
         return cls(curve, key_s, shape, rows(shape))

@@ -32,7 +32,7 @@ FAR_PX: Final = 4.0
 
 
 class EntryArrow(NamedTuple):
-    """From the preparatory beat of who gives an entry to the note of who comes in with it.
+    """Arrow from the preparatory beat of the player who gives an entry to the note of the one who takes it.
 
     ``from_pitch`` and ``to_pitch`` are the notes' that they begin with, ``to_tick`` is the onset of the latter.
     """
