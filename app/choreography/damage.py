@@ -26,6 +26,8 @@ from app.rig import quaternion
 
 WINDOW_S: Final = 0.12
 """Longest time over which a way is compared."""
+TRUNK_WINDOW_S: Final = 0.24
+"""The same of hips, trunk and head, which do not go far and back in it, where shorter times show nothing."""
 MOST_WINDOWS: Final = 8
 MOST_INSIDE: Final = 8
 """Lengths of windows, and frames inside of each, where the frame rate has more of them."""
@@ -51,6 +53,9 @@ FASTEST_RAD_S: Final = 45.0
 baseball pitching", 1995), knees of kicks 35, and the fastest clean capture 35."""
 FASTEST_HIPS_RAD_S: Final = 15.0
 """Hips do so in spins only, which last: a jump is shorter than `SPIN_S` or turns by less than `SPIN_RAD`."""
+FASTEST_TRUNK_RAD_S: Final = 13.0
+FASTEST_HEAD_RAD_S: Final = 32.0
+"""Of spine and chest, and of the head: each half as fast again as the fastest of 240 clean captures of eight makers."""
 SPIN_S: Final = 0.125
 SPIN_RAD: Final = 2.5
 BEGINS: Final = 0.5
@@ -79,7 +84,14 @@ def _far(name: str) -> float:
 
 
 _FAR: FloatArray = np.array([*map(_far, SEGMENTS), FAR_M])
-_FASTEST: FloatArray = np.array([FASTEST_HIPS_RAD_S, *(FASTEST_RAD_S,) * (len(SEGMENTS) - 1), np.inf])
+_OF_TRUNK: Final = {
+    "hips": FASTEST_HIPS_RAD_S,
+    "spine": FASTEST_TRUNK_RAD_S,
+    "chest": FASTEST_TRUNK_RAD_S,
+    "head": FASTEST_HEAD_RAD_S,
+}
+_TRUNK: Final = (*map(SEGMENTS.index, _OF_TRUNK), len(SEGMENTS))
+_FASTEST: FloatArray = np.array([*(_OF_TRUNK.get(name, FASTEST_RAD_S) for name in SEGMENTS), np.inf])
 
 
 @dataclass(frozen=True, order=True)
@@ -111,8 +123,13 @@ def damage(clip: MotionClip, tolerance: float = 1.0) -> tuple[Damage, ...]:
         return ()
     speeds = part_speeds(clip)
     found = set(_too_fast(speeds, float(clip.fps)))
-    for length in _lengths(float(clip.fps)):
+    lengths = _lengths(float(clip.fps), WINDOW_S)
+    for length in lengths:
         found.update(_off_the_cubic(clip, speeds, length, tolerance))
+    for length in _lengths(float(clip.fps), TRUNK_WINDOW_S):
+        if length > lengths[-1]:
+            spread = [one for one in _off_the_cubic(clip, speeds, length, tolerance) if one[2] in _TRUNK]
+            found.update(_unknown(spread, found, len(clip)))
     found = _with_held(speeds, found)
     found.update((start, stop, part) for start, stop in _frozen(speeds) for part in range(len(PARTS)))
     found.update(_stopped(speeds))
@@ -148,9 +165,23 @@ def between(
     )
 
 
-def _lengths(fps: float) -> list[int]:
+def _unknown(
+    spans: Iterable[tuple[int, int, int]], found: Iterable[tuple[int, int, int]], frames: int
+) -> Iterator[tuple[int, int, int]]:
+    """Spans in which and at whose ends no damage of the same part was found."""
+    edges = np.zeros((len(PARTS), frames + 1), np.int64)
+    for start, stop, part in found:
+        edges[part, start] += 1
+        edges[part, stop + 1] -= 1
+    before = np.cumsum(np.cumsum(edges, axis=1) > 0, axis=1)
+    for start, stop, part in spans:
+        if before[part, stop] == (before[part, start - 1] if start else 0):
+            yield start, stop, part
+
+
+def _lengths(fps: float, most_s: float) -> list[int]:
     """Steps of the windows."""
-    most = max(2, int(WINDOW_S * fps))
+    most = max(2, int(most_s * fps))
     return sorted({round(one) for one in np.geomspace(2, most, min(MOST_WINDOWS, most - 1))})
 
 
@@ -169,7 +200,7 @@ def _off_the_cubic(
     if not len(first):
         return
     time_s = length / float(clip.fps)
-    bound = tolerance * _FAR * min(1.0, max(LEAST_PART, (time_s / FAR_S) ** 1.2))
+    bound = tolerance * _FAR * max(LEAST_PART, (time_s / FAR_S) ** 1.2)
     turned, moved = part < PLACE, part == PLACE
     bounds = bound[part]
     if length == 2:

@@ -144,6 +144,23 @@ def test_short_damage_is_mended_and_nothing_else_changes(length: int) -> None:
     assert not np.delete(changed, arm, axis=1).any()
 
 
+@pytest.mark.parametrize("fps", [30, 60, 120])
+@pytest.mark.parametrize("part", ["hips", "chest"])
+def test_a_trunk_that_goes_far_and_back_in_six_frames_is_damage(part: str, fps: int) -> None:
+    """Without a jump from any frame to the next, as filtered captures have it."""
+    clip, at = dancing(fps), SEGMENTS.index(part)
+    way = np.zeros(len(clip))
+    way[3 * fps : 3 * fps + 8] = np.radians(40.0) * np.sin(np.linspace(0.0, np.pi, 8))
+    rotations = clip.rotations.copy()
+    rotations[:, at] = quaternion.multiply(rotations[:, at], quaternion.from_axis_angle(AXES[0], way))
+    found = mended(replace(clip, rotations=rotations))
+    assert len(found.mended) + len(found.left_out) == 1
+    for one in found.mended:
+        assert angle(found.clip.rotations[:, at], clip.rotations[:, at]).max() < 0.15, one
+    for one in found.left_out:
+        assert one.start <= 3 * fps + 1 < 3 * fps + 5 < one.stop
+
+
 def test_long_damage_is_left_out_with_both_its_ends() -> None:
     """A flip of a second, arms exchanged for two, and a lost marker for three: each from its start to its end."""
     clip = dancing(60, 16)
