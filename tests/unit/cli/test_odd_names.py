@@ -140,10 +140,9 @@ def test_names_longer_than_the_system_takes(run: Run, tmp_path: Path, arguments:
     assert name in out + err
 
 
-@pytest.mark.parametrize("locale", [{"LANG": "C"}, {"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}])
-def test_locales_that_are_not_utf8(tmp_path: Path, locale: dict[str, str]) -> None:
-    """Names are on the disk as they are meant, whatever Python makes of the locale."""
-    environment = {**{name: value for name, value in os.environ.items() if name not in ("LC_ALL", "LANG")}, **locale}
+def test_a_locale_that_is_not_utf8(tmp_path: Path) -> None:
+    """Names are on the disk as they are meant, though Python makes nothing better of the locale."""
+    environment = {**os.environ, "LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
     named_piece(tmp_path / f"{NAME}.mid", "ホルン")
     shutil.copy(tmp_path / f"{NAME}.mid", odd(tmp_path, ".mid"))
     for piece in (tmp_path / f"{NAME}.mid", odd(tmp_path, ".mid")):
@@ -151,8 +150,6 @@ def test_locales_that_are_not_utf8(tmp_path: Path, locale: dict[str, str]) -> No
         assert done.returncode == 0, done.stderr
         assert done.stdout.decode().startswith(f"{NAME}.mid: ")
         assert done.stderr == b""
-    if "LC_ALL" not in locale:
-        return
     requested = ("--format", "bvh", "--fps", "24", "--to-bar", "1")
     done = suisou("export", odd(tmp_path, ".mid"), "--to", tmp_path / "ファイル", *requested, env=environment)
     assert done.returncode == 0, done.stderr
