@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer
-from PySide6.QtGui import QIcon
+from PySide6.QtGui import QIcon, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
@@ -338,3 +338,8 @@ class ColumnList(Retranslated, QTreeWidget):
         for column in stretches:
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         self.texted(self, columns=text_ids)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Measure the rows again: those that came before the style sheet are as low as their text."""
+        super().showEvent(event)
+        self.doItemsLayout()

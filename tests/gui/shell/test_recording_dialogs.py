@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.capture.protocol import Back, Lost, Opened, Ports, RequestRefused
+from app.editor.design_tokens import LEAST_TARGET_PX
 from app.errors import Message
 from app.messages.pitches import pitch_name
 from app.score.take import ControllerMapping
@@ -124,6 +125,11 @@ def test_without_a_device_it_is_taught_what_to_do(studio: Studio) -> None:
     studio.link.say(Ports((EWI,), (), "alsa"))
     studio.wait(lambda: reported(dialog, "midi_hint").startswith("Select your device"))
     assert not said
+
+
+def test_a_device_can_be_hit_as_soon_as_it_is_shown(studio: Studio) -> None:
+    listed = part(devices(studio), QTreeWidget, "midi_device_list")
+    assert listed.visualItemRect(listed.topLevelItem(0)).height() >= LEAST_TARGET_PX
 
 
 def test_a_remembered_device_that_is_not_there_is_waited_for_without_a_warning(studio: Studio) -> None:
