@@ -172,7 +172,8 @@ class ExportDialog(WorkingDialog):
         self._players.itemChanged.connect(self._show_players)
         self.texted(self, title="export_dialog.export")
         self.retranslate()
-        begin_with_size(self, self.sizeHint())
+        # Beside the rows that are there now: what is being done, and how far it is.
+        begin_with_size(self, self.sizeHint() + QSize(0, 2 * LEAST_TARGET_PX))
 
     def _list_players(self) -> None:
         project = self._project
