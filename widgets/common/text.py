@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from app.editor.session import Session
 from app.editor.translated import tr
 from app.errors import Argument, Message
-from app.messages import DETAILS, PITCHES, WORDINGS, filled
+from app.messages import DETAILS, PITCHES, TEXTS, WORDINGS, filled
 from app.messages.details import detail_text
 from app.messages.pitches import pitch_name
 from app.messages.wordings import CORRECTION, CORRECTIONS
@@ -69,7 +69,7 @@ def _reported(message: Message, name: str, session: Session | None, player_id: s
             return player_pitch(session, float(value), player)
         if name in NOTES and isinstance(value, str):
             return _anchor(session, value, player, is_anchor=name == "anchor")
-    if name in ("parameter", "mark"):
+    if name in TEXTS:
         return parameter_text(str(value))
     if name == "event":
         return kind_name(str(value))

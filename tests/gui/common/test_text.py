@@ -10,6 +10,7 @@ import pytest
 from app.editor.session import Session
 from app.errors import Argument, Message
 from app.messages import LANGUAGES, PITCHES, WORDINGS, text
+from app.messages import TEXTS as TEXTS_BY_ID
 from app.project.edit.notes import move
 from app.score.model import Note
 from app.shell.language import TEXTS
@@ -162,3 +163,14 @@ def test_no_reason_of_a_plan_holds_the_id_of_a_text(session: Session) -> None:
             for reason, player_id in reasons.values():
                 worded = message_text(reason, session, player_id)
                 assert not set(ids.findall(worded)) & TEXTS.keys(), worded
+
+
+@pytest.mark.parametrize("code", LANGUAGES)
+@pytest.mark.parametrize("argument", sorted(TEXTS_BY_ID))
+def test_a_text_that_a_message_names_is_worded(argument: str, code: str) -> None:
+    """As on the command line, whatever argument it is."""
+    english = {id: {field for _, field, _, _ in Formatter().parse(said[0]) if field} for id, said in WORDINGS.items()}
+    id = next(id for id, fields in english.items() if argument in fields)
+    message = Message(id, {**dict.fromkeys(english[id], 1.0), argument: "work.stopped"})
+    with speaking(code):
+        assert text(Message("work.stopped"), code) in message_text(message)
