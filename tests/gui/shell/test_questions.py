@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox, QPushButton, QTreeView
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox, QPushButton, QTreeView
 
 from app.shell.language import Language
 from app.shell.questions import DialogQuestions
@@ -18,6 +19,24 @@ from tests.support.windows import child, wait_until
 from widgets.common.paths import ask_for_file, ask_for_files, ask_for_folder, ask_where_to_save
 
 SUFFIXES = (".mid", ".midi")
+D = TypeVar("D", bound=QDialog)
+
+
+def when_shown(kind: type[D], act: Callable[[D], None]) -> None:
+    """Do something with the next dialog of a kind, whenever it is shown; it is closed if that fails."""
+
+    def look() -> None:
+        dialog = QApplication.activeModalWidget()
+        if not isinstance(dialog, kind) or not dialog.isVisible():
+            QTimer.singleShot(20, look)
+            return
+        try:
+            act(dialog)
+        finally:
+            # Else the test would wait for it for ever.
+            dialog.close()
+
+    QTimer.singleShot(20, look)
 
 
 class Typed:
@@ -35,14 +54,12 @@ class Typed:
         return QUrl.fromLocalFile(typed) if typed else QUrl(), filters
 
     def answer(self, button: str) -> None:
-        def click() -> None:
-            box = QApplication.activeModalWidget()
-            assert isinstance(box, QMessageBox)
+        def click(box: QMessageBox) -> None:
             self.asked.append(box.text())
             requested = next(one for one in box.buttons() if one.text() == button)
             QTest.mouseClick(requested, Qt.MouseButton.LeftButton)
 
-        QTimer.singleShot(50, click)
+        when_shown(QMessageBox, click)
 
 
 def save(folder: Path) -> Path | None:
@@ -101,11 +118,13 @@ ASKED: Mapping[str, Callable[[Path], object]] = {
 def rows_of(dialog: QFileDialog) -> list[list[str]]:
     """Rows of the list of files, once it is read: name, size, type and date."""
     view = child(dialog, QTreeView, "treeView")
-    assert wait_until(lambda: view.model().rowCount(view.rootIndex()) > 0)
-    model, at = view.model(), view.rootIndex()
-    found = [[str(model.index(row, n, at).data() or "") for n in range(4)] for row in range(model.rowCount(at))]
-    assert found[0][0] == "a folder"
-    return found
+
+    def rows() -> list[list[str]]:
+        model, at = view.model(), view.rootIndex()
+        return [[str(model.index(row, n, at).data() or "") for n in range(4)] for row in range(model.rowCount(at))]
+
+    assert wait_until(lambda: "a folder" in [name for name, *_ in rows()])
+    return rows()
 
 
 @pytest.mark.parametrize("name", ASKED)
@@ -118,9 +137,7 @@ def test_file_dialogs_speak_the_language_of_the_editor(
     (tmp_path / "a folder").mkdir()
     (tmp_path / "a piece.mid").write_bytes(b"MThd")
 
-    def look() -> None:
-        dialog = QApplication.activeModalWidget()
-        assert isinstance(dialog, QFileDialog)
+    def look(dialog: QFileDialog) -> None:
         found = texts_of(dialog) | {row[2] for row in rows_of(dialog)}
         seen.append({text for text in found if re.search("[A-Za-z]{3}", text)} - {str(tmp_path)})
         cancel = next(one for one in dialog.findChildren(QPushButton) if one.text() in ("キャンセル", "Cancel"))
@@ -130,7 +147,7 @@ def test_file_dialogs_speak_the_language_of_the_editor(
     language = Language()
     try:
         language.set("ja")
-        QTimer.singleShot(200, look)
+        when_shown(QFileDialog, look)
         assert not ASKED[name](tmp_path)
         left, cancelled = seen
         assert {text for text in left if not JAPANESE.search(text)} - {"title", "MIDI (*.mid)", "x.mid"} == set()
