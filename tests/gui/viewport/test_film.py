@@ -62,7 +62,7 @@ def test_a_contact_sheet_has_a_row_for_each_second(
 ) -> None:
     sheet = tmp_path / "sheet.png"
     said = film(capsys, "--sheet", sheet, "--every", "0.25", "--to-bar", "1", "--size", "128x72", "--language", "ja")
-    assert "22 frames of 128x72" in said
+    assert "128x72、22 フレーム" in said
     with Image.open(sheet) as image:
         found = np.asarray(image)
     assert found.shape[1] == 4 + 4 * (128 + 4)
