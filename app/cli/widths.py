@@ -8,7 +8,7 @@ from typing import Final
 
 _WORDS: Final = re.compile(r"\s+|[!-\u2e7f\ufb00-\ufdff\ufe70-\ufefe]+|[ァ-ヺー]{1,12}|.", re.DOTALL)
 """Blanks, words of narrow characters, words in katakana, single wide characters."""
-_NOT_FIRST: Final = frozenset("、。，．・：；！？）」』】〕～ーぁぃぅぇぉっゃゅょァィゥェォッャュョ々")
+_NOT_FIRST: Final = frozenset(":;,.!?)、。，．・：；！？）」』】〕～ーぁぃぅぇぉっゃゅょァィゥェォッャュョ々")
 """Characters that begin no line (JIS X 4051)."""
 _NOT_LAST: Final = frozenset("（「『【〔")
 """Characters that end no line."""

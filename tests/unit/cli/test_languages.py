@@ -121,6 +121,7 @@ def test_lines_break_between_japanese_characters_and_before_no_punctuation() -> 
     assert wrapped("奏者を描きます。例は", 14) == ["奏者を描きま", "す。例は"]
     assert wrapped("one two 三四 five", 8) == ["one two", "三四", "five"]
     assert wrapped("音（楽器）と", 4) == ["音", "（楽", "器）", "と"]
+    assert wrapped("（既定: 音", 6) == ["（既", "定: 音"]
     assert wrapped("", 10) == []
 
 
