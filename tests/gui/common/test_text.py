@@ -168,7 +168,7 @@ def test_no_reason_of_a_plan_holds_the_id_of_a_text(session: Session) -> None:
 @pytest.mark.parametrize("code", LANGUAGES)
 @pytest.mark.parametrize("argument", sorted(TEXTS_BY_ID))
 def test_a_text_that_a_message_names_is_worded(argument: str, code: str) -> None:
-    """As on the command line, whatever argument it is."""
+    """The window words it as the command line does, whatever argument it is."""
     english = {id: {field for _, field, _, _ in Formatter().parse(said[0]) if field} for id, said in WORDINGS.items()}
     id = next(id for id, fields in english.items() if argument in fields)
     message = Message(id, {**dict.fromkeys(english[id], 1.0), argument: "work.stopped"})
