@@ -34,6 +34,10 @@ SEATED_TOES_RAD: Final = float(np.deg2rad(18.0))
 """Angle of the lifted toes of a player whose feet keep their place."""
 SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
 """Angle of a lifted heel of a player whose feet keep their place: instruments lie on thighs."""
+EASED_RAD: Final = float(np.deg2rad(4.0))
+"""Angle of the heel of the foot behind while the other one takes the weight: its ankle bends no farther."""
+EASED_S: Final = (0.22, 0.13, 0.35)
+"""Time from the beginning of that to the beat, from the beat to its height, and from there to its end."""
 PEELS_S: Final = 0.12
 """Time from the heel's leaving the ground to the ball's, and from the ball's landing to the heel's."""
 PEELED: Final = 0.35
@@ -48,7 +52,7 @@ LEAN_RAD, COUNTER_RAD = float(np.deg2rad(7.0)), float(np.deg2rad(6.0))
 """Lean of the chest to the foot that carries the weight, and its turn away from it, against that of the hips."""
 LIGHT: Final = 0.6
 """Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
-SINKS_M: Final = 0.038
+SINKS_M: Final = 0.033
 """Way of the hips down as a foot takes the weight on a beat."""
 SINK_S: Final = (0.1, 0.32)
 """Time from the beginning of that way to the beat, and from the beat to its end; a third of this is the way down."""
@@ -119,11 +123,11 @@ class DancedFeet:
         found: dict[str, FloatArray] = {}
         if not len(times_s) or not len(self):
             return found
-        for side, name in enumerate(("left", "right")):
+        for side, (name, other) in enumerate((("left", "right"), ("right", "left"))):
             moves = self._of(side)
             if steps:
                 _put(found, name, moves, times_s)
-            late_s = max(PEELS_S, OVER_S, *SINK_S)
+            late_s = max(PEELS_S, OVER_S, *SINK_S, EASED_S[1] + EASED_S[2])
             near = (moves.start_s - late_s <= times_s[-1]) & (moves.lands_s + late_s >= times_s[0])
             for row in np.flatnonzero(near).tolist():
                 kind = MOVE_KINDS[int((moves.kinds if steps else moves.seated)[row])]
@@ -132,6 +136,7 @@ class DancedFeet:
                 if kind == "step":
                     _add(found, f"{name}_up", size * LIFT_M * _air(times_s, span_s))
                     _add(found, f"{name}_heel", size * heel_rad * _peeled(times_s, span_s))
+                    _add(found, f"{other}_heel", size * EASED_RAD * _eased(times_s, span_s[1]))
                 elif kind == "heel":
                     _add(found, f"{name}_heel", size * heel_rad * _lifted(times_s, span_s))
                 else:
@@ -145,8 +150,10 @@ class DancedFeet:
 
     def lifted_s(self, side: Literal["left", "right"]) -> list[tuple[float, float]]:
         """Spans in which a foot, or a part of it, is off the ground."""
-        own = self._of(("left", "right").index(side))
-        return [(start_s - PEELS_S, lands_s + PEELS_S) for start_s, lands_s in zip(*own[1:3], strict=True)]
+        foot = ("left", "right").index(side)
+        own, steps = self._of(foot), (self.sides != foot) & (self.kinds == MOVE_KINDS.index("step"))
+        eased = [(lands_s - EASED_S[0], lands_s + EASED_S[1] + EASED_S[2]) for lands_s in self.lands_s[steps].tolist()]
+        return [(start_s - PEELS_S, lands_s + PEELS_S) for start_s, lands_s in zip(*own[1:3], strict=True)] + eased
 
     def steps_before(self, side: Literal["left", "right"], times_s: FloatArray) -> IntArray:
         """Count of the steps of a foot before each time."""
@@ -189,7 +196,14 @@ class DancedFeet:
             own = self._of(side)
             until_s = np.append(own.lands_s[1:], np.inf) if len(own.kinds) else own.lands_s
             rows.append(np.column_stack([np.full(len(own.kinds), side), *own]))
-            spans_s.append(np.column_stack([own.start_s - OVER_S, np.maximum(until_s, own.lands_s + OVER_S)]))
+            spans_s.append(
+                np.column_stack(
+                    [
+                        own.start_s - OVER_S,
+                        np.maximum(until_s, own.lands_s + max(OVER_S, SINK_S[1], EASED_S[1] + EASED_S[2])),
+                    ]
+                )
+            )
         return np.concatenate(rows), np.concatenate(spans_s)
 
 
@@ -305,3 +319,9 @@ def _sunk(times_s: FloatArray, lands_s: float) -> FloatArray:
     before_s, after_s = SINK_S
     low_s = lands_s + after_s / 3.0
     return _bump(times_s, lands_s - before_s, low_s, low_s, after_s - after_s / 3.0)
+
+
+def _eased(times_s: FloatArray, lands_s: float) -> FloatArray:
+    """Heel of the foot behind around a landing of the other one, 0..1."""
+    before_s, up_s, after_s = EASED_S
+    return _bump(times_s, lands_s - before_s, lands_s + up_s, lands_s + up_s, after_s)
