@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+from scipy.ndimage import binary_opening, gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid, grid_of
@@ -29,7 +29,6 @@ from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
-from app.choreography.features import height_m
 from app.choreography.footfalls import Footfalls, on_beats
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
@@ -59,10 +58,12 @@ PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
 BEAT_S: Final = 0.5
 """Time from one footfall to the next, for a capture without steps."""
-IDLE: Final = 1.5
-"""Log odds against a segment that idles."""
+IDLE: Final = 6.0
+"""Log odds a second against a segment in which the body idles."""
+HELD_S: Final = 0.3
+"""A body that is slow for less holds a pose within its motion."""
 IDLE_SHARE: Final = 0.4
-"""A body idles that is slower than this share of the median speed of the capture ..."""
+"""A body idles that is slower than this share of the median speed of its clip ..."""
 IDLE_S: Final = 0.25
 """... averaged by a Gaussian of this standard deviation."""
 WANDERS_S: Final = 1.2
@@ -154,13 +155,13 @@ class Choreographer:
 
     @cached_property
     def _idle(self) -> FloatArray:
-        """(S,) share of each segment during which the body idles."""
-        mean = [
-            gaussian_filter1d(speed / height_m(clip), IDLE_S * float(clip.fps), mode="nearest")
-            for speed, clip in zip(self._speeds, self.model.clips, strict=True)
-        ]
-        level = IDLE_SHARE * float(np.median(np.concatenate(mean)))
-        return np.array([np.mean(mean[one.clip][one.start : one.end] < level) for one in self.model.segments])
+        """(S,) seconds of each segment for which the body idles."""
+        slow = []
+        for speed, fps in zip(self._speeds, self._fps, strict=True):
+            mean = gaussian_filter1d(speed, IDLE_S * fps, mode="nearest")
+            held = np.ones(max(1, round(HELD_S * fps)), bool)
+            slow.append(binary_opening(mean < IDLE_SHARE * np.median(mean), held) / fps)
+        return np.array([slow[one.clip][one.start : one.end].sum() for one in self.model.segments])
 
     @cached_property
     def _step_s(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -12,44 +13,56 @@ from app.choreography.rhythm import Rhythm
 
 POSITIONS: Final = 12
 """Places in a beat at which hits are distinguished: thirds and quarters of it."""
-AROUND_BARS: Final = 2
-"""A bar returns together with so many bars before and after it."""
+AROUND_BARS: Final = 0.7
+"""Standard deviation, in bars, of the Gaussian over which likeness is averaged along two passages."""
 APART_BARS: Final = 4
 """Return after fewer bars is no return, but a figure that goes on."""
-UNUSUAL: Final = 1.0
-"""Standard deviations by which a return is more alike than two bars of the piece are in the mean."""
-LEAST_MORE: Final = 0.05
-"""And at least by this much, as a cosine: where all bars are alike, none of them returns."""
+UNUSUAL: Final = 2.0
+"""Standard deviations by which bars are more alike than two bars of the piece are in the mean, for a full return."""
+LEAST_MORE: Final = 0.1
+"""Least difference in likeness of a full return, as a cosine: where all bars are alike, none of them returns."""
 _NEAR_BEATS: Final = 1e-3
-GOES_ON: Final = 0.05
-"""Bars in a row return in a row unless others are more alike than this."""
 
 
-def returning_bars(rhythm: Rhythm) -> IntArray:
-    """(B,) the earlier bar that each bar returns to; -1 where there is none.
+@dataclass(frozen=True, eq=False)
+class ReturningPlaces:
+    """Places of a piece, compared with those of earlier bars.
 
-    Bars are between the downbeats; what is struck in them, and when, is compared.
+    Attributes
+    ----------
+    bars : (G,) int64
+        Of each place; -1 before the first downbeat and from the last one on.
+    earlier : (G, B) int64
+        Of each place, the place at the same position of each bar; -1 where there is none.
+    worths : (G, B) float64
+        How much more alike its bar is to each earlier one than two bars of the piece are: 1 where it returns, -1 where
+        it is as unlike, 0 of bars that are no earlier ones.
     """
-    alike = _along_phrases(likeness_of_bars(rhythm))
+
+    bars: IntArray
+    earlier: IntArray
+    worths: FloatArray
+
+
+def returns_of_bars(rhythm: Rhythm) -> FloatArray:
+    """(B, B) see `ReturningPlaces.worths`, by bar; bars are between the downbeats."""
+    alike = _along_passages(likeness_of_bars(rhythm))
     bars = len(alike)
-    found = np.full(bars, -1, np.int64)
-    pairs = alike[np.tril_indices(bars, -APART_BARS)]
+    later = np.tril(np.ones((bars, bars), bool), -APART_BARS)
+    pairs = alike[later]
     if not len(pairs):
-        return found
-    least = float(pairs.mean()) + max(LEAST_MORE, UNUSUAL * float(pairs.std()))
-    for bar in range(APART_BARS, bars):
-        earlier = alike[bar, : bar - APART_BARS + 1]
-        best = int(earlier.argmax())
-        goes_on = int(found[bar - 1]) + 1
-        if found[bar - 1] >= 0 and goes_on < len(earlier) and earlier[goes_on] >= earlier[best] - GOES_ON:
-            best = goes_on
-        if earlier[best] >= least:
-            found[bar] = best
-    return found
+        return np.zeros((bars, bars))
+    more = (alike - pairs.mean()) / max(LEAST_MORE, UNUSUAL * float(pairs.std()))
+    return np.where(later, np.clip(more, -1.0, 1.0), 0.0)
 
 
 def likeness_of_bars(rhythm: Rhythm) -> FloatArray:
-    """(B, B) cosines of what is struck in the bars, by sound, place and strength."""
+    """(B, B) cosines of what is struck in the bars, by sound, place and strength; with a melody, the mean of both."""
+    struck = _likeness(rhythm)
+    return struck if rhythm.melody is None else 0.5 * (struck + likeness_of_bars(rhythm.melody))
+
+
+def _likeness(rhythm: Rhythm) -> FloatArray:
     downbeats = np.flatnonzero(rhythm.bar_beats == 0)
     if len(downbeats) < 2:
         return np.zeros((0, 0))
@@ -68,31 +81,32 @@ def likeness_of_bars(rhythm: Rhythm) -> FloatArray:
     return np.asarray((flat @ flat.T) * (beats[:, None] == beats[None, :]))
 
 
-def returning_places(rhythm: Rhythm, times_s: FloatArray) -> IntArray:
-    """(G,) of some times, ascending, the number of the earlier one that each returns to: at the same place of the bar
-    that returns; -1 where there is none."""
+def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | None:
+    """Compare some times, ascending, with those at the same place of earlier bars; None without bars that return."""
+    worths = returns_of_bars(rhythm)
+    if not worths.any():
+        return None
     downbeats = np.flatnonzero(rhythm.bar_beats == 0)
-    found = np.full(len(times_s), -1, np.int64)
-    earlier = returning_bars(rhythm)
-    if not (earlier >= 0).any():
-        return found
     beats = np.interp(times_s, rhythm.beats_s, np.arange(len(rhythm.beats_s), dtype=np.float64))
     bar = np.searchsorted(downbeats, beats + _NEAR_BEATS, side="right") - 1
-    returns = (bar >= 0) & (bar < len(earlier))
-    returns[returns] = earlier[bar[returns]] >= 0
-    before = beats[returns] - downbeats[bar[returns]] + downbeats[earlier[bar[returns]]]
-    at = np.searchsorted(beats, before - _NEAR_BEATS)
-    found[returns] = np.where(np.abs(beats[at] - before) < _NEAR_BEATS, at, -1)
-    return found
+    inside = (bar >= 0) & (bar < len(worths))
+    earlier = np.full((len(times_s), len(worths)), -1, np.int64)
+    asked = (beats - downbeats[bar])[inside, None] + downbeats[:-1]
+    at = np.minimum(np.searchsorted(beats, asked - _NEAR_BEATS), len(beats) - 1)
+    earlier[inside] = np.where(np.abs(beats[at] - asked) < _NEAR_BEATS, at, -1)
+    own = np.where(inside, bar, -1)
+    return ReturningPlaces(own, earlier, np.where(inside[:, None], worths[own], 0.0))
 
 
-def _along_phrases(alike: FloatArray) -> FloatArray:
+def _along_passages(alike: FloatArray) -> FloatArray:
     """Mean likeness of each pair of bars and of those before and after both."""
     bars = len(alike)
-    total, count = np.zeros_like(alike), np.zeros_like(alike)
-    for by in range(-AROUND_BARS, AROUND_BARS + 1):
+    total, weight = np.zeros_like(alike), np.zeros_like(alike)
+    reach = round(3.0 * AROUND_BARS)
+    for by in range(-reach, reach + 1):
         first, last = max(0, -by), bars - max(0, by)
         if last > first:
-            total[first:last, first:last] += alike[first + by : last + by, first + by : last + by]
-            count[first:last, first:last] += 1.0
-    return np.asarray(total / np.maximum(count, 1.0))
+            share = np.exp(-0.5 * (by / AROUND_BARS) ** 2)
+            total[first:last, first:last] += share * alike[first + by : last + by, first + by : last + by]
+            weight[first:last, first:last] += share
+    return np.asarray(total / np.maximum(weight, 1e-9))

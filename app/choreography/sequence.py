@@ -19,7 +19,7 @@ probabilities `app.choreography.hidden_markov` counts.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Final
@@ -29,6 +29,7 @@ import numpy as np
 from app.arrays import FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.hit_log_odds import HeardHits
+from app.choreography.phrases import ReturningPlaces
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
 MOST_BEATS: Final = 4
@@ -54,7 +55,7 @@ class Weights:
     chance : float
         Scale of the seed's noise, of Gumbel's distribution.
     lately : float
-        Of each time that a segment was danced within `LATELY_S`.
+        Of each time that a segment was danced within `LATELY_S`, unless it returns; of one that follows itself too.
     returns : float
         Of a segment that was danced where the music was as it is again.
     meets : float
@@ -67,13 +68,17 @@ class Weights:
     model: float = 1.0
     heard: float = 1.3
     chance: float = 0.6
-    lately: float = 2.0
-    returns: float = 2.0
-    meets: float = 1.5
+    lately: float = 4.5
+    returns: float = 16.0
+    meets: float = 6.0
 
 
 LATELY_S: Final = 12.0
-PHRASE_BEATS: Final = 16
+FEW: Final = 24.0
+"""Number of segments of which each counts as danced lately by half: few must come again."""
+ANEW: Final = 0.05
+"""Share of the bars of a section that are danced anew when it returns."""
+PHRASE_BEATS: Final = 8
 """Beats that are searched at a time; the motions danced in them then count as danced lately."""
 
 
@@ -134,7 +139,7 @@ def choose(
     usual: FloatArray | None = None,
     initial: FloatArray | None = None,
     final: FloatArray | None = None,
-    returns: IntArray | None = None,
+    returns: ReturningPlaces | None = None,
 ) -> list[tuple[int, int]]:
     """The best segments for a piece.
 
@@ -145,8 +150,7 @@ def choose(
     constraints : Constraints, optional
     usual, initial, final : (S,) float64, optional
         Log odds of each segment wherever it is, as the first, and as the last.
-    returns : (G,) int, optional
-        The earlier place whose music returns at each place; -1 where none does.
+    returns : ReturningPlaces, optional
 
     Returns
     -------
@@ -158,6 +162,9 @@ def choose(
     if not count or not segments:
         return []
     random = np.random.default_rng(seed)
+    if returns is not None:
+        returns = _varied(returns, random)
+    weights = replace(weights, lately=weights.lately * segments / (segments + FEW))
     search = _Search(grid, candidates, heard, weights, constraints, usual, initial)
     chosen: list[tuple[int, int]] = []
     phrases = np.flatnonzero(grid.on_beat)[::PHRASE_BEATS].tolist()
@@ -173,15 +180,40 @@ def choose(
         ends = np.zeros(segments) if final is None or seen < count else weights.model * final
         extra = noise - weights.lately * lately
         if returns is not None:
-            danced = dict(chosen)
-            for row, earlier in enumerate(returns[first:seen].tolist()):
-                if earlier in danced:
-                    extra[row, danced[earlier]] += weights.returns
+            again = _danced_again(returns, chosen, range(first, seen), segments)
+            extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
         found = search.phrase(before, first, seen, extra, ends)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:
             break
     return chosen
+
+
+def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningPlaces:
+    """Let bars by chance not return: they are danced anew."""
+    anew = random.random(returns.worths.shape[1] + 1) < ANEW
+    return replace(
+        returns, worths=np.where(anew[returns.bars][:, None], np.minimum(returns.worths, 0.0), returns.worths)
+    )
+
+
+def _danced_again(
+    returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
+) -> FloatArray:
+    """(P, S) how much more alike places are to those where each segment was danced than others of the piece."""
+    danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
+    for place, segment in chosen:
+        danced[place] = segment
+    again = np.zeros((len(places), segments))
+    rows = slice(places.start, places.stop)
+    # A place -1 is behind the last one, where nothing is danced.
+    own = danced[returns.earlier[rows]]
+    row, bar = np.nonzero((own >= 0) & (returns.worths[rows] != 0.0))
+    worths = returns.worths[rows][row, bar]
+    least = np.zeros_like(again)
+    np.maximum.at(again, (row, own[row, bar]), worths)
+    np.minimum.at(least, (row, own[row, bar]), worths)
+    return np.where(again > 0.0, again, least)
 
 
 class _Search:
@@ -214,7 +246,9 @@ class _Search:
         self._moves = SegmentMoves(
             grid,
             MoveCosts(
-                weights.model * candidates.log_transition - weights.join_per_m * candidates.joins_m,
+                weights.model * candidates.log_transition
+                - weights.join_per_m * candidates.joins_m
+                - weights.lately * np.eye(len(nothing)),
                 candidates.before_s,
                 candidates.after_s,
                 weights.speed,

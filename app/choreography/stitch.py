@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from app.arrays import BoolArray, ComplexArray, FloatArray, IntArray
+from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts
@@ -22,15 +22,15 @@ from app.rig import quaternion
 
 STAGE_M: Final = 1.2
 """A dancer keeps this near to the place."""
-FACES_RAD: Final = math.radians(20.0)
-"""And turned no farther from the audience, in the mean; spins and turns of the capture stay whole."""
-TURN_BACK: Final = 0.6
-MOST_TURN_RAD: Final = math.radians(40.0)
+FACES_RAD: Final = math.radians(12.0)
+"""And turned no farther from the audience, in the mean of each motion; spins and turns of the capture stay whole."""
+TURN_BACK: Final = 0.9
+MOST_TURN_RAD: Final = math.radians(45.0)
 STEP_BACK: Final = 0.2
 MOST_STEP_M: Final = 0.08
 """Part of an excess over these that each join takes back, and how much at most."""
 LATELY_S: Final = 1.0
-"""Place and facing are means of so much of the motion."""
+"""Place is a mean of so much of the motion."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 
@@ -130,7 +130,7 @@ class Stitcher:
                 follows = self.follows(segment, earlier)
                 if not follows or step != before + 1:
                     turn, moved = self._aligned(earlier, segment, turn, moved, self._heights_m[body])
-                turn, moved = _steered(turn, moved, out, start)
+                turn, moved = _steered(turn, moved, out, start, _faces(captured[1][start + run : stop + run]))
                 # Of what follows in the capture only the place and the facing may have been steered.
                 carried = max(out.fading(start), int(kept != (turn, moved))) if follows else len(SEGMENTS)
                 if not follows:
@@ -206,7 +206,6 @@ class _Output:
         self._rate = float(fps)
         self.hips = np.zeros((count, 3))
         self.rotations = np.tile(quaternion.IDENTITY, (count, len(SEGMENTS), 1))
-        self._faces: ComplexArray = np.ones(count, np.complex128)
         self._fades_until, self._carried = 0, 0
 
     def fading(self, frame: int) -> int:
@@ -242,27 +241,31 @@ class _Output:
             rotations[fading, :carried] = quaternion.multiply(off_turns, rotations[fading, :carried])
         here = slice(start, start + count)
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
-        self._faces[here] = np.exp(1j * quaternion.twist_angle(rotations[:-1, 0], _UP))
 
     def place(self, frame: int) -> complex:
         """Return where the hips are just before a frame."""
         return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
 
-    def lately(self, frame: int) -> tuple[complex, float] | None:
-        """Mean place and facing of the hips over `LATELY_S`."""
+    def lately(self, frame: int) -> complex | None:
+        """Mean place of the hips over `LATELY_S`."""
         first = max(0, frame - round(LATELY_S * self._rate))
         if frame - first < 2:
             return None
         middle = self.hips[first:frame].mean(axis=0)
-        return complex(middle[2], middle[0]), float(np.angle(self._faces[first:frame].mean()))
+        return complex(middle[2], middle[0])
 
 
-def _steered(turn: float, moved: complex, out: _Output, frame: int) -> tuple[float, complex]:
-    """A little back towards the place and the audience."""
-    lately = out.lately(frame)
-    if lately is None:
+def _faces(rotations: FloatArray) -> complex:
+    """Mean facing of the hips in some frames (F, 16, 4); of a turn that goes all around it is short."""
+    return complex(np.exp(1j * quaternion.twist_angle(rotations[:, 0], _UP)).mean())
+
+
+def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: complex) -> tuple[float, complex]:
+    """A little back towards the place, where the body was lately, and the audience, by where it will face."""
+    hips = out.lately(frame)
+    if hips is None:
         return turn, moved
-    hips, off = lately
+    off = float(np.angle(complex(np.exp(1j * turn)) * ahead))
     if abs(off) > FACES_RAD:
         nudge = -math.copysign(min(TURN_BACK * (abs(off) - FACES_RAD), MOST_TURN_RAD), off)
         # About where the body is, so that it does not swing round the middle of the stage.

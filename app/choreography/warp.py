@@ -28,7 +28,7 @@ MOST_S: Final = 0.6
 LOOK_BACK: Final = 6
 """Most arrivals in a row that may be left unchanged."""
 ARRIVES: Final = 1.0
-ARRIVES_BETWEEN: Final = 0.1
+ARRIVES_BETWEEN: Final = -0.1
 ANCHOR: Final = 0.05
 """Worth of an arrival on a beat, of one in the middle between two, and of a segment that stays where it was put."""
 STEPPED: Final = 0.2

@@ -195,3 +195,36 @@ def test_what_fades_begins_as_it_was_and_ends_at_rest() -> None:
     assert np.abs(curve[times >= 0.5]).max() == 0.0
     assert np.abs(slope[-80:]).max() < 1e-9
     assert math.isfinite(np.abs(np.gradient(slope, times)).max())
+
+
+def test_what_idles_in_the_capture_is_hardly_danced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Six motions of the first source are held still: those in the midst of them are seen."""
+    own = model()
+    held = [at for at, one in enumerate(own.segments) if one.clip == 0][6:12]
+    rotations = own.clips[0].rotations.copy()
+    rotations[own.segments[held[0]].start : own.segments[held[-1]].end] = rotations[own.segments[held[0]].start]
+    still = replace(own, clips=(replace(own.clips[0], rotations=rotations), *own.clips[1:]))
+
+    def idles() -> int:
+        made = Choreographer(still)
+        return sum(
+            step.segment in held[1:-1] for seed in range(3) for step in made.steps(beaten(48), Manner(seed=seed))
+        )
+
+    cost = idles()
+    monkeypatch.setattr("app.choreography.generate.IDLE", 0.0)
+    assert cost < 0.3 * idles()
+
+
+def test_a_dancer_who_was_captured_in_turning_faces_the_audience() -> None:
+    """The capture goes round once in 12 s; each motion of it is danced to the front."""
+    own = model()
+    turned = []
+    for clip in own.clips:
+        turn = Rotation.from_rotvec(np.outer(2.0 * np.pi * np.arange(len(clip)) / 720.0, (0.0, 1.0, 0.0)))
+        rotations = clip.rotations.copy()
+        rotations[:, 0] = (turn * Rotation.from_quat(rotations[:, 0])).as_quat()
+        turned.append(replace(clip, rotations=rotations, hips_m=turn.apply(clip.hips_m)))
+    found = Choreographer(replace(own, clips=tuple(turned))).dance(beaten(48), Manner(), FPS)
+    ahead = Rotation.from_quat(found.clip.rotations[:, 0]).apply((0.0, 0.0, 1.0))
+    assert np.mean(ahead[:, 2] > 0.5) > 0.9

@@ -9,7 +9,7 @@ import numpy as np
 from app.choreography.accent_grid import grid_of
 from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
-from app.choreography.phrases import likeness_of_bars, returning_bars, returning_places
+from app.choreography.phrases import likeness_of_bars, returning_places, returns_of_bars
 from app.choreography.rhythm import Rhythm, felt_at
 from app.choreography.sequence import Weights
 from tests.support.dances import model
@@ -33,15 +33,16 @@ def played(form: str, beat_s: float = BEAT_S, beats: int = 4) -> Rhythm:
 
 
 def test_sections_return_and_new_ones_do_not() -> None:
-    found = returning_bars(played("ABAC"))
-    assert found[8:12].tolist() == [0, 1, 2, 3]
-    assert (found[[5, 6, 13, 14, 15]] == -1).all()
+    worths = returns_of_bars(played("ABAC"))
+    assert (worths[[8, 9, 10, 11], [0, 1, 2, 3]] > 0.5).all()
+    assert (worths[12:].max(axis=1) < 0.5).all()
+    assert (worths[np.triu_indices(16, -3)] == 0.0).all()
 
 
 def test_where_all_bars_are_alike_none_returns() -> None:
     rhythm = played("AAAA")
     same = replace(rhythm, hits_s=rhythm.beats_s, symbols=np.ones(len(rhythm.beats_s), int), strengths=np.ones(65))
-    assert (returning_bars(same) == -1).all()
+    assert np.abs(returns_of_bars(same)).max() < 1e-6
 
 
 def test_likeness_does_not_depend_on_the_tempo_and_knows_each_bar_itself() -> None:
@@ -50,19 +51,27 @@ def test_likeness_does_not_depend_on_the_tempo_and_knows_each_bar_itself() -> No
     assert np.allclose(np.diag(one), 1.0)
 
 
+def test_sections_return_by_their_melody_too() -> None:
+    beaten = replace(played("AAAA"), symbols=np.zeros(0, int), hits_s=np.zeros(0), strengths=np.zeros(0))
+    worths = returns_of_bars(replace(beaten, melody=played("ABAC")))
+    assert worths[9, 1] > 0.5 > worths[13, 1]
+
+
 def test_places_return_to_the_same_place_of_the_bar() -> None:
     rhythm = played("ABA")
     times = grid_of(rhythm).times_s
     found = returning_places(rhythm, times)
-    back = np.flatnonzero(found >= 0)
-    assert len(back) >= 30
-    assert np.allclose((times[back] - times[found[back]]) % (4 * BEAT_S) % (4 * BEAT_S - 1e-6), 0.0, atol=1e-5)
+    assert found is not None
+    place, bar = np.nonzero(found.worths)
+    assert len(place) >= 250
+    earlier = found.earlier[place, bar]
+    assert np.allclose(times[place] - times[earlier], 4 * BEAT_S * (place // 8 - bar))
 
 
 def test_without_bars_nothing_returns() -> None:
     empty = Rhythm(np.zeros(0), np.zeros(0, int), np.zeros(0), np.zeros(0, int), np.zeros(0), False)
-    assert len(returning_bars(empty)) == 0
-    assert returning_places(empty, np.zeros(0)).tolist() == []
+    assert returns_of_bars(empty).size == 0
+    assert returning_places(empty, np.zeros(0)) is None
 
 
 def test_what_returns_is_danced_again_with_variation() -> None:
