@@ -55,7 +55,7 @@ FASTEST_HIPS_RAD_S: Final = 15.0
 """Hips do so in spins only, which last: a jump is shorter than `SPIN_S` or turns by less than `SPIN_RAD`."""
 FASTEST_TRUNK_RAD_S: Final = 13.0
 FASTEST_HEAD_RAD_S: Final = 32.0
-"""Of spine and chest, and of the head: each half as fast again as the fastest of 240 clean captures of eight makers."""
+"""Bounds of spine and chest, and of the head: half as fast again as the fastest of 240 clean captures of 8 makers."""
 SPIN_S: Final = 0.125
 SPIN_RAD: Final = 2.5
 BEGINS: Final = 0.5

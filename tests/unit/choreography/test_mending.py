@@ -147,7 +147,7 @@ def test_short_damage_is_mended_and_nothing_else_changes(length: int) -> None:
 @pytest.mark.parametrize("fps", [30, 60, 120])
 @pytest.mark.parametrize("part", ["hips", "chest"])
 def test_a_trunk_that_goes_far_and_back_in_six_frames_is_damage(part: str, fps: int) -> None:
-    """Without a jump from any frame to the next, as filtered captures have it."""
+    """Filtered captures have such damage: no jump from any frame to the next."""
     clip, at = dancing(fps), SEGMENTS.index(part)
     way = np.zeros(len(clip))
     way[3 * fps : 3 * fps + 8] = np.radians(40.0) * np.sin(np.linspace(0.0, np.pi, 8))
