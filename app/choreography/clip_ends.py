@@ -32,6 +32,8 @@ CALM_RAD_S: Final = 1.0
 """It is over when the body is no faster than this many times its median speed in the time after it, or than that."""
 T_POSE_RAD: Final = 0.4
 """Trunk, arms and legs of the T-pose are nearer than this to it."""
+EXACT_RAD: Final = 0.02
+"""Bound of one that no body took."""
 STILL_RAD_S: Final = 0.35
 STILL_M_S: Final = 0.12
 """A body whose trunk and limbs are slower than this over `STILL_OVER_S` stands; hands, feet and head may move."""
@@ -94,7 +96,11 @@ def _lead(clip: MotionClip) -> int:
     # A dancer who takes the pose again between its ends dances it.
     taken = [stop for start, stop in runs(in_t_pose) if stop - start >= T_POSE_S * fps and start]
     danced = any(stop < len(clip) - LOWERS_S * fps for stop in taken)
-    return 0 if danced or t_pose < T_POSE_S * fps else _arms_down(clip, t_pose)
+    if danced or t_pose < T_POSE_S * fps:
+        # No dancer takes it exactly: a clip that begins so was blended with its rest pose.
+        exact = _in_t_pose(clip.span(0, 1), EXACT_RAD).any() and not danced
+        return _arms_down(clip, max(t_pose, 1)) if exact else 0
+    return _arms_down(clip, t_pose)
 
 
 def _settled(clip: MotionClip, frame: int) -> int:
@@ -114,10 +120,10 @@ def _settled(clip: MotionClip, frame: int) -> int:
     return frame + (int(wild[-1]) if len(wild) else int(fast[-1])) + 1
 
 
-def _in_t_pose(clip: MotionClip) -> BoolArray:
+def _in_t_pose(clip: MotionClip, within_rad: float = T_POSE_RAD) -> BoolArray:
     turns = clip.rotations[:, _BODY].copy()
     turns[:, 0] = quaternion.swing_twist(turns[:, 0], (0.0, 1.0, 0.0))[0]
-    return np.asarray(angle(turns, quaternion.IDENTITY).max(axis=1) < T_POSE_RAD)
+    return np.asarray(angle(turns, quaternion.IDENTITY).max(axis=1) < within_rad)
 
 
 def _still(clip: MotionClip) -> BoolArray:
