@@ -15,6 +15,7 @@ from app.export.bind_pose import CENTIMETRES, bound_meshes, rest_transforms
 from app.export.bone_axes import bone_axes
 from app.export.eyes import eyes_of_file, with_turned_balls
 from app.export.face_curves import FACE_PARTS, FacePart, written_weights
+from app.export.influences import with_few_influences
 from app.export.morph_normals import with_morph_normals
 from app.export.own_skeleton import own_weights
 from app.export.target import BoneMotion, TargetSkeleton, Trajectory, bone_motion, matrices, normalised_target
@@ -82,13 +83,14 @@ def character_scene(
         {morph: weight for morph, weight in weights.items() if morph in there},
         held,
     )
-    return Scene(
+    scene = Scene(
         bones=_bones(target, character, meshes[0]),
         meshes=meshes,
         clip=replace(clip, whole_turns=eyes.whole(target, character, clip.rotations_xyzw)),
         creator=creator,
         name=name,
     )
+    return with_few_influences(scene)
 
 
 _SHAPED: Final[IdentityCache[Character]] = IdentityCache(16)

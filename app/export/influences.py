@@ -1,0 +1,138 @@
+"""Four influences per vertex, as many as games read, wherever nothing is seen of the others.
+
+A vertex on more bones gets new weights on four of them: those that leave it nearest to where all of them take it, by
+least squares over poses of the clip. It keeps its own where it would ever be further away than `FEW_MM`.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, AnyIntArray, BoolArray, FloatArray, IntArray
+from app.export.playback import METRES, PlaybackBones, ScenePlayback
+from app.formats.scene import Scene, SkinnedMesh
+
+MOST_INFLUENCES: Final = 4
+FEW_MM: Final = 0.5
+"""Distance that a vertex may move by for having fewer influences, at any frame."""
+_STRONGEST = 6
+_POSES, _CHUNK = 48, 256
+_RIDGE = 1e-9
+"""Part of the squares that keeps weights of bones which go together near what they were."""
+
+
+def with_few_influences(scene: Scene) -> Scene:
+    """A scene with a clip, whose meshes have at most four influences per vertex where that is not seen."""
+    counts = [np.count_nonzero(mesh.weights, axis=1).max(initial=0) for mesh in scene.meshes]
+    if scene.clip is None or max(counts, default=0) <= MOST_INFLUENCES:
+        return scene
+    playback = ScenePlayback(scene, scene.clip)
+    meshes = tuple(
+        mesh if count <= MOST_INFLUENCES else _with_few(mesh, playback)
+        for mesh, count in zip(scene.meshes, counts, strict=True)
+    )
+    return replace(scene, meshes=meshes)
+
+
+def _with_few(mesh: SkinnedMesh, playback: ScenePlayback) -> SkinnedMesh:
+    width = int(np.count_nonzero(mesh.weights, axis=1).max())
+    order = np.argsort(-np.asarray(mesh.weights, np.float64), axis=1, kind="stable")[:, :width]
+    joints = np.take_along_axis(mesh.joint_indices, order, axis=1)
+    weights = np.take_along_axis(np.asarray(mesh.weights, np.float64), order, axis=1)
+    many = np.flatnonzero(weights[:, MOST_INFLUENCES] > 0.0)
+    skinned = _Skinned(mesh, many, joints[many], weights[many], playback)
+    fewer, near = skinned.fewer()
+    weights[many[near]] = fewer[near]
+    order = np.argsort(-weights, axis=1, kind="stable")
+    width = int(np.count_nonzero(weights, axis=1).max())
+    return replace(
+        mesh,
+        joint_indices=np.take_along_axis(joints, order, axis=1)[:, :width],
+        weights=np.take_along_axis(weights, order, axis=1)[:, :width].astype(mesh.weights.dtype),
+    )
+
+
+def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
+    """How far the shapes of a clip may move each vertex (V,)."""
+    result = np.zeros(len(mesh.vertices_cm))
+    for morph in mesh.morphs:
+        most = np.abs(playback.clip.morph_weights.get(morph.name, np.zeros(1))).max()
+        result[morph.vertex_indices] += 10.0 * most * np.linalg.norm(morph.position_deltas_cm, axis=1)
+    return result
+
+
+class _Skinned:
+    """Vertices (V,) that more than four bones (V, K) carry, the strongest first."""
+
+    def __init__(
+        self, mesh: SkinnedMesh, vertices: IntArray, joints: AnyIntArray, weights: FloatArray, playback: ScenePlayback
+    ) -> None:
+        self._weights, self._playback = weights, playback
+        self._shaped_mm = _shaped_mm(mesh, playback)[vertices]
+        bones, carriers = np.unique(joints, return_inverse=True)
+        self._carriers = carriers.reshape(joints.shape)
+        self._bones = PlaybackBones(playback, bones.tolist())
+        self._rows = self._bones.rows(bones.tolist())
+        bone_from_bind = np.linalg.inv(np.asarray(mesh.world_from_bone_bind, np.float64))[joints]
+        places_cm = np.asarray(mesh.vertices_cm, np.float64)[vertices]
+        self._own_cm = np.einsum("vkab,vb->vka", bone_from_bind, np.pad(places_cm, ((0, 0), (0, 1)), constant_values=1))
+
+    def _world(self, first: int, last: int) -> FloatArray:
+        """World transforms (B, 3, 4, f), centimetres, of the bones that carry any of them, at some frames."""
+        world = self._bones.world(first, last)[self._rows]
+        world[:, :, 3] /= METRES
+        return world
+
+    def fewer(self) -> tuple[FloatArray, BoolArray]:
+        """Weights (V, K) of which four at most count, and whether these are near enough at all frames."""
+        assert self._playback.clip is not None
+        frames = self._playback.clip.frames
+        places = np.unique(np.linspace(0, frames - 1, _POSES).astype(int)).tolist()
+        world = np.concatenate([self._world(frame, frame + 1) for frame in places], axis=-1)
+        carried = np.einsum("vkacf,vkc->fvka", world[self._carriers], self._own_cm)
+        best, least = self._weights.copy(), np.full(len(self._weights), np.inf)
+        for chosen in itertools.combinations(range(min(_STRONGEST, carried.shape[2])), MOST_INFLUENCES):
+            weights = self._fitted(carried, chosen)
+            off = self._off_mm(world, weights) + self._off_shaped_mm(weights)
+            better = off < least
+            best[better], least[better] = weights[better], off[better]
+        worst = np.zeros(len(best))
+        for first in range(0, frames, _CHUNK):
+            worst = np.maximum(worst, self._off_mm(self._world(first, min(first + _CHUNK, frames)), best))
+        return best, worst + self._off_shaped_mm(best) <= FEW_MM
+
+    def _fitted(self, carried: FloatArray, chosen: tuple[int, ...]) -> FloatArray:
+        """Weights (V, K) of some bones that leave the vertices nearest to their places."""
+        first, *others = chosen
+        # The weights' sum is 1: those of the others say that of the first.
+        ways = carried[:, :, others] - carried[:, :, [first]]
+        asked = np.einsum("vk,fvka->fva", self._weights, carried) - carried[:, :, first]
+        squares = np.einsum("fvia,fvja->vij", ways, ways)
+        sides = np.einsum("fvia,fva->vi", ways, asked)
+        whole = self._weights[:, chosen].sum(axis=1, keepdims=True)
+        before = self._weights[:, others] / np.maximum(whole, 1e-12)
+        ridge = _RIDGE * np.maximum(np.trace(squares, axis1=1, axis2=2), 1e-12)
+        squares += ridge[:, None, None] * np.eye(len(others))
+        sides += ridge[:, None] * before
+        found = np.linalg.solve(squares, sides[..., None])[..., 0]
+        part = np.maximum(np.concatenate([1.0 - found.sum(axis=1, keepdims=True), found], axis=1), 0.0)
+        result = np.zeros_like(self._weights)
+        result[:, [first, *others]] = part / part.sum(axis=1, keepdims=True)
+        return result
+
+    def _off_mm(self, world: FloatArray, weights: FloatArray) -> AnyFloatArray:
+        """How far vertices (V,) are off with some weights, at the worst of some frames."""
+        points = np.zeros((len(weights), len(world), 4))
+        changed = (weights - self._weights)[..., None] * self._own_cm
+        np.add.at(points, (np.arange(len(weights))[:, None], self._carriers), changed)
+        off_cm = np.tensordot(points, world, axes=((1, 2), (0, 2)))
+        return np.asarray(10.0 * np.sqrt(np.einsum("vaf,vaf->vf", off_cm, off_cm).max(axis=-1)))
+
+    def _off_shaped_mm(self, weights: FloatArray) -> FloatArray:
+        """How far vertices (V,) may be off besides, because their bones turn what shapes move them by."""
+        off: FloatArray = np.abs(weights - self._weights).sum(axis=1) * self._shaped_mm
+        return off

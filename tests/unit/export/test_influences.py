@@ -1,0 +1,77 @@
+"""At most four influences per vertex, wherever no vertex moves by more than half a millimetre for it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from app.export.character import character_scene
+from app.export.influences import FEW_MM, MOST_INFLUENCES, with_few_influences
+from app.export.playback import ScenePlayback, Surface
+from app.formats.scene import Scene
+from app.performance.bodies import character_of
+from app.performance.ensemble import Performance
+from app.performance.span import bars_span
+from app.rig.characters.character_library import character_named
+from tests.gui.conftest import quartet_project
+from tests.support.performed import player_motion
+from tests.unit.formats import scenes
+
+
+def _places_m(scene: Scene, mesh: int, vertices: np.ndarray) -> np.ndarray:
+    assert scene.clip is not None
+    playback = ScenePlayback(scene, scene.clip)
+    world = playback.world(0, scene.clip.frames)
+    return Surface(playback, scene.meshes[mesh], vertices).positions_m(world, 0, scene.clip.frames)
+
+
+def test_a_players_skin_has_four_influences_and_is_where_it_was() -> None:
+    performance = Performance(quartet_project())
+    player = performance.project.players[0]
+    span = bars_span(performance, Fraction(30), (1, 4), 1)
+    character = character_of(player)
+    before = max(int(np.count_nonzero(mesh.weights, axis=1).max()) for mesh in character_named(character.id).meshes)
+    assert before > MOST_INFLUENCES, "else there is nothing to show"
+    scene = character_scene(character, player_motion(performance, player, span), "p", "t")
+    (mesh,) = scene.meshes
+    counts = np.count_nonzero(mesh.weights, axis=1)
+    assert (counts > MOST_INFLUENCES).sum() < 0.001 * len(counts)
+    np.testing.assert_allclose(np.asarray(mesh.weights, float).sum(axis=1), 1.0, atol=1e-6)
+    assert mesh.weights.min() >= 0.0
+
+
+def test_vertices_are_near_where_all_their_bones_took_them_or_keep_them() -> None:
+    """Six influences with weights at random: some can do with four, and most can not."""
+    given = scenes.character(Fraction(30), amplitude_rad=0.05)
+    shares = np.array([1.0, 0.3, 0.2, 0.0, 0.02, 0.01])
+    strong = [
+        replace(mesh, weights=mesh.weights * shares / (mesh.weights @ shares)[:, None], morphs=mesh.morphs[:1])
+        for mesh in given.meshes
+    ]
+    assert given.clip is not None
+    weights = {"jawOpen": 0.05 * given.clip.morph_weights["jawOpen"]}
+    given = replace(given, clip=replace(given.clip, morph_weights=weights))
+    given = replace(given, meshes=tuple(strong))
+    found = with_few_influences(given)
+    fewer = 0
+    for number, (mine, theirs) in enumerate(zip(given.meshes, found.meshes, strict=True)):
+        vertices = np.arange(len(mine.vertices_cm))
+        off_mm = 1000.0 * np.linalg.norm(
+            _places_m(found, number, vertices) - _places_m(given, number, vertices), axis=-1
+        )
+        assert off_mm.max() <= FEW_MM + 1e-6
+        counts = np.count_nonzero(theirs.weights, axis=1)
+        np.testing.assert_allclose(theirs.weights.sum(axis=1), 1.0, atol=1e-9)
+        changed = counts < np.count_nonzero(mine.weights, axis=1)
+        assert (counts[changed] <= MOST_INFLUENCES).all()
+        fewer += int(changed.sum())
+    assert fewer > 10
+
+
+@pytest.mark.parametrize("make", [scenes.instrument])
+def test_a_mesh_with_few_influences_stays_the_same_object(make: object) -> None:
+    scene = make(Fraction(30))
+    assert with_few_influences(scene) is scene
