@@ -42,7 +42,7 @@ def written(keys: str) -> frozenset[str]:
 class RowAction(QAction):
     """A row as Qt shows it: it asks, names and pictures itself.
 
-    Qt notifies only widgets of a language change (``QEvent.LanguageChange``): actions are notified by the session.
+    Qt notifies only widgets of a language change (``QEvent.LanguageChange``): actions are notified by their table.
 
     Parameters
     ----------
@@ -59,9 +59,7 @@ class RowAction(QAction):
         if row.context != "window":
             self.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         on_click(self, self._run)
-        table.session.language_changed.connect(self.retranslate)
-        table.session.theme_changed.connect(self._apply_theme)
-        self._apply_theme()
+        self.apply_theme()
         self.retranslate()
 
     def _run(self) -> None:
@@ -110,7 +108,8 @@ class RowAction(QAction):
         self.setIconText(text)
         self.setToolTip(f"{text} ({keys})" if keys else text)
 
-    def _apply_theme(self) -> None:
+    def apply_theme(self) -> None:
+        """Set the icon again, in the colours of the theme."""
         if self.row.icon:
             self.setIcon(icon(self.row.icon, self._table.session.tokens))
 
@@ -182,6 +181,8 @@ class ActionTable(QObject):
             session.viewport.changed,
         ):
             signal.connect(self.refresh_soon)
+        session.language_changed.connect(self._retranslate)
+        session.theme_changed.connect(self._apply_theme)
         session.playhead_changed.connect(self._playhead_moved)
         application = QApplication.instance()
         if isinstance(application, QApplication):
@@ -200,6 +201,14 @@ class ActionTable(QObject):
     def attach(self, context: str, widget: QWidget) -> None:
         """Shortcuts of a context hold while the keyboard is in this widget."""
         widget.addActions([self.actions[row.id] for row in self.rows.values() if row.context == context])
+
+    def _retranslate(self) -> None:
+        for action in self.actions.values():
+            action.retranslate()
+
+    def _apply_theme(self) -> None:
+        for action in self.actions.values():
+            action.apply_theme()
 
     # Shortcuts
 
