@@ -129,17 +129,17 @@ class Performance:
             return self._whole.of(Piece)
 
     @cached_property
-    def lines(self) -> tuple[MonophonicPart, ...]:
+    def parts(self) -> tuple[MonophonicPart, ...]:
         """Parts of the players with an instrument, in the order of the project's players."""
         with self._lock:
-            lines = []
+            parts = []
             for player in self.project.players:
                 try:
                     instrument = self.instrument(player)
                 except MapError:
                     continue
-                lines.append(self._line(player, instrument))
-            return tuple(lines)
+                parts.append(self._line(player, instrument))
+            return tuple(parts)
 
     @cached_property
     def velocity_reading(self) -> VelocityReading:
@@ -177,7 +177,7 @@ class Performance:
     @cached_property
     def span_ticks(self) -> tuple[int, int]:
         """Onset of the first note that someone plays or dances to, and end of the last one."""
-        players = [self.project.player(line.player_id) for line in self.lines]
+        players = [self.project.player(part.player_id) for part in self.parts]
         played = [part for part in map(self.project.part, players) if part.notes]
         first_ticks = [part.notes[0].onset_tick for part in played]
         last_ticks = [part.end_tick for part in played]
@@ -252,7 +252,7 @@ class Performance:
         self.unseen, self._plans, self._problems = {}, {}, {}
         return EnsemblePlanning(
             self.piece,
-            self.lines,
+            self.parts,
             self.time_frame,
             self.project.seed,
             expressions=self.expressions,
@@ -367,12 +367,12 @@ class Performance:
             return 0
         before = self._before
         if before is None or self.piece is not before.piece or self.time_frame != before.time_frame:
-            return sum(len(line.notes) for line in self.lines)
+            return sum(len(part.notes) for part in self.parts)
         same_rules = self.metadata.all_rules is before.metadata.all_rules
         if self.project.seed != before.project.seed or self.expressions is not before.expressions or not same_rules:
-            return sum(len(line.notes) for line in self.lines)
-        known = {line.player_id: line for line in before.lines}
-        return sum(work_of(line, known.get(line.player_id)) for line in self.lines)
+            return sum(len(part.notes) for part in self.parts)
+        known = {part.player_id: part for part in before.parts}
+        return sum(work_of(part, known.get(part.player_id)) for part in self.parts)
 
     def is_planned(self, player_id: str) -> bool:
         """Return whether a player's plan is made already; the others' may not be."""

@@ -112,7 +112,7 @@ class EnsemblePlanning:
     def __init__(
         self,
         piece: Piece,
-        lines: tuple[MonophonicPart, ...],
+        parts: tuple[MonophonicPart, ...],
         frame: TimeFrame,
         seed: int = 0,
         *,
@@ -131,10 +131,10 @@ class EnsemblePlanning:
             "known_gestures": bundled_gestures() if gestures is None else gestures,
         }
         playable: dict[str, StepResults] = {}
-        for line in lines:
+        for part in parts:
             raise_if_stopped(stop_requested)
-            playable[line.player_id] = self._runs.begin(LINE, line.player_id, **everyone, **_fields(line))
-        shared = _shared_by_all(lines, playable, everyone, self._runs)
+            playable[part.player_id] = self._runs.begin(LINE, part.player_id, **everyone, **_fields(part))
+        shared = _shared_by_all(parts, playable, everyone, self._runs)
         everyone |= {name: shared[name] for name in ("fermatas", "cue_events", "cue_ids", "pulse", "last_s")}
         everyone |= {"piece": shared["piece_felt"], "piece_ending": shared["ending"]}
         self._everyone = everyone
@@ -142,8 +142,8 @@ class EnsemblePlanning:
         self._playable, self._plans = playable, dict[str, PlayerPlan]()
         self._together = _shared_lines(playable, everyone, self._runs)
         self._usual_pitches = [results.of(mean_pitch) for results in playable.values()]
-        self.player_ids = tuple(line.player_id for line in lines)
-        self._lines, self._stop_requested, self._clock = lines, stop_requested, piece.clock
+        self.player_ids = tuple(part.player_id for part in parts)
+        self._parts, self._stop_requested, self._clock = parts, stop_requested, piece.clock
         self._breathed: list[Breathed] = []
         self._begun = dict[str, StepResults]()
 
@@ -167,11 +167,11 @@ class EnsemblePlanning:
         near = tuple(cue for cue in cues if first_s <= cue.start_s and cue.end_s <= end_s)
         other._everyone = everyone = {**self._everyone, "cue_events": near}
         span = clock.ticks(first_s), clock.ticks(end_s)
-        other._lines = tuple(_within(line, *span) for line in self._lines)
+        other._parts = tuple(_within(part, *span) for part in self._parts)
         other._runs, other._breathed, other._plans, other._begun = StepRuns(), [], {}, {}
         other._playable = {
-            line.player_id: other._runs.begin(LINE, line.player_id, **everyone, **_fields(line))
-            for line in other._lines
+            part.player_id: other._runs.begin(LINE, part.player_id, **everyone, **_fields(part))
+            for part in other._parts
         }
         other._together = _shared_lines(other._playable, everyone, other._runs)
         return other
@@ -182,7 +182,7 @@ class EnsemblePlanning:
 
     def _player(self, number: int) -> StepResults:
         """Begin the steps of a player's plan, after those whose breaths are placed already."""
-        part = self._lines[number]
+        part = self._parts[number]
         player_id, results = part.player_id, self._playable[part.player_id]
         if player_id in self._begun:
             return self._begun[player_id]
@@ -205,7 +205,7 @@ class EnsemblePlanning:
 
 
 def _shared_by_all(
-    lines: tuple[MonophonicPart, ...],
+    parts: tuple[MonophonicPart, ...],
     playable: Mapping[str, StepResults],
     everyone: Mapping[str, object],
     runs: StepRuns,
@@ -218,7 +218,7 @@ def _shared_by_all(
         **everyone,
         all_times=tuple(results.of(note_times) for results in playable.values()),
         leading=tuple(results.of(_leading) for results in playable.values()),
-        musicians=tuple(line.musician or line.player_id for line in lines),
+        musicians=tuple(part.musician or part.player_id for part in parts),
         conducted=CONDUCTOR in stage,
     )
 

@@ -309,7 +309,7 @@ def exported(project: Project, folder: Path, fps: int) -> list[Read]:
         performance, project.players, folder, frozenset({"fbx"}), span, None, "piece", "measures", keys="every"
     )
     report = export(request, text)
-    found, lines = [], {line.player_id: line for line in performance.lines}
+    found, lines = [], {line.player_id: line for line in performance.parts}
     for entry in report.players:
         player = next(player for player in project.players if player.name == entry.name)
         scene = read_scene(folder / entry.files["character_fbx"])

@@ -103,7 +103,7 @@ def main(folders: list[str]) -> None:
         start = time.perf_counter()
         performance = performance_of(path)
         rows[path.name] = [
-            measures(performance, line, performance.plans[line.player_id]) for line in performance.lines if line.notes
+            measures(performance, line, performance.plans[line.player_id]) for line in performance.parts if line.notes
         ]
         print(f"{path.name}: {time.perf_counter() - start:.1f} s", file=sys.stderr)
     print(f"{'file':48} {'':5} breaths short in-long-rest slur gasps dropped")

@@ -55,7 +55,7 @@ def is_usual(share: float, line: MonophonicPart) -> bool:
 
 def played(name: str) -> list[tuple[MonophonicPart, PlayerPlan]]:
     made = performance(name)
-    return [(line, made.plans[line.player_id]) for line in made.lines]
+    return [(line, made.plans[line.player_id]) for line in made.parts]
 
 
 def test_the_arban_study_keeps_its_first_choices() -> None:

@@ -151,7 +151,7 @@ def made(performance: Performance) -> Any:
     try:
         problems = {player.id: performance.problems(player.id) for player in performance.project.players}
         unseen = performance.unseen
-        return performance.plans, problems, performance.time_frame, performance.piece, performance.lines, unseen
+        return performance.plans, problems, performance.time_frame, performance.piece, performance.parts, unseen
     except AppError as error:
         return error.message
 

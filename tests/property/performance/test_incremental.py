@@ -39,7 +39,7 @@ def test_plans_after_edits_are_those_of_a_fresh_performance(data: st.DataObject)
     assert [performance.problems(id) for id in fresh.plans] == [fresh.problems(id) for id in fresh.plans]
     assert performance.time_frame == fresh.time_frame
     assert performance.piece == fresh.piece
-    assert performance.lines == fresh.lines
+    assert performance.parts == fresh.parts
 
 
 @given(st.data())

@@ -53,7 +53,7 @@ def _steps() -> list[int]:
 
 def _pitch(instrument_id: str) -> int:
     own = performance_of(instrument_id, [(0, QUARTER, 60)])
-    limits = own.lines[0].instrument_map.range
+    limits = own.parts[0].instrument_map.range
     return (limits.easy_low + limits.easy_high) // 2
 
 

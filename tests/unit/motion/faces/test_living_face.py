@@ -285,7 +285,7 @@ def quartet(amplitude: float = 0.5) -> tuple[Made, ...]:
     project = project_from_score(read_midi(QUARTET, maps=map_choices(maps.values())), maps)
     project = set_parameters(project, [player.id for player in project.players], amplitude=amplitude)
     performance = Performance(project)
-    lines = {line.player_id: line for line in performance.lines}
+    lines = {line.player_id: line for line in performance.parts}
     made = []
     for player in project.players:
         times = line_times(lines[player.id], performance.piece.clock)
