@@ -57,7 +57,7 @@ def _with_few(mesh: SkinnedMesh, playback: ScenePlayback) -> SkinnedMesh:
 
 
 def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
-    """How far the shapes of a clip may move each vertex (V,)."""
+    """Return the distance that the shapes of a clip may move each vertex (V,) by."""
     result = np.zeros(len(mesh.vertices_cm))
     for morph in mesh.morphs:
         most = np.abs(playback.clip.morph_weights.get(morph.name, np.zeros(1))).max()
@@ -125,7 +125,7 @@ class _Skinned:
         return result
 
     def _off_mm(self, world: FloatArray, weights: FloatArray) -> AnyFloatArray:
-        """How far vertices (V,) are off with some weights, at the worst of some frames."""
+        """Return the distance by which vertices (V,) are off with some weights, at the worst of some frames."""
         points = np.zeros((len(weights), len(world), 4))
         changed = (weights - self._weights)[..., None] * self._own_cm
         np.add.at(points, (np.arange(len(weights))[:, None], self._carriers), changed)
@@ -133,6 +133,6 @@ class _Skinned:
         return np.asarray(10.0 * np.sqrt(np.einsum("vaf,vaf->vf", off_cm, off_cm).max(axis=-1)))
 
     def _off_shaped_mm(self, weights: FloatArray) -> FloatArray:
-        """How far vertices (V,) may be off besides, because their bones turn what shapes move them by."""
+        """Return how far vertices (V,) may be off besides, as their bones turn what shapes move them by."""
         off: FloatArray = np.abs(weights - self._weights).sum(axis=1) * self._shaped_mm
         return off
