@@ -78,13 +78,30 @@ def room_for(dialog: QDialog) -> QSize:
     return dialog.screen().availableSize() - _FRAME
 
 
-class Scrolled(QScrollArea):
-    """Contents as wide and high as they ask, which scroll up and down where there is less room; never sideways."""
+class _Shrinking(QWidget):
+    """Contents whose wrapped texts have room of their own."""
 
-    def __init__(self, layout: QLayout) -> None:
+    # Qt's own names
+
+    def heightForWidth(self, width: int) -> int:
+        layout = self.layout()
+        return -1 if layout is None else layout.minimumSize().height()
+
+
+class Scrolled(QScrollArea):
+    """Contents as wide and high as they ask, which scroll up and down where there is less room; never sideways.
+
+    Parameters
+    ----------
+    shrinks : bool
+        True if contents are made as low as they can be before they scroll: lists and pictures, not wrapped texts.
+    """
+
+    def __init__(self, layout: QLayout, shrinks: bool = False) -> None:
         super().__init__()
         layout.setContentsMargins(0, 0, 0, 0)
-        self._contents = panel(layout)
+        self._contents = _Shrinking() if shrinks else QWidget()
+        self._contents.setLayout(layout)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setWidgetResizable(True)

@@ -145,7 +145,7 @@ class LearnDialog(WorkingDialog):
         self.tabs.addTab(panel(in_column((self.body, 1), margins=(0, 8, 0, 0))), "")
         self.texted(self.tabs, tabs=("body_panel.cuts", "body_panel.body"))
         choices = in_column((self._top, 2), (self.tabs, 3), form, self._state, spacing=10)
-        in_column((Scrolled(choices), 1), bottom, of=self, margins=8, spacing=10)
+        in_column((Scrolled(choices, shrinks=True), 1), bottom, of=self, margins=8, spacing=10)
 
     def _connect(self) -> None:
         session = self._session
