@@ -17,6 +17,7 @@ from app.export.request import ExportRequest
 from app.export.run import export
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into, plan_export
+from app.messages import text
 from app.performance.ensemble import Performance
 from widgets.common.text import message_text
 
@@ -115,17 +116,18 @@ def write(
     stop_requested: Callable[[], bool],
     progress: Callable[[float, str], None],
 ) -> Done:
-    """Write an export; the request's folder is the place."""
+    """Write an export; the request's folder is the place. Files are worded in English, as the command line words them,
+    the result in the language of the editor."""
     if destination == "unreal":
         project = find_project(request.folder)
-        written = export_into(request, project, message_text, stop_requested, progress)
+        written = export_into(request, project, text, stop_requested, progress, message_text)
         kept = tuple(message_text(message) for message in written.plan.kept)
         folder = project.folder / written.plan.layout.sources
         warnings = kept + _warnings(written.report)
         return Done(
             len(written.plan.written), folder, _left_out(written.report), warnings, project, bool(written.plan.plugin)
         )
-    report = export(request, message_text, stop_requested, progress)
+    report = export(request, text, stop_requested, progress, message_text)
     return Done(report.file_count, request.folder, _left_out(report), _warnings(report))
 
 

@@ -250,6 +250,22 @@ def test_who_is_left_out_is_named_with_the_reason(
     session.deleteLater()
 
 
+@pytest.mark.usefixtures("japanese")
+def test_the_report_is_english_and_the_window_japanese(show_export: ShowExport, tmp_path: Path) -> None:
+    session = Session(with_instrument(quartet_project(), 1, "ophicleide"), ImmediateTasks())
+    dialog = show_export(session)
+    one_player_two_bars(dialog)
+    dialog._players.item(1).setCheckState(Qt.CheckState.Checked)
+    start(dialog)
+    excluded = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))["left_out"]
+    assert [one["player"] for one in excluded] == ["Trumpet 2"]
+    assert excluded[0]["reason"].startswith("the instrument 'ophicleide' of Trumpet 2 is not installed")
+    shown = child(dialog, QLabel, "export_outcome").text()
+    assert "Trumpet 2 は除外されました" in shown
+    assert excluded[0]["reason"] not in shown
+    session.deleteLater()
+
+
 def test_meshes_can_be_left_out_where_a_format_can_do_without(dialog: ExportDialog, tmp_path: Path) -> None:
     box = child(dialog, QCheckBox, "export_motion_only")
     bvh_only(dialog)
