@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -68,27 +69,32 @@ class Written:
 
     Parameters
     ----------
-    count : int
-        Number of the things that files are written of.
+    performers : collection of str
+        Names of the performers that files are written of.
 
     Attributes
     ----------
     share : float
         Share of the whole that is written.
     label : str
-        What was worked on last.
-    labels : dict
-        All that was worked on.
+        The performer or file that was worked on last.
     """
 
-    def __init__(self, count: int) -> None:
-        self.count, self.share, self.label = count, 0.0, ""
-        self.labels: dict[str, None] = {}
+    def __init__(self, performers: Collection[str]) -> None:
+        self.performers, self.share, self.label = performers, 0.0, ""
+        self._begun: dict[str, int] = {}
 
     def report(self, share: float, label: str) -> None:
         """Note how far it is, and what was worked on."""
+        if label in self.performers:
+            self._begun.setdefault(label, len(self._begun) + 1)
         self.share, self.label = share, label
-        self.labels[label] = None
+
+    @property
+    def number(self) -> int | None:
+        """Place of the performer that was worked on last in the order of their beginning, from 1; None of a file of
+        everyone."""
+        return self._begun.get(self.label)
 
 
 class ExportDialog(WorkingDialog):
@@ -162,7 +168,7 @@ class ExportDialog(WorkingDialog):
         self._outcome.setWidgetResizable(True)
         self._outcome.setWidget(self._files)
         self._outcome.setMinimumHeight(OUTCOME_PX)
-        self._written = Written(0)
+        self._written = Written(())
         self._timer = QTimer(self, interval=SHOW_MS)
         self._timer.timeout.connect(self._show_written)
         self._lay_out()
@@ -269,7 +275,7 @@ class ExportDialog(WorkingDialog):
         stop = self._stop
         request, destination = self._request(), self._place.destination
         performers = {player.name for player in request.players} | {dancer.name for dancer in request.dancers}
-        self._written = written = Written(len(performers) + request.sound + request.stage)
+        self._written = written = Written(performers)
 
         def work(progress: Progress, stop_requested: StopRequested) -> Done:
             def reported(share: float, label: str) -> None:
@@ -285,9 +291,13 @@ class ExportDialog(WorkingDialog):
 
     def _show_written(self) -> None:
         written = self._written
-        number = len(written.labels)
-        doing = self.tr("export_dialog.under_way").format(what=written.label, number=number, count=written.count)
-        self._show_share(written.share, doing if number else "")
+        label, number, count = written.label, written.number, len(written.performers)
+        if number is None:
+            doing = self.tr("export_dialog.under_way").format(what=label) if label else ""
+        else:
+            counted = "export_dialog.performer_under_way" if self._project.dancers else "export_dialog.player_under_way"
+            doing = self.tr(counted).format(name=label, number=number, count=count)
+        self._show_share(written.share, doing)
 
     def _done(self, done: Done) -> None:
         self._under_way.hide()

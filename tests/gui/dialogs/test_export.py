@@ -29,7 +29,7 @@ from tests.gui.japanese import speaking
 from tests.support.bad_players import own_folders, with_character, with_instrument
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child
-from widgets.dialogs.export_files import ExportDialog
+from widgets.dialogs.export_files import ExportDialog, Written
 
 KEY_WIDGETS = ((QComboBox, "export_keys"), (QCheckBox, "export_fbx"), (QCheckBox, "export_bvh"))
 
@@ -140,7 +140,8 @@ def test_cancelled_it_leaves_nothing_and_says_so(
     button = child(dialog, QPushButton, "export_start")
     assert not button.isEnabled()
     under_way = child(dialog, QLabel, "export_under_way")
-    qtbot.waitUntil(lambda: " of 5 · " in under_way.text())
+    # A player is done when its files are: the sound and the stage are none.
+    qtbot.waitUntil(lambda: ", player 1 of 4 · " in under_way.text())
     assert any(player.name in under_way.text() for player in session.project.players)
     assert "left" in under_way.text()
     reported: list[str] = []
@@ -160,6 +161,15 @@ def test_cancelled_it_leaves_nothing_and_says_so(
     qtbot.waitUntil(lambda: not (tmp_path / "out").exists())
     tasks.cancel_all(5.0)
     session.deleteLater()
+
+
+def test_what_is_written_is_counted_where_it_is_a_player() -> None:
+    written = Written({"Horn", "Flute"})
+    said = []
+    for label in ("", "Horn", "Flute", "Horn", "song.wav", "song stage.fbx"):
+        written.report(0.5, label)
+        said.append((written.label, written.number))
+    assert said == [("", None), ("Horn", 1), ("Flute", 2), ("Horn", 1), ("song.wav", None), ("song stage.fbx", None)]
 
 
 def test_usd_is_greyed_where_it_cannot_be_written(
