@@ -48,6 +48,12 @@ def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey])
     return Message(name, {**said, "count": len(keys)})
 
 
+def edit_at_events(session: PlannedPiece, name: str, keys: Collection[EventKey]) -> Message:
+    """Return the name of an edit that is called alike for events of every kind: their players, from where to where."""
+    of = (_named(session.project, {key.player_id for key in keys}), _places(session, keys))
+    return Message(name, {"of": " · ".join(filter(None, of))})
+
+
 def edit_of_notes(
     project: Project, name: str, note_ids: Collection[str], player_ids: Collection[str] | None = None
 ) -> Message:

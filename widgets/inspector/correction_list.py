@@ -8,6 +8,7 @@ from typing import Final
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QWidget
 
+from app.editor.edit_names import edit_at
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -214,7 +215,9 @@ class CorrectionList(Retranslated, QWidget):
                 project = take_back(project, place.player_id, (place.correction,))
             return project
 
-        self._session.attempt(Message("edit.give_back"), reverted)
+        places = [tick for tick in map(self._tick, chosen) if tick != LATE_TICK]
+        players = {key.player_id for key in chosen}
+        self._session.attempt(edit_at(self._session.project, "edit.give_back", len(chosen), players, places), reverted)
 
     def _revert_players(self) -> None:
         chosen = self._session.players

@@ -9,7 +9,7 @@ import msgspec
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QWidget
 
-from app.editor.edit_names import OF_EVENTS, edit_of_events
+from app.editor.edit_names import OF_EVENTS, edit_at_events, edit_of_events
 from app.editor.selection import EventKey
 from app.editor.session import Session
 from app.errors import Argument, Message
@@ -277,7 +277,12 @@ class EventSection(Retranslated, QWidget):
         if plan is None:
             return
         keys = [EventKey(plan.player_id, event.id) for event in self._events]
-        message = edit_of_events(self._session, name, keys) if name in OF_EVENTS else Message(name, more)
+        if name in OF_EVENTS:
+            message = edit_of_events(self._session, name, keys)
+        elif name == "edit.give_back":
+            message = edit_at_events(self._session, name, keys)
+        else:
+            message = Message(name, more)
         if not self._session.attempt(message, lambda project: change(project, plan), token):
             self.show_events()
 

@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 from PySide6.QtCore import QPoint
 from PySide6.QtWidgets import QWidget
 
+from app.editor.edit_names import edit_of_notes
 from app.editor.session import Session
 from app.errors import Message
 from app.plan.model import PlayerPlan
@@ -135,7 +136,7 @@ class NoteMarks(Retranslated, QWidget):
             return
         player, ids = self._shown[0], {note.id for note in self._shown[1]}
         self._session.attempt(
-            Message("edit.give_back"),
+            edit_of_notes(self._session.project, "edit.give_back", ids, (player.id,)),
             lambda project: take_back(project, player.id, corrections_at(project, player.id, ids)),
         )
 

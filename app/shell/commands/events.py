@@ -17,7 +17,7 @@ from app.editor.additions import (
     bars_of,
     change_styles,
 )
-from app.editor.edit_names import edit_of_events, edit_of_notes
+from app.editor.edit_names import edit_at_events, edit_of_events, edit_of_notes
 from app.editor.selection import EventKey, Selection
 from app.editor.session import Session
 from app.errors import Message
@@ -163,7 +163,10 @@ def return_to_generated(session: Session) -> None:
             project = give_back(project, player_id, events.get(player_id, ()), notes.get(player_id, ()))
         return project
 
-    session.attempt(Message("edit.give_back"), edit)
+    # A note is where its fingering is.
+    chosen = [*session.selection.events]
+    chosen += [EventKey(player_id, str(EventId("fingering", id))) for player_id, ids in notes.items() for id in ids]
+    session.attempt(edit_at_events(session, "edit.give_back", chosen), edit)
 
 
 def _can_return(session: Session) -> bool:
@@ -225,7 +228,8 @@ def prepare(session: Session) -> None:
             project = toggle_preparation(project, plan, note_id).project
         return project
 
-    session.attempt(Message("edit.toggle_preparation"), edit)
+    keys = [EventKey(plan.player_id, str(EventId("preparation", note_id))) for plan, note_id in found]
+    session.attempt(edit_at_events(session, "edit.toggle_preparation", keys), edit)
 
 
 def _added(kind: GestureRow) -> Action:

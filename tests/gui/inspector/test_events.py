@@ -20,7 +20,7 @@ from widgets.inspector.by_hand import ByHandLine
 from widgets.inspector.panel import InspectorPanel
 from widgets.inspector.rows import LineList
 
-NAME = Message("edit.give_back")
+NAME = Message("edit.give_back", {"of": ""})
 
 
 def plan(session: Session) -> PlayerPlan:

@@ -20,7 +20,9 @@ def test_everything_is_japanese_at_once_and_english_again(panel: InspectorPanel,
     player = planned.project.players[0]
     note = planned.project.part(player).notes[0]
     gesture = planned.performance.plan(player).gestures[2]
-    planned.attempt(Message("edit.give_back"), lambda p: edit.pin_fingerings(p, player.id, {note.id: "123"}))
+    planned.attempt(
+        Message("edit.give_back", {"of": ""}), lambda p: edit.pin_fingerings(p, player.id, {note.id: "123"})
+    )
     planned.select(Selection(frozenset((note.id,)), frozenset((EventKey(player.id, gesture.id),))))
     child(panel, Section, "inspector_expressions").set_open(True)
     show_tab(panel, 1)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from app.editor.edit_names import edit_of_events, edit_of_notes, edit_of_parameter, edit_of_players
+from app.editor.edit_names import edit_at_events, edit_of_events, edit_of_notes, edit_of_parameter, edit_of_players
 from app.editor.selection import EventKey
 from app.errors import Message
 from app.messages import text
@@ -40,6 +40,20 @@ def test_one_event_says_its_kind_player_and_place() -> None:
     )
     note = next(note for note in project.part(player).notes if breath.id.endswith(note.id))
     assert unplanned.arguments["of"] == f"{player.name} · {project.score.metre_map.label(note.onset_tick)}"
+
+
+def test_what_is_called_alike_for_every_kind_says_whose_and_where() -> None:
+    project = quartet_project()
+    shown = Shown(project, Performance(project))
+    first, second = project.players[:2]
+    early, late = project.part(first).notes[2], project.part(second).notes[7]
+    keys = [EventKey(first.id, f"fingering:{early.id}"), EventKey(second.id, f"preparation:{late.id}")]
+    one = edit_at_events(shown, "edit.toggle_preparation", keys[1:])
+    label = project.score.metre_map.label
+    assert text(one) == f"Toggle Breath Preparation ({second.name} · {label(late.onset_tick)})"
+    both = edit_at_events(shown, "edit.give_back", keys)
+    places = f"{label(early.onset_tick)}–{label(late.onset_tick)}"
+    assert text(both) == f"Revert to Generated ({first.name}, {second.name} · {places})"
 
 
 def test_several_events_say_how_many_and_from_where_to_where() -> None:

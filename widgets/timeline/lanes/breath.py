@@ -7,8 +7,9 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QWidget
 
 from app.editor.additions import add_breaths
+from app.editor.edit_names import edit_at_events
+from app.editor.selection import EventKey
 from app.editor.session import Session
-from app.errors import Message
 from app.plan.event_id import EventId
 from app.plan.kinds import BREATH_KINDS
 from app.plan.model import PlayerPlan
@@ -124,6 +125,8 @@ class BreathLane(RegionLane):
         on_click(entry, lambda: self._toggle(plan, note_id))
 
     def _toggle(self, plan: PlayerPlan, note_id: str) -> None:
+        key = EventKey(plan.player_id, str(EventId("preparation", note_id)))
         self.session.attempt(
-            Message("edit.toggle_preparation"), lambda project: toggle_preparation(project, plan, note_id).project
+            edit_at_events(self.session, "edit.toggle_preparation", (key,)),
+            lambda project: toggle_preparation(project, plan, note_id).project,
         )

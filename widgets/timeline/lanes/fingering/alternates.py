@@ -7,9 +7,9 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication, QFrame, QMenu, QPushButton
 
 from app.editor.design_tokens import LEAST_TARGET_PX
-from app.editor.edit_names import edit_of_notes
+from app.editor.edit_names import edit_at_events, edit_of_notes
+from app.editor.selection import EventKey
 from app.editor.session import Session
-from app.errors import Message
 from app.plan.model import FingeringEvent
 from app.project.edit.events import corrections_of, give_back, pin_fingerings
 from instrument_maps.fingering_words import fingering_words
@@ -139,7 +139,10 @@ class Alternates(QFrame):
             return
         event_id, player_id = self.event_shown.id, self.player_id
         self.hide()
-        self._session.attempt(Message("edit.give_back"), lambda project: give_back(project, player_id, (event_id,)))
+        self._session.attempt(
+            edit_at_events(self._session, "edit.give_back", (EventKey(player_id, event_id),)),
+            lambda project: give_back(project, player_id, (event_id,)),
+        )
 
     def fill_menu(self, menu: QMenu, player_id: str, event: FingeringEvent) -> None:
         """The same choices as entries of a menu."""
