@@ -5,6 +5,7 @@ A step takes as long as the captured dancers took for theirs.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -29,7 +30,7 @@ APART_S: Final = 0.15
 LEAST_STAND_S: Final = 0.15
 LEAST_SWING_S: Final = 0.25
 """A foot stands, and is off the floor for a step, no shorter than this; unless the motion has it so."""
-STEP_SHARE: Final = 0.9
+STEP_SHARE: Final = 0.95
 """A step takes no less than this share of the usual time, if both feet have time."""
 FASTEST_M_S: Final = 5.0
 """A foot that goes faster kicks, and comes down as the body has it: a moment later its place is far from the body's."""
@@ -133,7 +134,7 @@ def _leaves(
     """
     swing = after.start - before.stop
     way_m = float(np.linalg.norm(np.subtract(after.place_m, before.place_m)))
-    takes = max(swing, round(STEP_SHARE * step_s * fps)) if way_m > SAME_M else swing
+    takes = max(swing, math.ceil(STEP_SHARE * step_s * fps)) if way_m > SAME_M else swing
     first = came + min(before.stop - before.start, round(LEAST_STAND_S * fps))
     last = comes - min(swing, round(LEAST_SWING_S * fps))
     for other, new in others:
@@ -150,7 +151,8 @@ def _chosen(
     ``bounds_s`` are the first and the last time that each can be moved to.
     """
     times = [first_s + fall.start / fps for fall in falls]
-    options = [_options(time_s, grid, *bounds) for time_s, bounds in zip(times, bounds_s, strict=True)]
+    alone = [_options(time_s, grid, *bounds) for time_s, bounds in zip(times, bounds_s, strict=True)]
+    options = [[*own, *_along(at, falls, times, alone, bounds_s)] for at, own in enumerate(alone)]
     # By the options of the last fall but one and of the last: the worth so far.
     value = np.zeros((1, 1))
     back: list[np.ndarray] = []
@@ -187,6 +189,26 @@ def _options(time_s: float, grid: AccentGrid, earliest_s: float, latest_s: float
         place_s = float(grid.times_s[at])
         worth = ON_BEAT if grid.on_beat[at] else BETWEEN
         found.append((place_s, worth - MOVED * ((place_s - time_s) / REACH_S) ** 2))
+    return found
+
+
+def _along(
+    at: int,
+    falls: Sequence[FootPlant],
+    times: Sequence[float],
+    options: Sequence[Sequence[tuple[float, float]]],
+    bounds_s: Sequence[tuple[float, float]],
+) -> list[tuple[float, float]]:
+    """Times at which a foot can come down along with the other one that lands a moment before or after it."""
+    found = []
+    for other in (at - 1, at + 1):
+        if not 0 <= other < len(falls) or falls[other].foot == falls[at].foot:
+            continue
+        way_s = times[at] - times[other]
+        if abs(way_s) < APART_S:
+            places_s = [place_s + way_s for place_s, _ in options[other][1:]]
+            within = [place_s for place_s in places_s if bounds_s[at][0] <= place_s <= bounds_s[at][1]]
+            found += [(place_s, -MOVED * ((place_s - times[at]) / REACH_S) ** 2) for place_s in within]
     return found
 
 
