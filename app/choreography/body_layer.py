@@ -2,8 +2,9 @@
 
 A dancer walks, turns round and looks everywhere; a player stands and has a mouthpiece at the lips. So the motion is
 taken relative to itself: speeds are seen from where the dancer faces, those of spins are cut, and what is slower than
-a phrase (the way over the stage, the facing, the usual bearing) is left out. What remains is made smaller as a whole
-until it is within `MOST`, which keeps its phrasing, and the rare extremes end softly.
+a phrase (the way over the stage, the facing, the usual bearing) is left out. What remains is made smaller until it is
+within `MOST`, phrase by phrase, so that a large motion does not make those long before and after it small, and the rare
+extremes end softly.
 """
 
 from __future__ import annotations
@@ -54,6 +55,8 @@ USUAL: Final = 0.95
 """Share of the motion that is within ..."""
 USUAL_SHARE: Final = 0.85
 """... this share of `MOST`."""
+PHRASE_S: Final = 2.0
+"""Standard deviation of the window whose motion is made smaller alike."""
 
 
 def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = None) -> BodyLayer:
@@ -83,7 +86,7 @@ def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = N
             raw[f"{name}_{angle}_rad"] = np.unwrap(values)
     columns = {}
     for name in CHANNELS:
-        columns[name] = _held(_about_its_mean(raw[name], fps, _fastest(name)), MOST[name])
+        columns[name] = _held(_about_its_mean(raw[name], fps, _fastest(name)), MOST[name], fps)
     values = np.stack([columns[name] for name in CHANNELS], axis=1)
     if len(values) == 1:
         values = np.repeat(values, 2, axis=0)
@@ -130,8 +133,11 @@ def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArra
     return result
 
 
-def _held(values: FloatArray, most: float) -> FloatArray:
-    """Made smaller as a whole until it is usually well within its bound, which the rest keeps softly; never larger."""
-    usual = float(np.quantile(np.abs(values), USUAL))
-    size = min(1.0, USUAL_SHARE * most / usual) if usual > 0.0 else 1.0
-    return within(size * values, most, most)
+def _held(values: FloatArray, most: float, fps: float) -> FloatArray:
+    """Made smaller phrase by phrase until it is usually well within its bound, which the rest keeps softly; never
+    larger."""
+    sizes = np.sqrt(gaussian_filter1d(np.square(values), PHRASE_S * fps, mode="nearest"))
+    if not sizes.all():
+        return values
+    usual = sizes * np.quantile(np.abs(values) / sizes, USUAL)
+    return within(np.minimum(1.0, USUAL_SHARE * most / usual) * values, most, most)

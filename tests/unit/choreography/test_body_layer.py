@@ -111,6 +111,17 @@ def test_spins_leaps_and_jerks_stay_within_the_bounds() -> None:
     assert np.rad2deg(speeds[3:].max()) < 150.0
 
 
+def test_a_large_motion_leaves_a_later_small_one_as_large_as_it_was() -> None:
+    wave = np.sin(np.pi * TIMES_S)
+    sways, small = np.zeros((len(wave), 3)), np.zeros((len(wave), 3))
+    small[:, 0] = 0.04 * wave
+    sways[:, 0] = np.where(TIMES_S < 4.0, 0.25, 0.04) * wave
+    later = slice(9 * FPS, 11 * FPS)
+    swayed = column(layer(clip(sways)), "side_m")
+    assert np.ptp(swayed[later]) > 0.95 * np.ptp(column(layer(clip(small)), "side_m")[later])
+    assert np.ptp(swayed[: 4 * FPS]) > 1.2 * MOST["side_m"]
+
+
 def test_one_frame_is_a_layer_too() -> None:
     one = retarget(clip().span(0, 1), CHARACTER)
     assert np.abs(body_layer(one, CHARACTER).sample(np.array([-1.0, 0.0, 1.0]))).max() < 1e-9
