@@ -13,6 +13,9 @@ from app.rig.figure import Figure
 from widgets.common.controls import named
 from widgets.common.layouts import in_column
 
+_INDENTATION_PX, _MOST_INDENTED_PX = 10, 40
+"""Of a bone from its parent, and of the deepest bone at most: fingers hang under ten bones and more."""
+
 
 class BoneTree(QWidget):
     """Bones; Enter or a double click chooses one.
@@ -35,17 +38,20 @@ class BoneTree(QWidget):
         self.tree = named(_Tree(), "bone_tree")
         self.tree.setColumnCount(2)
         self.tree.setUniformRowHeights(True)
-        self.tree.setIndentation(10)
+        self.tree.setTextElideMode(Qt.TextElideMode.ElideMiddle)
+        self.tree.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.tree.itemActivated.connect(self._activated)
         self._items = list[QTreeWidgetItem]()
         for bone, name in enumerate(figure.bone_names):
             item = QTreeWidgetItem([name, ""])
+            item.setToolTip(0, name)
             parent_bone = figure.parents[bone]
             if parent_bone < 0:
                 self.tree.addTopLevelItem(item)
             else:
                 self._items[parent_bone].addChild(item)
             self._items.append(item)
+        self.tree.setIndentation(min(_INDENTATION_PX, _MOST_INDENTED_PX // max(1, _depth(figure))))
         self.tree.expandAll()
         in_column(self.search, (self.tree, 1), of=self, margins=0, spacing=4)
 
@@ -69,7 +75,11 @@ class BoneTree(QWidget):
     def set_headers(self, headers: Sequence[str]) -> None:
         """Name the columns."""
         self.tree.setHeaderLabels(list(headers))
-        self.tree.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        header = self.tree.header()
+        header.setStretchLastSection(False)
+        # Both are seen: which joint a bone is, and as much of its name as there is room for.
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
 
     def _filter(self, text: str) -> None:
         """Show the bones whose name holds the text, and those above them; that which is named so is marked, else
@@ -109,6 +119,14 @@ class BoneTree(QWidget):
                     self._activated(item)
                 return True
         return False
+
+
+def _depth(figure: Figure) -> int:
+    """Return how many bones the deepest one hangs under."""
+    depths = list[int]()
+    for parent in figure.parents:
+        depths.append(0 if parent < 0 else depths[parent] + 1)
+    return max(depths, default=0)
 
 
 class _Tree(QTreeWidget):
