@@ -21,6 +21,12 @@ HANDLE_RADIUS_PX = 13.0
 CROWN_M = np.array([0.0, 0.12, 0.0])
 """Top of the head in its joint's frame."""
 NAME_UP_M = 0.19
+_FACE_M, _FACE_HALF_M = np.array([0.0, 0.08, 0.04]), 0.13
+"""Middle of the face in the frame of the head's joint, and half the side of a square that holds it."""
+_STEPS, _SAME_PX2 = 5, 1e-3
+"""Distances that a reading is tried at, and areas that count as alike."""
+_SIDES = ((0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+"""Directions to the right and down, the first ones preferred."""
 CLOSE_MM, NEAR_MM = 2.0, 4.0
 """A touch within the first is right, within the second all but right."""
 
@@ -65,7 +71,8 @@ def paint(
     if marks.touches:
         _paint_touches(painter, marks.touches, camera, size, tokens, [box for _, box in names])
     if marks.handles:
-        _paint_handles(painter, marks, camera, size, tokens, [box for _, box in names])
+        seen = [box for _, box in names] + (faces(stage, camera, size) if marks.reading else [])
+        _paint_handles(painter, marks, camera, size, tokens, seen)
     for name, box in names:
         _paint_pill(painter, name.text, box, tokens, name.color if name.in_front else "")
 
@@ -163,9 +170,9 @@ def _paint_handles(
     camera: Camera,
     size: tuple[float, float],
     tokens: Tokens,
-    names: Sequence[QRectF],
+    taken: Sequence[QRectF],
 ) -> None:
-    """Paint handles and the angles of the one in hand, which keep clear of the names."""
+    """Paint handles and the angles of the one in hand, which keep clear of names and faces."""
     places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
     for handle, place, depth in zip(marks.handles, places, depths, strict=True):
         if depth <= 0.0:
@@ -183,12 +190,46 @@ def _paint_handles(
         painter.drawEllipse(at, 3.0, 3.0)
         if grasped and marks.reading:
             metrics = QFontMetricsF(_font(painter, 9.0, bold=True))
-            box = _pill_box(metrics, marks.reading, at + QPointF(0.0, -HANDLE_RADIUS_PX - 14.0), size)
-            for name in names:
-                if box.intersects(name):
-                    # Under the handle there is room.
-                    box.moveTop(max(at.y() + HANDLE_RADIUS_PX + 6.0, name.bottom() + 2.0))
+            box = clear_of(_pill_box(metrics, marks.reading, at, size), at, taken, size)
             _paint_pill(painter, marks.reading, box, tokens, tokens.accent)
+
+
+def clear_of(box: QRectF, at: QPointF, taken: Sequence[QRectF], size: tuple[float, float]) -> QRectF:
+    """Move a box beside a handle, within the picture, where it covers least of what is taken: over the handle if it
+    covers nothing there, else under it, beside it, or some heights farther."""
+    far = HANDLE_RADIUS_PX + 4.0
+    picture = QRectF(0.0, 0.0, *size)
+    best, least = box, float("inf")
+    for step in range(_STEPS):
+        off = far + step * (box.height() + 2.0)
+        for right, down in _SIDES:
+            middle = at + QPointF(right * (off + box.width() / 2.0), down * (off + box.height() / 2.0))
+            moved = QRectF(box)
+            moved.moveCenter(middle)
+            inside = moved.intersected(picture)
+            covered = sum((_area(moved.intersected(other)) for other in taken), _area(moved) - _area(inside))
+            if covered < least - _SAME_PX2:
+                best, least = moved, covered
+    return best
+
+
+def _area(box: QRectF) -> float:
+    return box.width() * box.height() if box.isValid() else 0.0
+
+
+def faces(stage: Stage, camera: Camera, size: tuple[float, float]) -> list[QRectF]:
+    """Squares around the heads of everyone in sight."""
+    rows = [row for row in np.flatnonzero(stage.shown) if stage.members[row].has_body]
+    if not rows:
+        return []
+    heads = stage.joints[rows, stage.heads[rows]]
+    places, depths = camera.project(heads[:, :, :3] @ _FACE_M + heads[:, :, 3], *size)
+    boxes = []
+    for (x, y), depth in zip(places, depths, strict=True):
+        if depth > 0.0:
+            half = _FACE_HALF_M * camera.pixels_per_metre(size[1], float(depth))
+            boxes.append(QRectF(x - half, y - half, 2.0 * half, 2.0 * half))
+    return boxes
 
 
 def _placed_names(
