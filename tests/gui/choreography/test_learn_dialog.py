@@ -164,6 +164,13 @@ def test_a_frame_rate_is_corrected_and_shown(dialog: LearnDialog, folder: Path) 
     notes = child(dialog, QLabel, "learn_pair_notes")
     assert isinstance(notes, QLabel)
     assert "30000/1001 frames/s (the file states 60)" in notes.text()
+    # No line of them is cut, whatever room there is.
+    room = notes.parentWidget()
+    for height_px in range(dialog.height(), dialog.height() + 40, 7):
+        dialog.resize(dialog.width(), height_px)
+        QApplication.processEvents()
+        lines, cut_px = divmod(room.height(), notes.fontMetrics().lineSpacing())
+        assert (cut_px, lines >= 3) == (0, True), height_px
 
 
 def test_a_bad_pair_is_named_and_the_others_stay(

@@ -8,6 +8,7 @@ from typing import Final
 
 import msgspec
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QScrollArea, QWidget
 
 from app.choreography.music_offset import CONFIDENT
@@ -46,8 +47,8 @@ _PLACEHOLDERS: Final = {
 }
 _LONGEST_S = 24 * 3600.0
 """Bound of an offset before the files are read."""
-_NOTES_PX = 54
-"""Room for three lines; of more the rest is scrolled to."""
+_NOTES_LINES = 3
+"""Least lines of notes in sight; of more the rest is scrolled to."""
 
 
 class PairForm(Retranslated, QWidget):
@@ -78,12 +79,7 @@ class PairForm(Retranslated, QWidget):
         )
         self._notes = wrapped(named(Label(), "learn_pair_notes"))
         self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
-        room = QScrollArea()
-        room.setFrameShape(QScrollArea.Shape.NoFrame)
-        room.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        room.setWidgetResizable(True)
-        room.setMinimumHeight(_NOTES_PX)
-        room.setWidget(self._notes)
+        room = named(_WholeLines(self._notes), "learn_pair_notes_room")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(1, 1)
@@ -219,3 +215,29 @@ class PairForm(Retranslated, QWidget):
 def file_name(path: Path | None) -> str:
     """The name of a file without folders; a dash where there is none."""
     return "–" if path is None else shown(path.name)
+
+
+class _WholeLines(QScrollArea):
+    """Room for some lines of a text, which never shows a part of a line.
+
+    Parameters
+    ----------
+    text : Label
+        It is scrolled line by line.
+    """
+
+    def __init__(self, text: Label) -> None:
+        super().__init__()
+        self._text = text
+        self.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setWidgetResizable(True)
+        self.setWidget(text)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave what is no whole line free under the text."""
+        super().resizeEvent(event)
+        line_px = self._text.fontMetrics().lineSpacing()
+        self.setMinimumHeight(_NOTES_LINES * line_px)
+        self.verticalScrollBar().setSingleStep(line_px)
+        self.setViewportMargins(0, 0, 0, self.height() % line_px)
