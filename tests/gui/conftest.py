@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, Qt
-from PySide6.QtWidgets import QApplication
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.choreography.model_file import write_model
 from app.editor.design_tokens import DARK
@@ -139,11 +141,16 @@ def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
     gc.collect()
     gc.freeze()
     yield
+    held = QGuiApplication.mouseButtons()
+    if held != Qt.MouseButton.NoButton:
+        # As after a double click of `QTest`, which ends with its second press.
+        QTest.mouseRelease(QWidget(), held)
     for widget in QApplication.topLevelWidgets():
         widget.close()
         widget.deleteLater()
     delete_now()
     gc.collect()
+    assert QGuiApplication.mouseButtons() == Qt.MouseButton.NoButton
 
 
 @pytest.fixture(autouse=True)
