@@ -222,9 +222,9 @@ def test_a_slider_drag_is_one_step_and_the_undo_shows(panel: PlayersPanel, sessi
 def test_a_drag_back_to_the_start_is_no_step(panel: PlayersPanel, session: Session) -> None:
     control = slider(panel, "parameter_sway")
     QTest.mousePress(control, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
-    for x in (64, 90, 64):
+    for x in (64, 90, 60):
         QTest.mouseMove(control, QPoint(x, 10))
-    QTest.mouseRelease(control, Qt.MouseButton.LeftButton, pos=QPoint(64, 10))
+    QTest.mouseRelease(control, Qt.MouseButton.LeftButton, pos=QPoint(60, 10))
     assert front(session).parameters.sway == 1.0
     assert not session.document.done
 

@@ -258,8 +258,10 @@ def test_bare_skeletons_single_frames_and_no_clip() -> None:
     still = _document(encode_glb(replace(scene, clip=None)))
     assert "animations" not in still
     bare = _document(encode_glb(replace(scene, clip=None, meshes=())))
-    assert "buffers" not in bare
+    assert "meshes" not in bare
     assert len(bare["nodes"]) == len(scene.bones)
+    # By the skin alone programs take nodes for bones.
+    assert [len(skin["joints"]) for skin in bare["skins"]] == [len(scene.bones)]
 
 
 def test_quaternions_take_the_short_way_even_when_given_the_long_one() -> None:
