@@ -14,7 +14,7 @@ from widgets.common.controls import named
 from widgets.common.layouts import in_column
 
 _INDENTATION_PX, _MOST_INDENTED_PX = 10, 40
-"""Of a bone from its parent, and of the deepest bone at most: fingers hang under ten bones and more."""
+"""Indentation of a bone from its parent, and at most of the deepest one: fingers hang under ten bones and more."""
 
 
 class BoneTree(QWidget):
