@@ -17,7 +17,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QLineEdit, QMenu, QSizePolicy, QWidget
 
-from app.editor.session import Session
+from app.editor.session import Session, Severity
+from app.errors import Message
 from widgets.common.clicks import on_click
 from widgets.common.controls import named
 from widgets.common.number_display import NumberDisplay
@@ -30,6 +31,8 @@ FREE_DRAG_PX = 4
 WHEEL_REST_MS = 600
 """Notches of the wheel closer than this are one turn of it, and one step of the history."""
 FINE = 0.1
+MOST_SHOWN = 24
+"""Characters of a text that is no value, as it is said."""
 _STEP_KEYS = {
     Qt.Key.Key_Up: 1.0,
     Qt.Key.Key_Right: 1.0,
@@ -166,11 +169,13 @@ class NumberSlider(NumberDisplay):
         if text is None:
             field.selectAll()
 
-    def _take(self, text: str) -> bool:
+    def _take(self, text: str) -> None:
         value = self._reads(text) if self._reads is not None else number_from(text, self._unit)
         if value is not None:
             self._request(value, None)
-        return value is not None
+        else:
+            said = Message("value.not_understood", {"text": text.strip()[:MOST_SHOWN], "value": self.value_text()})
+            self._session.notice(said, Severity.WARNING)
 
     def _request(self, value: float, token: object | None) -> None:
         kept = self._kept(value)

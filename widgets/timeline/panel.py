@@ -10,6 +10,7 @@ from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from app.editor.session import Session
+from app.editor.stretches_of_time import scroll_limits, selected_span
 from app.editor.timeline_view import Ghosts, Tool
 from app.errors import Message
 from app.project.undoable_document import Change
@@ -30,7 +31,6 @@ from widgets.timeline.roll.piano_roll import ZOOM_A_KEY, PianoRoll
 from widgets.timeline.roll.quantise import QuantisePopover
 from widgets.timeline.ruler.flags import Flags
 from widgets.timeline.ruler.time_ruler import Ruler
-from widgets.timeline.scroll_limits import scroll_limits, selected_span
 from widgets.timeline.stack import LaneStack
 from widgets.timeline.stacked_players import PlayerLanes, StackedPlayers
 from widgets.timeline.tool_bar import BUTTON_PX, ToolBar

@@ -12,6 +12,7 @@ from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.grids import GRIDS
 from app.editor.listening import LEAST_SPEED, MOST_SPEED, SOURCES
 from app.editor.session import Session
+from app.editor.stretches_of_time import place_limits
 from app.project.snap_grid import Grid
 from app.project.undoable_document import Change
 from widgets.common.actions import actions, with_keys
@@ -200,8 +201,12 @@ class TransportBar(Retranslated, QWidget):
         add_actions(menu, self._session, RECORD_MENU)
 
     def _go(self, time_s: float) -> None:
+        start_s, end_s = place_limits(self._session)
+        time_s = min(max(time_s, start_s), end_s)
         self._session.set_playhead(time_s)
         self._session.reveal(time_s)
+        # Also where the playhead was at the limit already: the field has what was typed.
+        self._show_playhead(time_s)
 
     def _choose_source(self, source: str) -> None:
         for known in SOURCES:

@@ -17,6 +17,7 @@ from app.editor.grids import GRIDS
 from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.sound import EditorSound
+from app.editor.stretches_of_time import place_limits
 from app.errors import Message
 from app.project.edit.piece import set_audio, set_fps
 from app.project.edit.tempo import set_metre, set_tempo
@@ -26,6 +27,7 @@ from tests.gui.transport.conftest import Elapse
 from tests.gui.transport.devices import FakeDevices
 from tests.support.windows import show
 from widgets.common.number_slider import NumberSlider
+from widgets.common.text import sentence
 from widgets.transport.bar import TransportBar
 from widgets.transport.fields import clock_seconds, clock_text
 
@@ -108,6 +110,35 @@ def test_places_are_typed(qtbot: QtBot, bar: TransportBar, session: Session) -> 
     type_into(qtbot, bar.clock, "nonsense")
     assert session.playhead_s == pytest.approx(10.0)
     assert not session.document.done
+
+
+def test_a_typed_place_stays_within_the_piece_and_its_room_to_write(
+    qtbot: QtBot, bar: TransportBar, session: Session
+) -> None:
+    score, (first_s, _) = session.project.score, place_limits(session)
+    assert -5.0 < first_s <= session.performance.time_frame.first_frame_s
+    end_s = score.tempo_map.seconds(float(score.end_tick))
+    for field in (bar.bars, bar.clock, bar.frames):
+        for _ in range(2):
+            type_into(qtbot, field, "9999")
+            assert end_s <= session.playhead_s <= max(60.0, 1.1 * end_s + 10.0)
+            assert score.metre_map.tick_of_label(bar.bars.value_text()) == bar.bars.value
+            assert bar.bars.value == pytest.approx(score.tempo_map.ticks(session.playhead_s), abs=1.0)
+        for _ in range(2):
+            type_into(qtbot, field, "-500")
+            assert session.playhead_s == first_s
+            assert bar.bars.value == pytest.approx(score.tempo_map.ticks(first_s), abs=1.0)
+
+
+def test_text_that_is_no_place_is_said(qtbot: QtBot, bar: TransportBar, session: Session) -> None:
+    reported: list[Message] = []
+    session.noticed.connect(lambda message, severity: reported.append(message))
+    for number, field in enumerate((bar.bars, bar.clock, bar.frames, bar.speed), 1):
+        before = session.playhead_s
+        type_into(qtbot, field, "abc")
+        assert session.playhead_s == before
+        assert len(reported) == number
+        assert sentence(reported[-1]) == f"“abc” is not understood here; the value stays {field.value_text()}"
 
 
 def test_places_are_dragged_and_copied(qtbot: QtBot, bar: TransportBar, session: Session) -> None:

@@ -1,4 +1,4 @@
-"""Stretches of time: how far the timeline scrolls, and where the selection lies."""
+"""Stretches of time: what a place can be set to, how far the timeline scrolls, and where the selection lies."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ PREROLL_S = 4.0
 """Before the plans say how long it is."""
 
 
-def scroll_limits(session: Session) -> tuple[float, float]:
-    """Limits of the timeline, seconds: the performance with its pre-roll, and room to write on."""
+def place_limits(session: Session) -> tuple[float, float]:
+    """Limits of places that are typed, seconds: the performance with its pre-roll, and room to write on."""
     score = session.project.score
     end_s = score.tempo_map.seconds(float(score.end_tick))
     start_s = -PREROLL_S
@@ -22,7 +22,13 @@ def scroll_limits(session: Session) -> tuple[float, float]:
     if performance.planned and performance.plans:
         frame = performance.time_frame
         start_s, end_s = min(frame.first_frame_s, 0.0), max(end_s, frame.end_s)
-    return start_s - MARGIN_S, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
+    return start_s, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
+
+
+def scroll_limits(session: Session) -> tuple[float, float]:
+    """Limits of the timeline, seconds: those of places, and a margin in front."""
+    start_s, end_s = place_limits(session)
+    return start_s - MARGIN_S, end_s
 
 
 def selected_span(session: Session) -> tuple[float, float] | None:
