@@ -1,4 +1,4 @@
-"""Buttons focused by the keyboard, and Space on them."""
+"""Buttons focused by the keyboard, and Space on them; Enter in fields of text."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from shiboken6 import isValid
 class KeyboardButtons(QObject):
     """Space plays; but who came to a button with the keyboard presses it with Space.
 
+    Enter plays a bar, except in a field of text, which Qt gives letters before shortcuts, but not Enter.
     A button that was clicked keeps the keyboard too, and there Space goes on to play. Watched is only what has the
     keyboard: a filter of the whole application would have Python asked a hundred times in every frame.
     """
@@ -43,15 +44,17 @@ class KeyboardButtons(QObject):
             self._reason = Qt.FocusReason.TabFocusReason if tab else None
         elif (
             kind == QEvent.Type.ShortcutOverride
-            and self._reached
             and isinstance(event, QKeyEvent)
-            and event.key() == Qt.Key.Key_Space
-            and _is_pressed_by_space(watched)
+            and (
+                (event.key() == Qt.Key.Key_Space and self._reached and _is_pressed_by_space(watched))
+                or (event.key() in _ENTER and watched.inherits("QLineEdit"))
+            )
         ):
             event.accept()
         return False
 
 
+_ENTER = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
 _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason)
 
 
