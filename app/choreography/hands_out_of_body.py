@@ -34,7 +34,9 @@ ALONG: Final = (0.0, 0.5, 1.0)
 AHEAD_M: Final = 0.03
 """A point in the middle of the body is pushed to the front."""
 SMOOTH_S: Final = 0.08
-"""Standard deviation in time of a push."""
+"""Standard deviation in time of how far a hand is pushed."""
+TURNS_S: Final = 0.16
+"""The same of the way it is pushed: a hand that goes through the body is not thrown from one side to the other."""
 PASSES: Final = 2
 """A hand that is pushed out of one part may come into another."""
 LEAST_M: Final = 0.002
@@ -83,7 +85,7 @@ def _push_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
         return np.zeros_like(deepest)
     width = 2 * round(2.0 * SMOOTH_S * fps) + 1
     size = gaussian_filter1d(maximum_filter1d(depth, width, mode="nearest"), SMOOTH_S * fps, mode="nearest")
-    way = gaussian_filter1d(deepest, SMOOTH_S * fps, axis=0, mode="nearest", truncate=8.0)
+    way = gaussian_filter1d(deepest, TURNS_S * fps, axis=0, mode="nearest", truncate=8.0)
     length = np.linalg.norm(way, axis=1)
     push = way * (size / np.maximum(length, 1e-9))[:, None]
     return np.asarray(np.where((size > 1e-5)[:, None], push, 0.0))
