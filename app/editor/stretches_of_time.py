@@ -11,17 +11,13 @@ ROOM_S = 8.0
 LEAST_S = 60.0
 PREROLL_S = 4.0
 """Before the plans say how long it is."""
+LEAST_BARS = 4
+"""Bars that are shown of a shorter piece."""
 
 
 def place_limits(session: Session) -> tuple[float, float]:
     """Limits of places that are typed, seconds: the performance with its pre-roll, and room to write on."""
-    score = session.project.score
-    end_s = score.tempo_map.seconds(float(score.end_tick))
-    start_s = -PREROLL_S
-    performance = session.performance
-    if performance.planned and performance.plans:
-        frame = performance.time_frame
-        start_s, end_s = min(frame.first_frame_s, 0.0), max(end_s, frame.end_s)
+    start_s, end_s = _performance_s(session)
     return start_s, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
 
 
@@ -29,6 +25,29 @@ def scroll_limits(session: Session) -> tuple[float, float]:
     """Limits of the timeline, seconds: those of places, and a margin in front."""
     start_s, end_s = place_limits(session)
     return start_s - MARGIN_S, end_s
+
+
+def whole_piece(session: Session) -> tuple[float, float]:
+    """Span that shows the whole piece, seconds: its performance, at least some bars; all there is room for where
+    nothing has been written yet."""
+    limits_s = scroll_limits(session)
+    score = session.project.score
+    if not score.sounding_end_tick:
+        return limits_s
+    least_tick = max(score.metre_map.tick_of_bar(LEAST_BARS + 1), score.sounding_end_tick)
+    shown_end_s = max(_performance_s(session)[1] + MARGIN_S, score.tempo_map.seconds(float(least_tick)))
+    return limits_s[0], min(shown_end_s, limits_s[1])
+
+
+def _performance_s(session: Session) -> tuple[float, float]:
+    """First and last second of the performance; of the notes and the usual pre-roll before it is planned."""
+    score = session.project.score
+    end_s = score.tempo_map.seconds(float(score.end_tick))
+    performance = session.performance
+    if performance.planned and performance.plans:
+        frame = performance.time_frame
+        return min(frame.first_frame_s, 0.0), max(end_s, frame.end_s)
+    return -PREROLL_S, end_s
 
 
 def selected_span(session: Session) -> tuple[float, float] | None:

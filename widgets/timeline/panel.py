@@ -10,7 +10,7 @@ from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from app.editor.session import Session
-from app.editor.stretches_of_time import scroll_limits, selected_span
+from app.editor.stretches_of_time import scroll_limits, selected_span, whole_piece
 from app.editor.timeline_view import Ghosts, Tool
 from app.errors import Message
 from app.project.undoable_document import Change
@@ -337,7 +337,7 @@ class TimelinePanel(Retranslated, QWidget):
             self.axis.show(self.axis.start_s, end_s)
 
     def _set_limits(self) -> None:
-        self.axis.set_limits(*scroll_limits(self.session))
+        self.axis.set_limits(*scroll_limits(self.session), whole_piece(self.session))
 
     def _session_changed(self, change: Change) -> None:
         if change.opened or change.before.score is not change.after.score:

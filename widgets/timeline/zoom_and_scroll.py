@@ -62,6 +62,7 @@ class TimeAxis(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._view = TimeView((0.0, 60.0), 0.0, 60.0, 800)
+        self._whole_s = self._view.limits_s
         self._line_cache = LineCache()
 
     @property
@@ -110,8 +111,10 @@ class TimeAxis(QObject):
         """Bars, beats and grid lines of the visible range."""
         return self._line_cache.get(score, grid, self.start_s, self.end_s, self.px_per_s)
 
-    def set_limits(self, start_s: float, end_s: float) -> None:
-        """Change what can be scrolled to; the visible range moves only where it must."""
+    def set_limits(self, start_s: float, end_s: float, whole_s: tuple[float, float]) -> None:
+        """Change what can be scrolled to, and what is shown as the whole; the visible range moves only where it
+        must."""
+        self._whole_s = whole_s
         self._become(self._view.within(start_s, end_s))
 
     def set_width(self, width_px: int) -> None:
@@ -123,8 +126,8 @@ class TimeAxis(QObject):
         self._become(self._view.showing(start_s, end_s))
 
     def fit(self) -> None:
-        """Show everything between the limits."""
-        self._become(self._view.showing(*self.limits_s))
+        """Show the whole."""
+        self._become(self._view.showing(*self._whole_s))
 
     def zoom(self, factor: float, at_s: float) -> None:
         """Show ``factor`` times less; the time ``at_s`` stays where it is."""

@@ -386,7 +386,7 @@ def test_from_far_away_the_strongest_of_each_column_is_drawn(panel: TimelinePane
     everything = {region.event_id for region in lane.regions}
     lane.axis.show(-3.0, 27.0)
     near = {region.event_id for region in lane.visible(0.0, 1e4)}
-    lane.axis.set_limits(-500.0, 6000.0)
+    lane.axis.set_limits(-500.0, 6000.0, (-500.0, 6000.0))
     lane.axis.show(-500.0, 6000.0)
     session.select(Selection(events=frozenset({EventKey(plan.player_id, selected)})))
     drawn = list(lane.visible(-1e4, 1e4))

@@ -217,8 +217,9 @@ def test_the_scroll_bar_and_the_buttons_below(stage: Stage) -> None:
     panel.time_bar.setValue(panel.time_bar.maximum())
     assert axis.end_s == pytest.approx(axis.limits_s[1], abs=0.002)
     QTest.mouseClick(panel.zoom_buttons["fit"], Qt.MouseButton.LeftButton)
-    assert (axis.start_s, axis.end_s) == axis.limits_s
-    assert panel.time_bar.maximum() == 0
+    assert axis.start_s == axis.limits_s[0]
+    assert 8.0 <= axis.end_s <= 16.0
+    assert panel.time_bar.value() == 0
 
 
 def test_a_time_is_revealed(stage: Stage) -> None:
@@ -300,8 +301,14 @@ def test_a_short_piece_is_first_shown_whole_and_of_a_long_one_the_beginning(
     parts = (msgspec.structs.replace(part, notes=(*part.notes[:4], last)), project.score.parts[1])
     stage.session.document.open(replace(project, score=msgspec.structs.replace(project.score, parts=parts)))
     axis = stage.panel.axis
-    low_s, high_s = axis.limits_s
+    low_s, _ = axis.limits_s
+    bar_s = 2.0
+    # Not much more than the piece, of which at least four bars are seen.
+    most_s = max(bars, 4) * bar_s + 8.0
     assert axis.start_s == low_s
-    assert axis.end_s == pytest.approx(high_s if shown is None else 2.0 * shown)
+    if shown is None:
+        assert max(bars, 4) * bar_s <= axis.end_s <= most_s
+    else:
+        assert axis.end_s == pytest.approx(bar_s * shown)
     stage.panel.fit()
-    assert axis.end_s == high_s
+    assert max(bars, 4) * bar_s <= axis.end_s <= most_s

@@ -401,7 +401,8 @@ def test_zoom_to_selection_and_fit(stage: Stage) -> None:
     assert 0.6 < axis.start_s < 1.0
     assert 1.9 < axis.end_s < 2.4
     stage.do("timeline.fit")
-    assert (axis.start_s, axis.end_s) == axis.limits_s
+    assert axis.start_s == axis.limits_s[0]
+    assert 8.0 <= axis.end_s <= 16.0
 
 
 def test_the_page_turns_while_playing(stage: Stage) -> None:

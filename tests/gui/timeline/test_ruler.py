@@ -178,7 +178,8 @@ def test_a_running_take_is_seen_from_its_beginning_to_the_playhead(stage: Stage)
 def test_a_double_click_fits(stage: Stage) -> None:
     Hand(ruler_of(stage)).double_click(place(stage, 3 * TPQ))
     axis = stage.panel.axis
-    assert (axis.start_s, axis.end_s) == axis.limits_s
+    assert axis.start_s == axis.limits_s[0]
+    assert 8.0 <= axis.end_s <= 16.0
 
 
 def test_wheels_scroll_and_zoom(stage: Stage) -> None:
@@ -390,7 +391,7 @@ def test_marks_stand_where_the_slow_way_puts_them(qt_app: QApplication, seed: in
     changes = [TempoChange(tick, made.randint(300_000, 900_000)) for tick in ticks if tick == 0 or made.random() < 0.5]
     score = Score("", TPQ, TempoMap.of_changes(TPQ, changes), metres)
     axis, metrics = TimeAxis(), QFontMetricsF(QFont())
-    axis.set_limits(-1.0, 100.0)
+    axis.set_limits(-1.0, 100.0, (-1.0, 100.0))
     axis.set_width(600)
     axis.show(made.uniform(-1.0, 30.0), made.uniform(31.0, 90.0))
     marks = lay_marks(score, axis, metrics, 100.0, 700.0, 20.0)
