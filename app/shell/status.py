@@ -218,6 +218,10 @@ class StatusLine(Retranslated, QStatusBar):
         if self._notice.isHidden() or self._log[-1][1] is Severity.INFORMATION:
             return
         message = self._log[-1][0]
+        if message.id == "record.no_device":
+            if port:
+                self.dismiss()
+            return
         device = message.arguments.get("device", message.arguments.get("port"))
         if message.id in NO_DEVICE or (message.id.startswith("record.") and device is not None):
             # What the whole MIDI system lacks names no device.

@@ -161,6 +161,15 @@ def test_a_warning_about_a_device_goes_with_the_choice_of_it(
     assert (status.notice_text == "") is goes
 
 
+def test_that_none_is_chosen_goes_with_the_first_choice_of_a_device(program: Program) -> None:
+    status, session = program.window.status, program.session
+    session.notice(Message("record.no_device"), Severity.WARNING)
+    session.recording.set(ports=("Aerophone",))
+    assert status.notice_text
+    session.recording.set(port="Aerophone", connection="open")
+    assert not status.notice_text
+
+
 def test_a_warning_about_a_device_goes_with_the_choice_of_another_one(program: Program) -> None:
     status, session = program.window.status, program.session
     session.recording.set(port="Aerophone", connection="refused")
