@@ -167,7 +167,8 @@ class FingeringDiagram(QWidget):
 
     def _tip(self, control: Control) -> str:
         assert self._instrument is not None
-        return f"{key_name(self._instrument, control.name, language())}\n{finger_text(control.finger)}"
+        lines = [key_name(self._instrument, control.name, language()), finger_text(control.finger)]
+        return "\n".join(lines if self._editable else [*lines, tr("fingering_name.only_shown")])
 
     def _line_px(self) -> float:
         return QFontMetricsF(self._small()).height()
