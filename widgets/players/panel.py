@@ -204,6 +204,8 @@ class PlayersPanel(Retranslated, QWidget):
             upper = self._empty.heightForWidth(self.width()) + tools_px
         else:
             upper = min(max(self.list.height_of_rows() + tools_px, LEAST_LIST_PX), round(LIST_SHARE * height))
+            # The search takes nothing from the rows that it is for.
+            upper += self.search.sizeHint().height() if self.search.isVisibleTo(self) else 0
         self._splitter.setSizes([upper, height - upper])
 
     def _changed(self, change: Change) -> None:

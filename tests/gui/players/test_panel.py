@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace as replace_struct
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QMenu, QPushButton, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
@@ -24,7 +24,7 @@ from tests.gui.players.conftest import ShowPlayers
 from tests.support.windows import child
 from widgets.common.combo import Combo
 from widgets.common.number_slider import NumberSlider
-from widgets.players.panel import PlayersPanel
+from widgets.players.panel import LEAST_LIST_PX, PlayersPanel
 from widgets.players.player_list import PlayerList
 from widgets.players.stage import StageView
 
@@ -116,6 +116,9 @@ def test_mute_and_solo(panel: PlayersPanel, session: Session) -> None:
 def test_players_of_a_large_piece_are_searched_and_muted_by_section(panel: PlayersPanel, session: Session) -> None:
     search = child(panel, QLineEdit, "players_search")
     assert not search.isVisible()
+    panel.resize(panel.width(), 2 * LEAST_LIST_PX)
+    QApplication.processEvents()
+    rows_px = panel.list.height()
     for _ in range(2):
         session.attempt(
             Message("edit.duplicate_players", {"of": "Trumpet 1"}),
@@ -124,6 +127,8 @@ def test_players_of_a_large_piece_are_searched_and_muted_by_section(panel: Playe
     players = session.project.players
     assert len(players) == 16
     assert search.isVisible()
+    QApplication.processEvents()
+    assert panel.list.height() >= rows_px, "the search takes nothing from the list"
     QTest.keyClicks(search, "TROMB")
     trombones = [number for number, player in enumerate(players) if player.name.startswith("Trombone")]
     rows = panel.list.rows
