@@ -28,7 +28,7 @@ from app.project.edit.piece import new_piece, relocate, set_audio, set_video
 from app.project.importing import ImportRequest, import_project, usual_rows
 from app.project.model import Project
 from app.project.names import file_stem
-from app.project.recovery import Recoverable, discard, load_work, recoverable, recoverable_of
+from app.project.recovery import Recoverable, discard, load_work, never_saved, recoverable, recoverable_of
 from app.project.salvage import salvaged
 from app.project.undoable_document import Change
 from app.rig.characters.character_library import reload_characters
@@ -65,7 +65,7 @@ class Files(QObject):
     left()
         The open piece is about to be another, or was just saved: what was seen of it should be remembered.
     found(Recoverable)
-        There is unsaved work on the file that was just opened.
+        There is unsaved work on the file that was just opened, or on a piece that was never saved.
     missing(Path)
         The recording of the project that was just opened is not where it was.
     elsewhere(tuple of str)
@@ -165,7 +165,7 @@ class Files(QObject):
         """A new, empty piece."""
         self.let_go(lambda: self._become(new_piece(), None))
 
-    def open(self, path: Path, ask: bool = True) -> None:
+    def open(self, path: Path, ask: bool = True, at_start: bool = False) -> None:
         """Open a project, a MIDI file or a score in place of what is open; a recording or a reference video is added
         to it.
 
@@ -173,6 +173,9 @@ class Files(QObject):
         ----------
         ask : bool
             Whether the import of a MIDI file or a score asks who plays what.
+        at_start : bool
+            True: the editor starts with this file, and no start page has shown unsaved work; all of it is looked for
+            that has no file of its own.
         """
         agree(path)
         path = path.absolute()
@@ -186,9 +189,9 @@ class Files(QObject):
                 self.add_video(path)
             return
         if suffix == storage.SUFFIX:
-            self.let_go(lambda: self._load(path))
+            self.let_go(lambda: self._load(path, at_start))
         else:
-            self.let_go(lambda: self._read(path, ask))
+            self.let_go(lambda: self._read(path, ask, at_start))
 
     def open_example(self) -> None:
         """The bundled quartet."""
@@ -205,7 +208,7 @@ class Files(QObject):
 
         with as_file(files("resources") / "examples" / DANCED_EXAMPLE) as path:
             example = path.absolute()
-            self.let_go(lambda: self._read(example, False, danced))
+            self.let_go(lambda: self._read(example, False, arranged=danced))
 
     def add_audio(self, path: Path) -> None:
         """Hear the piece with this recording."""
@@ -254,7 +257,7 @@ class Files(QObject):
         elif lost is not None:
             self.missing.emit(lost)
 
-    def _load(self, path: Path) -> None:
+    def _load(self, path: Path, at_start: bool) -> None:
         presence = self.autosave.presence if self.autosave is not None else None
 
         def work(progress: Progress, stop_requested: StopRequested) -> Opened:
@@ -262,6 +265,8 @@ class Files(QObject):
             content = storage.read(path)
             project = storage.decode(content, Path(os.path.realpath(path)), str(path))
             items = recoverable_of(path, presence.folder, presence.token) if presence is not None else ()
+            if presence is not None and not items and at_start:
+                items = never_saved(presence.folder)
             return project, items[0] if items else None, storage.content_hash(content)
 
         def done(opened: Opened) -> None:
@@ -277,8 +282,15 @@ class Files(QObject):
 
         self.session.tasks.run(Message("work.open"), work, done, self._failed(path), key="open")
 
-    def _read(self, path: Path, ask: bool, arranged: Callable[[Project], Project] = lambda project: project) -> None:
+    def _read(
+        self,
+        path: Path,
+        ask: bool,
+        at_start: bool = False,
+        arranged: Callable[[Project], Project] = lambda project: project,
+    ) -> None:
         source = str(path)
+        folder = self.autosave.presence.folder if self.autosave is not None else None
 
         def read(progress: Progress, stop_requested: StopRequested) -> PieceContents:
             _read_own()
@@ -294,7 +306,7 @@ class Files(QObject):
                 return
             called = tr("action.dancer")
 
-            def build(progress: Progress, stop_requested: StopRequested) -> Project:
+            def build(progress: Progress, stop_requested: StopRequested) -> tuple[Project, tuple[Recoverable, ...]]:
                 maps = all_maps()
                 asked = assignment or ImportRequest(usual_rows(contents, maps))
                 project = import_project(
@@ -302,11 +314,15 @@ class Files(QObject):
                 )
                 if asked.dances:
                     project, _ = add_dancer(project, bundled_choreographies()[0], called)
-                return arranged(project)
+                items = never_saved(folder, path) if folder is not None else ()
+                if folder is not None and not items and at_start:
+                    items = never_saved(folder)
+                return arranged(project), items
 
             self.session.tasks.run(Message("work.open"), build, done, self._failed(path), key="open")
 
-        def done(project: Project) -> None:
+        def done(opened: tuple[Project, tuple[Recoverable, ...]]) -> None:
+            project, items = opened
             self._become(project, None)
             # The bundled example is offered by itself; it is no file of this user's, and nothing is written beside it.
             if not path.is_relative_to(Path(str(files("resources")))):
@@ -315,7 +331,9 @@ class Files(QObject):
             for warning in project.score.warnings[:1]:
                 self.session.notice(warning, Severity.WARNING)
             self.changed.emit()
-            if not project.players and not project.dancers:
+            if items:
+                self.found.emit(items[0])
+            elif not project.players and not project.dancers:
                 self.silent.emit(path)
 
         self.session.tasks.run(Message("work.open"), read, ask_who, self._failed(path), key="open")

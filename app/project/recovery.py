@@ -44,6 +44,8 @@ class Recoverable:
         The project has a file, and it is not there.
     is_file_changed : bool
         The file is not what it was when this work on it began.
+    source : str
+        The MIDI file or score that it came from; may be empty.
     """
 
     autosave: Path
@@ -55,6 +57,7 @@ class Recoverable:
     facts: Autosaved | None = None
     is_file_missing: bool = False
     is_file_changed: bool = False
+    source: str = ""
 
 
 def recovery_folder() -> Path:
@@ -88,6 +91,23 @@ def recoverable_of(document: Path, folder: Path, own_token: str = "") -> tuple[R
     left = {beside: "", **_left_behind(folder)}
     found = (item for item in _described(left, folder, real, own_token))
     return tuple(sorted(found, key=lambda item: item.is_file_changed))
+
+
+def never_saved(folder: Path, source: Path | None = None) -> tuple[Recoverable, ...]:
+    """Unsaved work of editors that are gone on projects without a file, the newest first.
+
+    Parameters
+    ----------
+    source : Path, optional
+        Only work that came from this MIDI file or score.
+    """
+    found = (item for item in recoverable(folder) if item.document is None)
+    return tuple(item for item in found if source is None or _plain(item.source) == _plain(os.fspath(source)))
+
+
+def _plain(path: str) -> str:
+    """A path as paths are compared without a look at the disk."""
+    return os.path.normcase(os.path.normpath(path)) if path else ""
 
 
 def load_work(item: Recoverable) -> tuple[Project, str]:
@@ -211,4 +231,5 @@ def _item(
         facts,
         missing,
         changed,
+        project.source,
     )

@@ -220,7 +220,7 @@ def run(start: LaunchOptions) -> int:
         program.editor.files.warn_once(presence.refusal.message)
     program.tasks.run(Message("work.clean_up"), lambda progress, stop_requested: _clean_up(), lambda nothing: None)
     if start.file is not None:
-        program.editor.files.open(start.file, ask=False)
+        program.editor.files.open(start.file, ask=False, at_start=True)
     try:
         status = application.exec()
         # Nothing where the window was closed; a signal ends the program with what is open.

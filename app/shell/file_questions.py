@@ -19,6 +19,7 @@ from app.formats.other_computers import host_of
 from app.project.recovery import Recoverable
 from app.shell.actions import ActionTable
 from app.shell.banner import Banner
+from app.shell.start_page import unsaved_work
 from widgets.common.text import message_text, sentence
 
 _REASONS: Final = 4
@@ -42,14 +43,15 @@ class FileQuestions(QObject):
         files.unsaveable.connect(self.say_what_cannot_be_saved)
 
     def offer_recovery(self, item: Recoverable) -> None:
-        """Offer work that was never saved."""
+        """Offer work that was never saved; of a piece without a file its name is said, which may be another's."""
+
+        def found() -> str:
+            if item.document is None:
+                return unsaved_work(item)
+            return self.tr("window.recovered_of_older_file" if item.is_file_changed else "window.recovered_changes")
+
         self._banner.ask(
-            lambda: (
-                self.tr("window.recovered_of_older_file")
-                if item.is_file_changed
-                else self.tr("window.recovered_changes"),
-                (self.tr("window.recover"), self.tr("window.discard")),
-            ),
+            lambda: (found(), (self.tr("window.recover"), self.tr("window.discard"))),
             (partial(self._files.recover, item), partial(self._files.discard, item)),
         )
 

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QFrame, QPushButton, QScrollArea, QVBoxLayout, QWi
 from app.editor.files import Files
 from app.editor.session import Session
 from app.editor.settings import Settings
+from app.editor.translated import tr
 from app.encoding import shown
 from app.formats.other_computers import is_file, may_touch
 from app.project.recovery import Recoverable
@@ -105,10 +106,7 @@ class StartPage(Retranslated, QScrollArea):
             card.setStyleSheet(
                 f"#recovery {{ background: {tokens.raised}; border: 1px solid {tokens.warning}; border-radius: 6px; }}"
             )
-            changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
-            when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
-            name = item.name or self.tr("start_page.unsaved_piece")
-            reported = self.tr("start_page.unsaved_changes").format(name=name, when=when)
+            reported = unsaved_work(item)
             if item.is_file_missing:
                 reported = "\n".join((reported, self.tr("start_page.projects_file_no_longer_exists")))
             elif item.is_file_changed:
@@ -163,6 +161,13 @@ class StartPage(Retranslated, QScrollArea):
 
     def _trigger(self, action_id: str) -> None:
         actions(self._session)[action_id].trigger()
+
+
+def unsaved_work(item: Recoverable) -> str:
+    """Say of which piece unsaved work is, and when it was written."""
+    changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
+    when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
+    return tr("start_page.unsaved_changes").format(name=item.name or tr("start_page.unsaved_piece"), when=when)
 
 
 def _label(name: str, size_pt: float) -> Label:

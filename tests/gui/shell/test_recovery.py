@@ -96,6 +96,54 @@ def test_unsaved_work_on_a_file_is_offered_when_it_is_opened(
     assert second.window.isWindowModified()
 
 
+@pytest.mark.parametrize("same", [True, False])
+def test_work_that_was_never_saved_is_offered_over_the_piece_that_the_editor_starts_with(
+    same: bool, start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    first = start()
+    first.editor.files.open(QUARTET, ask=False, at_start=True)
+    assert not first.window.banner.isVisible()
+    edit(first, "Precious")
+    later(first, monkeypatch)
+    crash(first)
+    other = tmp_path / "other.mid"
+    shutil.copyfile(QUARTET, other)
+    second = start()
+    # Later it is offered over its own piece; over any other the start page has offered it already.
+    second.editor.files.open(other, ask=False)
+    assert not second.window.banner.isVisible()
+    second.editor.files.open(QUARTET if same else other, ask=False, at_start=not same)
+    banner = second.window.banner
+    assert banner.isVisible()
+    assert "Unsaved changes found: Precious" in banner._text.text()
+    second.editor.speak("ja")
+    QApplication.processEvents()
+    assert "未保存の変更が見つかりました: Precious" in banner._text.text()
+    click(second, "banner_answer_0", qtbot)
+    assert second.session.project.score.title == "Precious"
+    assert second.editor.files.path is None
+    assert second.window.isWindowModified()
+    assert not banner.isVisible()
+
+
+def test_work_that_was_never_saved_is_offered_over_a_project_that_the_editor_starts_with(
+    start: Start, answers: Answers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    path = answers.path = tmp_path / "piece.suisou"
+    first = start()
+    first.editor.files.open(QUARTET, ask=False)
+    trigger(first, "file.save")
+    first.editor.files.open(QUARTET, ask=False)
+    edit(first, "Precious")
+    later(first, monkeypatch)
+    crash(first)
+    second = start()
+    second.editor.files.open(path, at_start=True)
+    click(second, "banner_answer_1", qtbot)
+    assert offered(second) == ()
+    assert second.editor.files.path == path
+
+
 def test_work_that_is_thrown_away_is_not_offered_again(
     start: Start, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
