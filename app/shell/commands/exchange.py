@@ -32,13 +32,22 @@ def read_again(editor: Editor) -> None:
     if source and is_file(source):
         reimport_from(editor, Path(source))
     else:
-        read_another(editor)
+        name = shown(Path(source).name) if source else ""
+        _ask_for_version(editor, tr("files.source_not_found").format(file=name) if name else _usual_title())
 
 
 def read_another(editor: Editor) -> None:
     """Ask for a newer version of the piece's MIDI file or score and take it in."""
+    _ask_for_version(editor, _usual_title())
+
+
+def _usual_title() -> str:
+    return tr("files.re_import_midi")
+
+
+def _ask_for_version(editor: Editor, title: str) -> None:
     kinds = f"{tr('files.music')} ({' '.join(f'*{suffix}' for suffix in suffixes.MUSIC)})"
-    path = editor.questions.open_file(tr("files.re_import_midi"), editor.files.folder, kinds)
+    path = editor.questions.open_file(title, editor.files.folder, kinds)
     if path is not None:
         reimport_from(editor, path)
 

@@ -44,12 +44,15 @@ class Answers:
         self.imports = True
         self.dances = False
         self.asked: list[str] = []
+        self.titles: list[str] = []
+        """Titles of the file dialogs."""
         self.removes = True
         self.reported_players: tuple[str, ...] = ()
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """The test's path."""
         self.asked.append("open")
+        self.titles.append(title)
         return self.path
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:

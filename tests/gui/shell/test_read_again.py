@@ -24,6 +24,7 @@ from app.score.assignments import PartAssignment
 from app.score.contents import PieceContents
 from app.shell.app import Program
 from instrument_maps.load import bundled_maps
+from tests.gui.japanese import speaking
 from tests.gui.shell.conftest import Answers, Start, trigger
 from tests.support.windows import child
 from tests.unit.project.test_rereading import BAR, QUINTET, quintet, tracks, written
@@ -92,6 +93,22 @@ def test_update_from_a_newer_file_keeps_players_and_corrections(
         ]
     program.session.document.undo()
     assert program.session.project is before
+
+
+def test_a_source_that_is_gone_is_named_where_another_is_asked_for(
+    program: Program, answers: Answers, tmp_path: Path
+) -> None:
+    """Test in both languages, by the title of the file dialog."""
+    (tmp_path / "quintet.mid").unlink()
+    trigger(program, "file.reimport")
+    with speaking():
+        trigger(program, "file.reimport")
+    trigger(program, "file.reimport_other")
+    assert answers.titles == [
+        "quintet.mid not found: choose the file to re-import",
+        "quintet.mid が見つかりません: 再読み込みするファイルを選択",
+        "Re-import File",
+    ]
 
 
 def test_a_player_that_is_unchecked_keeps_its_notes_in_one_step(
