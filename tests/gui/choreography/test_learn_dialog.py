@@ -15,6 +15,7 @@ from app.choreography.learn import learn
 from app.choreography.model_file import encode_model, read_model
 from app.choreography.read_pair import read_pair
 from app.editor.session import Session
+from tests.gui.japanese import speaking
 from tests.support.dances import stepping
 from tests.support.windows import child, show_in_front
 from tests.unit.choreography.test_command import write_clip, write_drums, write_silence
@@ -156,6 +157,22 @@ def test_files_are_dropped_anywhere(dialog: LearnDialog, folder: Path) -> None:
     assert dialog.drafts == (PairDraft(folder / "swings.bvh", folder / "drums.mid", folder / "steps.txt"),)
 
 
+def line_px(label: QLabel) -> int:
+    """Height of a line as the label lays out two, in the fonts that its text needs."""
+    return (label.heightForWidth(10**6) - 2 * label.margin()) // (label.text().count("\n") + 1)
+
+
+def test_notes_are_not_cut_in_japanese(dialog: LearnDialog, folder: Path) -> None:
+    drop(dialog, folder / "swings.bvh", folder / "drums.mid")
+    with speaking():
+        QApplication.processEvents()
+        notes = child(dialog, QLabel, "learn_pair_notes")
+        assert isinstance(notes, QLabel)
+        assert "オフセット" in notes.text()
+        lines, cut_px = divmod(notes.parentWidget().height(), line_px(notes))
+        assert (cut_px, lines >= 3) == (0, True)
+
+
 def test_a_frame_rate_is_corrected_and_shown(dialog: LearnDialog, folder: Path) -> None:
     drop(dialog, folder / "swings.bvh", folder / "drums.mid")
     type_number(dialog, "learn_fps", "29.97")
@@ -169,7 +186,7 @@ def test_a_frame_rate_is_corrected_and_shown(dialog: LearnDialog, folder: Path) 
     for height_px in range(dialog.height(), dialog.height() + 40, 7):
         dialog.resize(dialog.width(), height_px)
         QApplication.processEvents()
-        lines, cut_px = divmod(room.height(), notes.fontMetrics().lineSpacing())
+        lines, cut_px = divmod(room.height(), line_px(notes))
         assert (cut_px, lines >= 3) == (0, True), height_px
 
 

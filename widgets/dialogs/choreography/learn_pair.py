@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QRect, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QScrollArea, QWidget
 
@@ -79,7 +79,7 @@ class PairForm(Retranslated, QWidget):
         )
         self._notes = wrapped(named(Label(), "learn_pair_notes"))
         self._notes.setAlignment(Qt.AlignmentFlag.AlignTop)
-        room = named(_WholeLines(self._notes), "learn_pair_notes_room")
+        self._room = named(_WholeLines(self._notes), "learn_pair_notes_room")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setColumnStretch(1, 1)
@@ -102,7 +102,7 @@ class PairForm(Retranslated, QWidget):
             grid.addWidget(self._labels[name], row, 0)
             grid.addWidget(field, row, 1, 1, 2)
             field.changed.connect(self._number_changed)
-        grid.addWidget(room, len(_FILES) + 3, 0, 1, 3)
+        grid.addWidget(self._room, len(_FILES) + 3, 0, 1, 3)
         grid.setRowStretch(len(_FILES) + 3, 1)
         self.texted(self._offset.check, text="pair_form.automatic")
         self.texted(self._offset.number, suffix="pair_form.seconds")
@@ -170,6 +170,7 @@ class PairForm(Retranslated, QWidget):
             if not read.pair.credits:
                 notes.append(self.tr("pair_form.no_credits_say_where_motion"))
         self._notes.setText("\n".join(notes))
+        self._room.fit()
 
     def _typed(self, name: str) -> None:
         self._change(**{name: self._paths[name].path})
@@ -235,9 +236,14 @@ class _WholeLines(QScrollArea):
         self.setWidget(text)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Leave what is no whole line free under the text."""
+        """Fit the text again."""
         super().resizeEvent(event)
-        line_px = self._text.fontMetrics().lineSpacing()
+        self.fit()
+
+    def fit(self) -> None:
+        """Leave what is no whole line free under the text. Japanese lines are higher than those of the font itself."""
+        line = self._text.fontMetrics().boundingRect(QRect(), Qt.TextFlag.TextSingleLine, self._text.text())
+        line_px = max(line.height(), self._text.fontMetrics().lineSpacing())
         self.setMinimumHeight(_NOTES_LINES * line_px)
         self.verticalScrollBar().setSingleStep(line_px)
         self.setViewportMargins(0, 0, 0, self.height() % line_px)
