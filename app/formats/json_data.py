@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Final, TypeVar
 
 import msgspec
@@ -9,6 +10,7 @@ import msgspec
 from app.errors import FileError, shortened
 
 T = TypeVar("T")
+_MALFORMED: Final = re.compile(r"JSON is malformed: .* \(byte (\d+)\)")
 
 UNREADABLE: Final = (msgspec.MsgspecError, ValueError, RecursionError)
 """Everything that msgspec raises for bytes of any origin: not JSON or MessagePack, not of the type, texts that are not
@@ -35,4 +37,14 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
     try:
         return decoder.decode(content)
     except UNREADABLE as error:
-        raise FileError(refused, file=file, detail=shortened(error)) from error
+        raise FileError(refused, file=file, detail=_plain(error)) from error
+
+
+def _plain(error: Exception) -> str:
+    """The fault in words for users, with its place."""
+    malformed = _MALFORMED.match(str(error))
+    if malformed is not None:
+        return f"its text cannot be understood from byte {malformed[1]} on"
+    if str(error) == "Input data was truncated":
+        return "it ends too early"
+    return shortened(error)

@@ -59,7 +59,7 @@ def read_container(path: Path) -> Container:
         raise FileError("midi.empty", file=file)
     start = data.find(b"MThd", 0, 4096)
     if start < 0:
-        raise FileError("midi.not_midi", file=file, byte=0, found=repr(data[:4])[1:])
+        raise FileError("midi.not_midi", file=file, byte=0)
     if len(data) < start + 14:
         raise FileError("midi.header_truncated", file=file, byte=len(data))
     length, format_, expected, division = (
@@ -110,7 +110,7 @@ def _tracks(data: bytes, first: int, file: str) -> tuple[list[TrackChunk], list[
             break
         at = end
     if not tracks:
-        raise FileError("midi.no_tracks", file=file, byte=first, found=repr(data[first : first + 4])[1:])
+        raise FileError("midi.no_tracks", file=file, byte=first)
     if any(data[at:]):
         warnings.append(Message("midi.bytes_left_out", {"byte": at, "count": len(data) - at}))
     return tracks, warnings

@@ -11,9 +11,11 @@ from pathlib import Path
 import pytest
 
 from app.errors import FileError, MapError, Message
+from app.export.unreal.project import find_project
 from app.messages import text
 from app.messages.details import detail_text
 from app.project.storage import load
+from app.score.chunks import read_container
 from metadata.library import READERS
 
 GESTURE = 'title = { en = "x" }\nlength_s = 2.0\n'
@@ -123,6 +125,48 @@ def test_a_damaged_project_is_worded_in_japanese(tmp_path: Path, content: bytes)
         load(file)
     message = raised.value.message
     assert "detail" not in message.arguments or is_japanese(detail_text(str(message.arguments["detail"]), "ja"))
+
+
+@pytest.mark.parametrize(
+    ("content", "detail"),
+    [
+        (b"", "it ends too early"),
+        (b'{"schema_version":', "it ends too early"),
+        (b"\0\0\0 ftyp", "its text cannot be understood from byte 0 on"),
+        (b'{"schema_version": ?}', "its text cannot be understood from byte 19 on"),
+    ],
+)
+def test_a_damaged_project_is_refused_in_plain_words_and_place(tmp_path: Path, content: bytes, detail: str) -> None:
+    file = tmp_path / "work.suisou"
+    file.write_bytes(content)
+    with pytest.raises(FileError) as raised:
+        load(file)
+    assert raised.value.message.arguments["detail"] == detail
+
+
+def test_a_foreign_file_is_no_unreal_project_in_plain_words(tmp_path: Path) -> None:
+    file = tmp_path / "Bad.uproject"
+    for content, detail in (
+        (b"\0\0 x", "its text cannot be understood from line 1, column 1 on"),
+        (b'{"FileVersion": 3,\n "Modules": x}', "its text cannot be understood from line 2, column 13 on"),
+        (b"\xff\xfe\x00", "it is not text"),
+    ):
+        file.write_bytes(content)
+        with pytest.raises(FileError) as raised:
+            find_project(file)
+        assert raised.value.message.arguments["detail"] == detail
+        assert is_japanese(detail_text(detail, "ja"))
+
+
+def test_a_file_that_is_no_midi_file_is_refused_without_its_bytes(tmp_path: Path) -> None:
+    file = tmp_path / "film.mid"
+    file.write_bytes(b"\0\0\0 ftypmp42")
+    with pytest.raises(FileError) as raised:
+        read_container(file)
+    for language in ("en", "ja"):
+        said = text(raised.value.message, language)
+        assert "MThd" in said
+        assert "x00" not in said
 
 
 def test_every_detail_of_ours_is_worded_in_japanese() -> None:

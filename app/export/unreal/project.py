@@ -106,6 +106,11 @@ def _content(file: Path) -> dict[str, object]:
     try:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
         content = json.loads(data.decode("utf-16" if wide else "utf-8-sig"))
+    except json.JSONDecodeError as error:
+        detail = f"its text cannot be understood from line {error.lineno}, column {error.colno} on"
+        raise FileError("unreal.not_a_project", file=os.fspath(file), detail=detail) from error
+    except UnicodeDecodeError as error:
+        raise FileError("unreal.not_a_project", file=os.fspath(file), detail="it is not text") from error
     except (ValueError, RecursionError) as error:
         raise FileError("unreal.not_a_project", file=os.fspath(file), detail=shortened(error)) from error
     if isinstance(content, dict) and isinstance(content.get("FileVersion"), int):
