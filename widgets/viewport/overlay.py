@@ -21,6 +21,7 @@ HANDLE_RADIUS_PX = 13.0
 CROWN_M = np.array([0.0, 0.12, 0.0])
 """Top of the head in its joint's frame."""
 NAME_UP_M = 0.19
+_RING_PX = HANDLE_RADIUS_PX + 2.0
 _FACE_M, _FACE_HALF_M = np.array([0.0, 0.08, 0.04]), 0.13
 """Middle of the face in the frame of the head's joint, and half the side of a square that holds it."""
 _STEPS, _SAME_PX2 = 5, 1e-3
@@ -172,7 +173,7 @@ def _paint_handles(
     tokens: Tokens,
     taken: Sequence[QRectF],
 ) -> None:
-    """Paint handles and the angles of the one in hand, which keep clear of names and faces."""
+    """Paint handles and the angles of the one in hand, which keep clear of names, faces and the others."""
     places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
     for handle, place, depth in zip(marks.handles, places, depths, strict=True):
         if depth <= 0.0:
@@ -188,10 +189,15 @@ def _paint_handles(
         painter.setBrush(QColor(ring))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.drawEllipse(at, 3.0, 3.0)
-        if grasped and marks.reading:
-            metrics = QFontMetricsF(_font(painter, 9.0, bold=True))
-            box = clear_of(_pill_box(metrics, marks.reading, at, size), at, taken, size)
-            _paint_pill(painter, marks.reading, box, tokens, tokens.accent)
+    grasped_at = next(
+        (QPointF(*at) for one, at in zip(marks.handles, places, strict=True) if one.target == marks.grasped), None
+    )
+    if grasped_at is None or not marks.reading:
+        return
+    seen = [*taken, *(QRectF(x - _RING_PX, y - _RING_PX, 2.0 * _RING_PX, 2.0 * _RING_PX) for x, y in places)]
+    metrics = QFontMetricsF(_font(painter, 9.0, bold=True))
+    box = clear_of(_pill_box(metrics, marks.reading, grasped_at, size), grasped_at, seen, size)
+    _paint_pill(painter, marks.reading, box, tokens, tokens.accent)
 
 
 def clear_of(box: QRectF, at: QPointF, taken: Sequence[QRectF], size: tuple[float, float]) -> QRectF:
