@@ -8,6 +8,7 @@ from typing import Literal, Protocol, TypeAlias
 
 from app.editor.design_tokens import Tokens
 from app.editor.tasks import Tasks
+from app.errors import Message
 from app.project.importing import ImportRequest
 from app.score.contents import PieceContents
 
@@ -27,6 +28,9 @@ class Questions(Protocol):
 
     def unsaved(self, name: str) -> Answer:
         """Ask whether changes that are in no file are saved, discarded or kept."""
+
+    def stop_writing(self, works: tuple[Message, ...]) -> bool:
+        """Return whether the editor ends though it still writes files: the names of that work, which is stopped."""
 
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks

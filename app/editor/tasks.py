@@ -33,6 +33,8 @@ class Tasks(Protocol):
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
         ended: Callable[[], None] | None = None,
+        *,
+        writes: bool = False,
     ) -> None:
         """Start work in a thread; ``done`` or ``failed`` follows in the window's thread.
 
@@ -50,7 +52,14 @@ class Tasks(Protocol):
             Work with a key takes the place of work with the same key, which is stopped.
         ended : callable, optional
             Called in the window's thread when the work is over, however it went and before anything else is reported.
+        writes : bool
+            True: it makes files that the user asked for, and the editor does not end meanwhile without a question.
         """
+        ...
+
+    @property
+    def writing(self) -> tuple[Message, ...]:
+        """Names of the work under way that makes files the user asked for, oldest first."""
         ...
 
 
@@ -66,6 +75,8 @@ class Task:
         0..1 of it that is done, as the worker says.
     is_cancelled : bool
         The user does not want it any more; what is stopped by newer work of its key is not cancelled.
+    writes : bool
+        It makes files that the user asked for.
     """
 
     name: Message
@@ -75,6 +86,7 @@ class Task:
     failed: Callable[[AppError], None] | None
     ended: Callable[[], None] | None
     runner: weakref.ref[ThreadTasks]
+    writes: bool = False
     share: float = 0.0
     is_cancelled: bool = False
     stop: threading.Event = field(default_factory=threading.Event)
@@ -114,6 +126,11 @@ class ThreadTasks(QObject):
         return tuple(task for task in self._running if not task.stop.is_set())
 
     @property
+    def writing(self) -> tuple[Message, ...]:
+        """Names of the work under way that makes files: see `Tasks.writing`."""
+        return tuple(task.name for task in self.running if task.writes)
+
+    @property
     def is_idle(self) -> bool:
         """True if no thread works any more, stopped ones included."""
         return not self._running
@@ -126,13 +143,15 @@ class ThreadTasks(QObject):
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
         ended: Callable[[], None] | None = None,
+        *,
+        writes: bool = False,
     ) -> None:
         """Start work: see `Tasks.run`."""
         if key is not None:
             for other in self._running:
                 if other.key == key:
                     other.stop.set()
-        task = Task(name, key, work, done, failed, ended, weakref.ref(self))
+        task = Task(name, key, work, done, failed, ended, weakref.ref(self), writes)
         thread = threading.Thread(target=_work, args=(task, self._ask), name=f"task {name.id}", daemon=True)
         task.thread = thread
         self._running.append(task)

@@ -145,7 +145,9 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
     def failed(error: AppError) -> None:
         session.notice(error.message, Severity.ERROR)
 
-    session.tasks.run(Message("work.character_add", {"name": draft.title}), work, done, failed, key="character_add")
+    session.tasks.run(
+        Message("work.character_add", {"name": draft.title}), work, done, failed, key="character_add", writes=True
+    )
 
 
 def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraft) -> None:

@@ -13,11 +13,13 @@ from app.editor.questions import Answer, ReadAgain
 from app.editor.tasks import Tasks
 from app.editor.translated import tr
 from app.encoding import shown
+from app.errors import Message
 from app.project.importing import ImportRequest
 from app.score.contents import PieceContents
 from instrument_maps.library import all_maps
 from widgets.common.paths import ask_for_file, ask_where_to_save
 from widgets.common.plain import Role, ask
+from widgets.common.text import sentence
 
 
 class DialogQuestions:
@@ -51,6 +53,21 @@ class DialogQuestions:
             usual=Role.AcceptRole,
         )
         return "save" if role == Role.AcceptRole else "discard" if role == Role.DestructiveRole else "cancel"
+
+    def stop_writing(self, works: tuple[Message, ...]) -> bool:
+        """See `Questions.stop_writing`."""
+        role = ask(
+            _parent(),
+            "stop_writing",
+            tr("questions.files_are_being_written"),
+            tr("questions.stop_and_close"),
+            "\n".join((*map(sentence, works), tr("questions.what_is_unfinished_is_lost"))),
+            {
+                tr("questions.stop_it"): Role.DestructiveRole,
+                tr("questions.keep_window_open"): Role.RejectRole,
+            },
+        )
+        return role == Role.DestructiveRole
 
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks

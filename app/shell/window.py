@@ -368,7 +368,11 @@ class Window(Retranslated, QMainWindow):
                 self._files.open(path)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Unsaved changes are saved or given up first."""
+        """Unsaved changes are saved or given up first, and files that are being written are finished or given up."""
+        writing = self.session.tasks.writing
+        if writing and not self._closing and not self._questions.stop_writing(writing):
+            event.ignore()
+            return
         if not self._closing and not self._files.is_saved:
             event.ignore()
             # Qt does not close a window that is just being closed.

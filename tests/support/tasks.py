@@ -17,6 +17,11 @@ class ImmediateTasks:
         self.names: list[Message] = []
         self.errors: list[AppError] = []
 
+    @property
+    def writing(self) -> tuple[Message, ...]:
+        """No work is ever under way."""
+        return ()
+
     def run(
         self,
         name: Message,
@@ -25,6 +30,8 @@ class ImmediateTasks:
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
         ended: Callable[[], None] | None = None,
+        *,
+        writes: bool = False,
     ) -> None:
         """Work now."""
         self.names.append(name)

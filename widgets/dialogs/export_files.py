@@ -286,7 +286,7 @@ class ExportDialog(WorkingDialog):
 
         self._timer.start()
         self._session.tasks.run(
-            Message("work.export"), work, self._done, self._failed, key="export", ended=self._finish
+            Message("work.export"), work, self._done, self._failed, key="export", ended=self._finish, writes=True
         )
 
     def _show_written(self) -> None:

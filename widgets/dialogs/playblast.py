@@ -168,7 +168,7 @@ class PlayblastDialog(WorkingDialog):
 
         self._timer.start()
         self._session.tasks.run(
-            Message("work.playblast"), work, self._done, self._failed, key="playblast", ended=self._finish
+            Message("work.playblast"), work, self._done, self._failed, key="playblast", ended=self._finish, writes=True
         )
 
     def _draw(self) -> None:

@@ -195,6 +195,11 @@ class _AtOnce:
     def __init__(self, stop_requested: StopRequested) -> None:
         self._stop_requested = stop_requested
 
+    @property
+    def writing(self) -> tuple[Message, ...]:
+        """No work is ever under way beside another."""
+        return ()
+
     def run(
         self,
         name: Message,
@@ -203,6 +208,8 @@ class _AtOnce:
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
         ended: Callable[[], None] | None = None,
+        *,
+        writes: bool = False,
     ) -> None:
         """See `app.editor.tasks.Tasks.run`; errors without ``failed`` are raised, Cancelled too."""
         try:

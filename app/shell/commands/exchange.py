@@ -130,7 +130,7 @@ def export_midi(editor: Editor) -> None:
     def failed(error: AppError) -> None:
         session.notice(error.message, Severity.ERROR)
 
-    session.tasks.run(Message("work.export_midi"), work, done, failed, key="export_midi")
+    session.tasks.run(Message("work.export_midi"), work, done, failed, key="export_midi", writes=True)
 
 
 def export_files(editor: Editor) -> None:

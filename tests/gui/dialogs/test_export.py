@@ -144,6 +144,8 @@ def test_cancelled_it_leaves_nothing_and_says_so(
     qtbot.waitUntil(lambda: ", player 1 of 4 · " in under_way.text())
     assert any(player.name in under_way.text() for player in session.project.players)
     assert "left" in under_way.text()
+    # The window asks before it closes meanwhile.
+    assert tasks.writing == (Message("work.export"),)
     reported: list[str] = []
     tasks.cancelled.connect(lambda name: reported.append(name.id))
     if by == "button":

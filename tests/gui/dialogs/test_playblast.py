@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from app.editor.session import Session
 from app.editor.tasks import ThreadTasks
-from app.errors import AppError
+from app.errors import AppError, Message
 from app.project.camera_bookmarks import View
 from tests.gui.conftest import quartet_project
 from tests.gui.timeline.hand import SHIFT, Hand
@@ -81,6 +81,8 @@ def test_cancelled_it_leaves_nothing(threaded: Session, qtbot: QtBot, tmp_path: 
     dialog = film(threaded, tmp_path / "film.mp4", [])
     press(dialog, "playblast_start")
     pause(50)
+    # The window asks before it closes meanwhile.
+    assert threaded.tasks.writing == (Message("work.playblast"),)
     press(dialog, "playblast_close")
     qtbot.waitUntil(child(dialog, QPushButton, "playblast_start").isEnabled)
     qtbot.waitUntil(lambda: list(tmp_path.iterdir()) == [])

@@ -18,6 +18,7 @@ from app.editor.session import Session
 from app.editor.settings import Settings
 from app.editor.sound import EditorSound
 from app.editor.tasks import Tasks
+from app.errors import Message
 from app.project.autosave import Autosave
 from app.project.importing import ImportRequest, usual_rows
 from app.project.running_editors import Presence
@@ -47,6 +48,8 @@ class Answers:
         self.titles: list[str] = []
         """Titles of the file dialogs."""
         self.removes = True
+        self.stops = False
+        self.works: tuple[Message, ...] = ()
         self.reported_players: tuple[str, ...] = ()
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
@@ -64,6 +67,12 @@ class Answers:
         """The test's answer."""
         self.asked.append("unsaved")
         return self.answer
+
+    def stop_writing(self, works: tuple[Message, ...]) -> bool:
+        """The test's answer."""
+        self.asked.append("stop_writing")
+        self.works = works
+        return self.stops
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
         """The test's answer."""

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QMessageBox
 
 import app.shell
 import widgets.dialogs
+from app.errors import Message
 from app.rig.characters.read_figure import read_figure
 from app.score.read import read_contents
 from app.shell import characters, questions
@@ -85,6 +86,7 @@ OPENED: dict[str, Open] = {
     ),
     "MessageBox of unsaved changes": lambda program: DialogQuestions().unsaved("x"),
     "MessageBox of a character": lambda program: DialogQuestions().remove_character("x", ("y",)),
+    "MessageBox of work": lambda program: DialogQuestions().stop_writing((Message("work.export"),)),
     "MessageBox of a file": lambda program: questions._may_replace("x", Path("y")),
     "MessageBox of instruments": ask_about_instruments,
 }

@@ -12,6 +12,7 @@ from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QMessageBox, QPushButton, QTreeView
 
+from app.errors import Message
 from app.shell.language import Language
 from app.shell.questions import DialogQuestions
 from tests.gui.japanese import texts_of
@@ -175,3 +176,31 @@ def test_the_systems_dialog_is_used_where_it_speaks_the_same(
         assert bool(chosen[0] & QFileDialog.Option.DontUseNativeDialog) is not native
     finally:
         language.set("en")
+
+
+@pytest.mark.parametrize(
+    ("language", "button", "stops", "question"),
+    [
+        ("en", "Stop and Close", True, "Files are still being written. Stop and close?"),
+        ("en", "Keep Window Open", False, "Creating video…"),
+        ("ja", "ウインドウを閉じない", False, "まだファイルを書き込んでいます。中止して閉じますか？"),
+    ],
+)
+def test_whether_running_work_is_stopped(
+    language: str, button: str, stops: bool, question: str, qt_app: QApplication
+) -> None:
+    seen: list[str] = []
+
+    def click(box: QMessageBox) -> None:
+        seen.append(f"{box.text()}\n{box.informativeText()}")
+        requested = next(one for one in box.buttons() if one.text() == button)
+        QTest.mouseClick(requested, Qt.MouseButton.LeftButton)
+
+    spoken = Language()
+    try:
+        spoken.set(language)
+        when_shown(QMessageBox, click)
+        assert DialogQuestions().stop_writing((Message("work.playblast"),)) is stops
+        assert question in seen[0]
+    finally:
+        spoken.set("en")

@@ -30,6 +30,7 @@ from app.shell.app import Program
 from app.shell.window import FRAME, Window
 from tests.gui.conftest import QUARTET
 from tests.gui.shell.conftest import Answers, Start, trigger
+from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child, wait_until
 from widgets.common.actions import actions
 from widgets.common.number_slider import NumberSlider
@@ -154,6 +155,25 @@ def test_closing_with_unsaved_changes_asks(
     assert answers.asked[0] == "unsaved"
     assert program.window.isHidden() is is_closed
     assert (tmp_path / "kept.suisou").exists() is (answer == "save")
+
+
+def test_closing_while_files_are_written_asks(
+    program: Program, answers: Answers, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    film = Message("work.playblast")
+    monkeypatch.setattr(ImmediateTasks, "writing", (film,))
+    trigger(program, "file.quit")
+    assert (answers.asked, answers.works) == (["stop_writing"], (film,))
+    assert program.window.isVisible()
+    answers.stops = True
+    edit(program)
+    program.window.close()
+    # What is stopped is stopped when the window closes: it goes on where the changes are not given up.
+    assert answers.asked == ["stop_writing", "stop_writing", "unsaved"]
+    assert program.window.isVisible()
+    trigger(program, "edit.undo")
+    program.window.close()
+    assert program.window.isHidden()
 
 
 def test_closing_without_changes_does_not_ask(program: Program, answers: Answers) -> None:

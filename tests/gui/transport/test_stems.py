@@ -25,6 +25,10 @@ class HeldTasks:
     def __init__(self) -> None:
         self.held: list[tuple[Callable[..., Any], Callable[..., None]]] = []
 
+    @property
+    def writing(self) -> tuple[Message, ...]:
+        return ()
+
     def run(
         self,
         name: Message,
@@ -33,6 +37,8 @@ class HeldTasks:
         failed: Callable[[AppError], None] | None = None,
         key: str | None = None,
         ended: Callable[[], None] | None = None,
+        *,
+        writes: bool = False,
     ) -> None:
         self.held.append((work, done))
 

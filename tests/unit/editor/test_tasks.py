@@ -39,6 +39,23 @@ def test_work_is_done_elsewhere_and_reported_here(tasks: ThreadTasks, qtbot: QtB
     assert threads[1:] == [here, 7]
 
 
+def test_work_that_makes_files_is_named_while_it_does(tasks: ThreadTasks, qtbot: QtBot) -> None:
+    go_on = threading.Event()
+
+    def work(progress: object, stop_requested: object) -> None:
+        go_on.wait(5)
+
+    writing = Message("work.export")
+    tasks.run(NAME, work, lambda nothing: None)
+    assert tasks.writing == ()
+    tasks.run(writing, work, lambda nothing: None, writes=True)
+    assert tasks.writing == (writing,)
+    tasks.cancel(tasks.running[-1])
+    assert tasks.writing == ()
+    go_on.set()
+    qtbot.waitUntil(lambda: tasks.is_idle)
+
+
 def test_progress_is_kept_within_its_bounds(tasks: ThreadTasks, qtbot: QtBot) -> None:
     reported, go_on = threading.Event(), threading.Event()
 

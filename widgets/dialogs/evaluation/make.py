@@ -184,7 +184,13 @@ class EvaluationDialog(WorkingDialog):
             return make(project, request, report, stopping(stop, stop_requested))
 
         self._session.tasks.run(
-            Message("work.evaluation"), work, self._done, self._failed, key="evaluation", ended=self._finish
+            Message("work.evaluation"),
+            work,
+            self._done,
+            self._failed,
+            key="evaluation",
+            ended=self._finish,
+            writes=True,
         )
 
     def request(self) -> EvaluationRequest:
