@@ -33,8 +33,8 @@ its program for another instrument's."""
 _OWN_SHARE = 0.96
 _FEW = 3
 _FEW_SHARE = 0.9
-"""A part for an instrument is played on just this one where it has nearly all notes, not on another size or key of it
-for the sake of a few; three in a short part may be more."""
+"""A part for an instrument is played on just this one where it has nearly all notes that any has, not on another size
+or key of it for the sake of a few; three in a short part may be more."""
 
 
 class MapChoice(msgspec.Struct, frozen=True):
@@ -126,16 +126,23 @@ class MapCandidates(msgspec.Struct, frozen=True):
         lowest, highest = min(pitches), max(pitches)
         by_part = self.instrument is not None and self.instrument.key_by_part
         reached = by_part and any(not choice.outside(pitches, written, usual=True) for choice in self.maps)
+        shares = {one.map_id: _share(pitches, one, written, usual=one.map_id not in self.exact) for one in self.maps}
+        most = max(shares.values())
 
         def rank(choice: MapChoice) -> tuple[bool, float, int, int]:
             # Who is asked for by name plays pedal tones too; nobody is chosen for them.
-            share = _share(pitches, choice, written, usual=choice.map_id not in self.exact)
+            share = shares[choice.map_id]
             shift = choice.transposition_semitones if written else 0
             low, high = choice.usual_range
             below, above = lowest - shift - low, high - highest + shift
-            few = (1.0 - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE and not reached
+
+            def nearly(whole: float) -> bool:
+                return (whole - share) * len(pitches) < _FEW + 0.5 and share >= _FEW_SHARE * whole and not reached
+
+            few = nearly(1.0)
+            # What no map reaches is no reason for another one.
             return (
-                choice.map_id in self.exact and (few or share >= (1.0 if reached else _OWN_SHARE)),
+                choice.map_id in self.exact and (nearly(most) or share >= most * (1.0 if reached else _OWN_SHARE)),
                 1.0 if few else share,
                 -abs(below - above),
                 min(below, above),

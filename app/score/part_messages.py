@@ -70,6 +70,7 @@ def instrument_warnings(
         warnings.append(_refused(parts, found.refused, maps, piece))
     elif found.instrument is not None:
         warnings += _substitutions(parts, found.instrument, maps)
+        warnings += _other_sizes(parts, found, found.instrument)
     return warnings
 
 
@@ -97,6 +98,15 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
         for map_id in dict.fromkeys(part.map_id for part in parts)
         if not any(choice.map_id == map_id and plays(choice, instrument) for choice in maps)
     ]
+
+
+def _other_sizes(parts: Sequence[Part], found: MapCandidates, instrument: Instrument) -> list[Message]:
+    """A warning for each other size or key that was chosen by range; not where players choose the key by the part."""
+    if not found.exact or instrument.key_by_part:
+        return []
+    others = dict.fromkeys(part.map_id for part in parts if part.map_id not in found.exact)
+    named: dict[str, Argument] = {"part": parts[0].name, "instrument": instrument.names[0]}
+    return [Message("score.size_by_range", {**named, "map": map_id}) for map_id in others]
 
 
 def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:

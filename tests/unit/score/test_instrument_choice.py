@@ -145,7 +145,29 @@ def test_of_the_sorts_of_an_instrument_the_range_decides_where_its_own_map_does_
 ) -> None:
     read = score((name, pitches))
     assert [part.map_id for part in read.parts] == [map_id]
-    assert read.warnings == ()
+    said = ["score.size_by_range"] if map_id == "trombone_bass_F_Gb" else []
+    assert [warning.id for warning in read.warnings] == said
+
+
+LINE = (60, 62, 64, 65, 67, 69, 70, 72, 74, 75, 77, 79, 77, 75, 74, 72, 70, 68, 66, 64, 62, 60, 58, 55)
+
+
+@pytest.mark.parametrize(
+    ("more", "map_id"),
+    [
+        ((), "clarinet_Bb"),
+        ((45, 46, 47), "clarinet_Bb"),  # Below both: no reason for the other one.
+        ((40,) * 30, "clarinet_Bb"),
+        ((45, 49, 49), "clarinet_Bb"),  # The other one has not all of them either.
+        ((49, 49, 49, 49), "clarinet_A"),
+    ],
+)
+def test_notes_that_no_clarinet_reaches_choose_no_other_clarinet(more: tuple[int, ...], map_id: str) -> None:
+    read = score(("Clarinet", (*LINE, *more)), program=71)
+    assert [part.map_id for part in read.parts] == [map_id]
+    said = [warning for warning in read.warnings if warning.id == "score.size_by_range"]
+    assert [warning.arguments["map"] for warning in said] == (["clarinet_A"] if map_id == "clarinet_A" else [])
+    assert all(warning.arguments["instrument"] == "Clarinet" for warning in said)
 
 
 def test_a_key_without_a_map_of_its_own_is_played_by_the_usual_one_and_said_so() -> None:
