@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 from PySide6.QtWidgets import QDialog
@@ -20,6 +20,7 @@ from app.shell.action import ActionRow
 from app.shell.actions import ActionTable
 from app.shell.language import Language
 from app.shell.window import Window
+from widgets.dialogs.export_range import ExportedBars
 
 D = TypeVar("D", bound=QDialog)
 
@@ -32,6 +33,8 @@ class Editor:
     ----------
     questions : Questions
         How the user is asked.
+    exported_bars : dict of str to ExportedBars
+        What the last export of a piece wrote, by its source, until the program ends.
     """
 
     session: Session
@@ -45,6 +48,7 @@ class Editor:
     video: ReferenceVideo
     table: ActionTable
     window: Window
+    exported_bars: dict[str, ExportedBars] = field(default_factory=dict)
 
     def speak(self, code: str) -> None:
         """Show the editor in a language; empty: the system's."""

@@ -8,12 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtWidgets import (
-    QListWidget,
-    QListWidgetItem,
-    QScrollArea,
-    QWidget,
-)
+from PySide6.QtWidgets import QListWidget, QListWidgetItem, QScrollArea, QWidget
 
 from app.editor.design_tokens import LEAST_TARGET_PX
 from app.editor.session import Session, Severity
@@ -36,7 +31,7 @@ from widgets.dialogs.export_destination import Destination, Done, foresee_folder
 from widgets.dialogs.export_face import FaceChooser
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
-from widgets.dialogs.export_range import BeatsBox, RangeChooser
+from widgets.dialogs.export_range import WHOLE_PIECE, BeatsBox, ExportedBars, RangeChooser
 from widgets.dialogs.export_rig import RigChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 from widgets.dialogs.progress_dialog import WorkingDialog, stopping
@@ -111,6 +106,7 @@ class ExportDialog(WorkingDialog):
         Where the last export went: ``"folder"`` or ``"unreal"``.
     keys : str
         What was chosen of `KEY_CHOICES` before.
+    before : ExportedBars, of the piece's last export
     source, creator : str
         Name of the piece's file; program and version, for the report.
     parent : QWidget, optional
@@ -130,6 +126,7 @@ class ExportDialog(WorkingDialog):
         unreal: Path | None = None,
         destination: Destination = "folder",
         keys: KeyChoice = "every",
+        before: ExportedBars = WHOLE_PIECE,
     ) -> None:
         super().__init__("export_files", "export", parent)
         self._session, self._source, self._creator = session, source, creator
@@ -147,11 +144,13 @@ class ExportDialog(WorkingDialog):
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
         self._range = RangeChooser(session, self._project.score)
+        self._range.begin_with(before.bars)
         self._preroll = self.texted(BeatsBox("export_preroll"), suffix="export_dialog.beats")
         self._preroll.setValue(self._project.preroll_beats)
         self._lead_in = self.texted(
             BeatsBox("export_lead_in"), suffix="export_dialog.beats", tip="export_dialog.lead_in_tip"
         )
+        self._lead_in.setValue(before.lead_in_beats)
         self._rate = named(ComboBox(), "export_rate")
         for rate in sorted({*USUAL_RATES, self._project.fps}):
             self._rate.addItem(frame_rate_text(rate), str(rate))
@@ -232,6 +231,11 @@ class ExportDialog(WorkingDialog):
     def keys(self) -> KeyChoice:
         """The chosen rule for frames with keys."""
         return KEY_CHOICES[self._keys.currentIndex()]
+
+    @property
+    def chosen_bars(self) -> ExportedBars:
+        """The bars chosen, and their lead-in."""
+        return ExportedBars(self._range.bars, self._lead_in.value())
 
     def _request(self) -> ExportRequest:
         fps, bars = Fraction(self._rate.currentData()), self._range.bars
@@ -351,7 +355,6 @@ class ExportDialog(WorkingDialog):
         self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))
         self._form.setRowVisible(self._preroll, self._range.bars is None)
         self._form.setRowVisible(self._lead_in, self._range.bars is not None)
-        problem = ""
         if not self.player_ids:
             problem = self.tr("export_dialog.tick_at_least_one_player")
         elif not self._formats.formats and into_folder:

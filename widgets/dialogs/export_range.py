@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final, NamedTuple
+
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QSpinBox, QWidget
 
@@ -15,6 +17,24 @@ from widgets.common.plain import ComboBox, Label
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 TEXT_MARGIN_PX = 6
 """Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
+
+
+class ExportedBars(NamedTuple):
+    """What an export wrote of a piece.
+
+    Attributes
+    ----------
+    bars : (int, int) or None
+        First and last bar; None: the whole piece.
+    lead_in_beats : float
+        Felt beats before them.
+    """
+
+    bars: tuple[int, int] | None = None
+    lead_in_beats: float = 0.0
+
+
+WHOLE_PIECE: Final = ExportedBars()
 
 
 class BeatsBox(QDoubleSpinBox):
@@ -88,6 +108,14 @@ class RangeChooser(Retranslated, QWidget):
             bar_of_tick = self._score.metre_map.bar_of_tick
             return bar_of_tick(span[0]), bar_of_tick(max(span[1] - 1, span[0]))
         return self._first_bar.value(), self._last_bar.value()
+
+    def begin_with(self, bars: tuple[int, int] | None) -> None:
+        """Offer bars that were chosen before, as far as the piece has them; None: no bars."""
+        if bars is None:
+            return
+        self._choice.setCurrentIndex(self._choice.findData(_BARS))
+        for spin, bar in zip((self._first_bar, self._last_bar), bars, strict=True):
+            spin.setValue(bar)
 
     @property
     def problem(self) -> str:

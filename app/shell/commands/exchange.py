@@ -23,6 +23,7 @@ from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.text import message_text
+from widgets.dialogs.export_range import ExportedBars
 from widgets.inspector.words import correction_title
 
 
@@ -139,6 +140,7 @@ def export_files(editor: Editor) -> None:
     from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
 
     unreal = editor.settings.unreal_project
+    piece = editor.session.project.source or str(editor.files.path)
     dialog = ExportDialog(
         editor.session,
         Path(folder),
@@ -148,9 +150,11 @@ def export_files(editor: Editor) -> None:
         unreal=Path(unreal) if unreal else None,
         destination="unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
         keys=editor.settings.export_keys,
+        before=editor.exported_bars.get(piece, ExportedBars()),
     )
 
     def remember(destination: str, place: Path) -> None:
+        editor.exported_bars[piece] = dialog.chosen_bars
         editor.settings.export_into = destination
         if destination == "folder":
             editor.settings.export_keys = dialog.keys

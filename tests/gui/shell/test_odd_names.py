@@ -12,7 +12,16 @@ import soundfile
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QLabel, QLineEdit, QPushButton
+from PySide6.QtWidgets import (
+    QApplication,
+    QComboBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QSpinBox,
+)
 from pytestqt.qtbot import QtBot
 
 from app.editor.settings import Settings
@@ -115,13 +124,25 @@ def test_players_are_exported(empty: Program, folder: Path, qtbot: QtBot) -> Non
     assert line.text().startswith("bytes:///")
     keys = child(dialog, QComboBox, "export_keys")
     keys.setCurrentIndex(keys.findData("reduced"))
+    child(dialog, QComboBox, "export_range").setCurrentIndex(1)
+    child(dialog, QSpinBox, "export_first_bar").setValue(1)
+    child(dialog, QSpinBox, "export_last_bar").setValue(1)
+    child(dialog, QDoubleSpinBox, "export_lead_in").setValue(1.0)
     dialog.start()
     qtbot.waitUntil(lambda: f"{NAME}/{NAME}.out" in reported.text())
     assert (odd(folder, ".out") / "report.json").is_file()
     dialog.close()
     assert program.editor.settings.export_folder == str(odd(folder, ".out"))
     trigger(program, "export.files")
-    assert program.window.findChildren(ExportDialog)[-1].keys == "reduced", "as it was chosen"
+    again = program.window.findChildren(ExportDialog)[-1]
+    assert again.keys == "reduced", "as it was chosen"
+    assert again.chosen_bars == ((1, 1), 1.0), "of this piece"
+    again.close()
+    program.editor.files.open(QUARTET, ask=False)
+    trigger(program, "export.files")
+    another = program.window.findChildren(ExportDialog)[-1]
+    assert another.chosen_bars == (None, 0.0)
+    another.close()
 
 
 def test_a_path_that_is_typed(qt_app: QApplication, folder: Path) -> None:
