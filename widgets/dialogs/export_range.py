@@ -20,7 +20,7 @@ TEXT_MARGIN_PX = 6
 
 
 class ExportedBars(NamedTuple):
-    """What an export wrote of a piece.
+    """Bars that an export wrote, and their lead-in.
 
     Attributes
     ----------
