@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from PySide6.QtWidgets import QDialog
 
+from app.editor.exported_bars import ExportedBars
 from app.editor.files import Files
 from app.editor.questions import Questions
 from app.editor.recorder import Recorder
@@ -20,7 +21,6 @@ from app.shell.action import ActionRow
 from app.shell.actions import ActionTable
 from app.shell.language import Language
 from app.shell.window import Window
-from widgets.dialogs.export_range import ExportedBars
 
 D = TypeVar("D", bound=QDialog)
 

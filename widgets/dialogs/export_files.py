@@ -11,6 +11,7 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QScrollArea, QWidget
 
 from app.editor.design_tokens import LEAST_TARGET_PX
+from app.editor.exported_bars import WHOLE_PIECE, ExportedBars
 from app.editor.session import Session, Severity
 from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
@@ -31,7 +32,7 @@ from widgets.dialogs.export_destination import Destination, Done, foresee_folder
 from widgets.dialogs.export_face import FaceChooser
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
-from widgets.dialogs.export_range import WHOLE_PIECE, BeatsBox, ExportedBars, RangeChooser
+from widgets.dialogs.export_range import BeatsBox, RangeChooser
 from widgets.dialogs.export_rig import RigChooser
 from widgets.dialogs.export_skeleton import SkeletonChooser
 from widgets.dialogs.progress_dialog import WorkingDialog, stopping

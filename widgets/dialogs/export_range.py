@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
-
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QSpinBox, QWidget
 
@@ -17,24 +15,6 @@ from widgets.common.plain import ComboBox, Label
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 TEXT_MARGIN_PX = 6
 """Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
-
-
-class ExportedBars(NamedTuple):
-    """Bars that an export wrote, and their lead-in.
-
-    Attributes
-    ----------
-    bars : (int, int) or None
-        First and last bar; None: the whole piece.
-    lead_in_beats : float
-        Felt beats before them.
-    """
-
-    bars: tuple[int, int] | None = None
-    lead_in_beats: float = 0.0
-
-
-WHOLE_PIECE: Final = ExportedBars()
 
 
 class BeatsBox(QDoubleSpinBox):

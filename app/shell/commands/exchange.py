@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 
+from app.editor.exported_bars import ExportedBars
 from app.editor.session import Session, Severity
 from app.editor.translated import tr
 from app.encoding import shown
@@ -23,7 +24,6 @@ from app.shell.editor import Editor, EditorAction, is_open
 from app.version import program_version
 from instrument_maps.library import all_maps
 from widgets.common.text import message_text
-from widgets.dialogs.export_range import ExportedBars
 from widgets.inspector.words import correction_title
 
 

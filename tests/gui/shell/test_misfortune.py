@@ -131,7 +131,7 @@ def test_a_damaged_project_is_reported_and_the_open_one_stays(
         reported.messages.clear()
         path = good_file(tmp_path)
         damaged(path, what)
-        program.editor.files._load(path)
+        program.editor.files._load(path, at_start=False)
         assert "good.suisou" in reported.says(program), what
         assert reported.messages[-1][1] is Severity.ERROR
         assert program.session.project is before

@@ -1,0 +1,23 @@
+"""Bars that an export wrote, and their lead-in."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+
+class ExportedBars(NamedTuple):
+    """Bars that an export wrote, and their lead-in.
+
+    Attributes
+    ----------
+    bars : (int, int) or None
+        First and last bar; None: the whole piece.
+    lead_in_beats : float
+        Felt beats before them.
+    """
+
+    bars: tuple[int, int] | None = None
+    lead_in_beats: float = 0.0
+
+
+WHOLE_PIECE: Final = ExportedBars()
