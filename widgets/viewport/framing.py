@@ -181,7 +181,7 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """The box around players from the hips up, in the middle whatever they hold out; from the floor up of those who
+    """The box around players from the hips up, in the middle whatever they hold out; from the floor up where they
     dance."""
     low, high = bounds(stage, rows)
     if any(stage.members[row].assets.held is None for row in rows):
