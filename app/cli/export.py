@@ -6,6 +6,7 @@ import argparse
 import os
 import signal
 import sys
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -113,11 +114,7 @@ def file_formats(text: str) -> list[Format]:
     argparse.ArgumentTypeError
         Nothing, or something that is no format.
     """
-    names = [name.strip().casefold() for name in text.split(",")]
-    unknown = [name for name in names if name not in FILE_FORMATS]
-    if unknown:
-        typed = ", ".join(map(repr, unknown))
-        raise argparse.ArgumentTypeError(said("cli.no_format", typed=typed, possible=", ".join(FILE_FORMATS)))
+    names = _names(text, FILE_FORMATS, "cli.no_format")
     return [name for name in FILE_FORMATS if name in names]
 
 
@@ -129,12 +126,18 @@ def face_parts(text: str) -> tuple[FacePart, ...]:
     argparse.ArgumentTypeError
         Nothing, or something that is no part.
     """
+    names = _names(text, FACE_PARTS, "cli.no_face_part")
+    return tuple(part for part in FACE_PARTS if part in names)
+
+
+def _names(text: str, possible: Collection[str], refusal: str) -> list[str]:
+    """Return the names between commas, refused by the message ``refusal`` where one is not possible."""
     names = [name.strip().casefold() for name in text.split(",")]
-    unknown = [name for name in names if name not in FACE_PARTS]
+    unknown = [name for name in names if name not in possible]
     if unknown:
         typed = ", ".join(map(repr, unknown))
-        raise argparse.ArgumentTypeError(said("cli.no_face_part", typed=typed, possible=", ".join(FACE_PARTS)))
-    return tuple(part for part in FACE_PARTS if part in names)
+        raise argparse.ArgumentTypeError(said(refusal, typed=typed, possible=", ".join(possible)))
+    return names
 
 
 def export(arguments: argparse.Namespace) -> int:
