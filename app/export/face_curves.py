@@ -7,17 +7,19 @@ faces of other makers call the same shapes otherwise:
   Character Creator read too;
 - ``metahuman``: the raw controls of a MetaHuman's face (``CTRL_expressions_...``, of which there are 251), by the table
   of `metadata`;
-- ``audio2face``: the same 52 with a capital, as NVIDIA's Audio2Face-3D and Unreal's Live Link name them
-  (EARFaceBlendShape); of its 16 further shapes of the tongue there is nothing in a wind player's face.
+- ``audio2face``: the same 52 with a capital, as NVIDIA's Audio2Face-3D (``names.cpp`` of NVIDIA/Maya-ACE) and Unreal's
+  Live Link (EARFaceBlendShape) name them, in the same order; the 16 further shapes of the tongue in its later version
+  are not written.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final, Literal, TypeAlias, get_args
 
 import msgspec
+import numpy as np
 
 from app.arrays import SingleArray
 from app.formats.scene import MorphTarget, Scene, SkinnedMesh
@@ -83,29 +85,60 @@ def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
 
 
 def with_curve_names(scene: Scene, names: CurveNames) -> Scene:
-    """A scene whose face curves and morph targets are called so, and show the same.
+    """Rename a scene's face curves and morph targets; the mesh moves as before.
 
-    Where one shape becomes several curves, each moves the mesh by its share of the shape.
+    A shape may move several curves, and a curve may serve several shapes: its weights are added up, and the mesh's
+    targets are those with which the curves together make the shapes again.
     """
     if names == "arkit" or scene.clip is None:
         return scene
     table = curve_names(names)
-    weights = {
-        curve: values if share == 1.0 else values * share
-        for shape, values in scene.clip.morph_weights.items()
-        for curve, share in table.get(shape, {shape: 1.0}).items()
-    }
-    meshes = tuple(_renamed(mesh, table) for mesh in scene.meshes)
+    weights: dict[str, SingleArray] = {}
+    for shape, values in scene.clip.morph_weights.items():
+        for curve, share in table.get(shape, {shape: 1.0}).items():
+            part = values if share == 1.0 else (values * share).astype(values.dtype)
+            weights[curve] = np.add(weights[curve], part, dtype=values.dtype) if curve in weights else part
+    shares = _shares_of_shapes(table)
+    meshes = tuple(_renamed(mesh, shares) for mesh in scene.meshes)
     return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights=weights))
 
 
-def _renamed(mesh: SkinnedMesh, table: Mapping[str, Mapping[str, float]]) -> SkinnedMesh:
-    morphs: list[MorphTarget] = []
+_SMALLEST_SHARE: Final = 1e-9
+"""Shares below this are rounding errors."""
+
+
+def _shares_of_shapes(table: Mapping[str, Mapping[str, float]]) -> dict[str, dict[str, float]]:
+    """For each shape, the share of its vertex offsets that the target of each curve gets: the pseudo-inverse of the
+    table, so that the table's weights of these targets give the shapes."""
+    curves = list(dict.fromkeys(curve for shares in table.values() for curve in shares))
+    weights = np.array([[shares.get(curve, 0.0) for shares in table.values()] for curve in curves])
+    inverse = np.linalg.pinv(weights)
+    return {
+        shape: {curve: float(share) for curve, share in zip(curves, row, strict=True) if abs(share) > _SMALLEST_SHARE}
+        for shape, row in zip(table, inverse, strict=True)
+    }
+
+
+def _renamed(mesh: SkinnedMesh, shares: Mapping[str, Mapping[str, float]]) -> SkinnedMesh:
+    parts: dict[str, list[tuple[MorphTarget, float]]] = {}
     for morph in mesh.morphs:
-        shares = table.get(morph.name, {morph.name: 1.0})
-        whole = sum(share * share for share in shares.values())
-        for curve, share in shares.items():
-            part = share / whole
-            normals = None if morph.normal_deltas is None else morph.normal_deltas * part
-            morphs.append(MorphTarget(curve, morph.vertex_indices, morph.position_deltas_cm * part, normals))
-    return replace(mesh, morphs=tuple(morphs))
+        for curve, share in shares.get(morph.name, {morph.name: 1.0}).items():
+            parts.setdefault(curve, []).append((morph, share))
+    return replace(mesh, morphs=tuple(_summed(curve, of) for curve, of in parts.items()))
+
+
+def _summed(name: str, parts: Sequence[tuple[MorphTarget, float]]) -> MorphTarget:
+    """Add up morph targets, each times a factor."""
+    if len(parts) == 1:
+        morph, share = parts[0]
+        normals = None if morph.normal_deltas is None else morph.normal_deltas * share
+        return MorphTarget(name, morph.vertex_indices, morph.position_deltas_cm * share, normals)
+    vertices = np.unique(np.concatenate([morph.vertex_indices for morph, _ in parts]))
+    deltas = np.zeros((len(vertices), 3))
+    turned = None if any(morph.normal_deltas is None for morph, _ in parts) else np.zeros((len(vertices), 3))
+    for morph, share in parts:
+        rows = np.searchsorted(vertices, morph.vertex_indices)
+        deltas[rows] += morph.position_deltas_cm * share
+        if turned is not None and morph.normal_deltas is not None:
+            turned[rows] += morph.normal_deltas * share
+    return MorphTarget(name, vertices, deltas, turned)

@@ -36,24 +36,25 @@ LISTS = Path(__file__).parents[2] / "data" / "face_curves"
 def _list(name: str) -> set[str]:
     """Names of a maker's list.
 
-    ``metahuman``: the 251 raw controls of a MetaHuman's face, as plug-ins for Unreal list them (Convai's
-    MetaHumanCtrlNames; Meta's Movement SDK has the same). ``unreal_arkit``: Unreal's EARFaceBlendShape without the
-    rotations of head and eyes, of which Audio2Face-3D has the same 52 first.
+    ``metahuman``: the 251 raw controls of a MetaHuman's face, by which Epic's own plug-in verifies one (GetFdsCurves in
+    VerifyMetaHumanCharacter.cpp of its MetaHuman SDK). ``audio2face``: the first 52 of NVIDIA's Audio2Face-3D
+    (ARKIT_FACE_EXPRESSIONS in names.cpp of NVIDIA/Maya-ACE), in the order of Unreal's EARFaceBlendShape.
     """
     return set((LISTS / f"{name}.txt").read_text(encoding="utf-8").split())
 
 
 @pytest.mark.parametrize("names", CURVE_NAMES)
-def test_every_shape_of_arkit_has_curves_and_none_is_shared(names: CurveNames) -> None:
+def test_every_shape_of_arkit_has_curves_from_which_it_can_be_made_again(names: CurveNames) -> None:
     table = curve_names(names)
     assert table.keys() == set(ARKIT_MORPHS)
     assert all(0.0 < share <= 1.0 for curves in table.values() for share in curves.values())
-    curves = [curve for shares in table.values() for curve in shares]
-    assert len(set(curves)) == len(curves)
+    curves = sorted({curve for shares in table.values() for curve in shares})
+    weights = [[shares.get(curve, 0.0) for curve in curves] for shares in table.values()]
+    assert np.linalg.matrix_rank(np.array(weights)) == len(table)
 
 
 def test_curves_are_in_the_makers_lists() -> None:
-    assert {curve for curves in curve_names("audio2face").values() for curve in curves} == _list("unreal_arkit")
+    assert {curve for curves in curve_names("audio2face").values() for curve in curves} == _list("audio2face")
     raw = _list("metahuman")
     assert len(raw) == 251
     assert {curve for curves in curve_names("metahuman").values() for curve in curves} <= raw
@@ -89,9 +90,16 @@ def _deformed(scene: Scene, frame: int) -> np.ndarray:
 def test_a_mesh_shows_the_same_by_other_names(names: CurveNames) -> None:
     made = scenes.character(Fraction(30))
     assert made.clip is not None
-    funnel = MorphTarget("mouthFunnel", np.arange(9), np.random.default_rng(3).normal(size=(9, 3)))
-    body = replace(made.meshes[0], morphs=(*made.meshes[0].morphs, funnel))
-    weights = {**made.clip.morph_weights, "mouthFunnel": np.linspace(1.0, 0.2, made.clip.frames)}
+    chance = np.random.default_rng(3)
+    funnel = MorphTarget("mouthFunnel", np.arange(9), chance.normal(size=(9, 3)))
+    # Of a MetaHuman, it shares curves with the funnel.
+    pucker = MorphTarget("mouthPucker", np.arange(4, 12), chance.normal(size=(8, 3)))
+    body = replace(made.meshes[0], morphs=(*made.meshes[0].morphs, funnel, pucker))
+    shown = {
+        name: np.linspace(*ends, made.clip.frames)
+        for name, ends in {"mouthFunnel": (1.0, 0.2), "mouthPucker": (0.1, 0.9)}.items()
+    }
+    weights = {**made.clip.morph_weights, **shown}
     given = replace(made, meshes=(body, *made.meshes[1:]), clip=replace(made.clip, morph_weights=weights))
     found = with_curve_names(given, names)
     assert found.clip is not None
