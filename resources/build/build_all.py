@@ -19,6 +19,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.messages import LANGUAGES
+
 ROOT = Path(__file__).parents[2]
 SCREEN = ("xvfb-run", "-a", "-s", "-screen 0 3840x2160x24")
 
@@ -101,9 +103,9 @@ STEPS = (
         _modules(
             "resources.build.build_pictures",
             "resources.build.build_loops",
-            "tests.support.character_pictures docs/pictures",
-            "tests.support.recording_pictures",
-            "tests.support.unreal_pictures",
+            "tests.support.character_pictures docs/pictures en:dark ja:dark",
+            *(f"tests.support.recording_pictures {language}" for language in LANGUAGES),
+            *(f"tests.support.unreal_pictures docs/pictures {language}" for language in LANGUAGES),
         ),
         "a display, or xvfb-run",
         seen=True,

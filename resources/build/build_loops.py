@@ -1,4 +1,5 @@
-"""Draws the loops of the README into docs/pictures/: the editor while a quartet plays, and a band on its stage.
+"""Draws the loops of the READMEs into docs/pictures/: the editor in each language while a quartet plays, and a band on
+its stage.
 
 Run from the repository: ``python -m resources.build.build_loops``; without a screen, under
 ``xvfb-run -a -s "-screen 0 1920x1200x24"``.
@@ -19,6 +20,7 @@ from PySide6.QtCore import QEventLoop, Qt
 from PySide6.QtWidgets import QApplication
 
 from app.editor.settings import Settings
+from app.messages import LANGUAGES
 from app.shell.app import Program, make_application
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
@@ -54,10 +56,10 @@ def wait(application: QApplication, ready: Callable[[], bool], most_s: float = M
         time.sleep(0.005)
 
 
-def editor_frames(application: QApplication, folder: Path) -> Iterator[Image.Image]:
-    """Pictures of viewport and timeline while the notes pass."""
+def editor_frames(application: QApplication, folder: Path, language: str) -> Iterator[Image.Image]:
+    """Pictures of viewport and timeline in a language while the notes pass."""
     settings = Settings(folder / "editor.toml")
-    settings.language, settings.theme = "en", "dark"
+    settings.language, settings.theme = language, "dark"
     program = Program(settings, audible=False)
     window, session = program.window, program.session
     try:
@@ -124,11 +126,14 @@ def write(name: str, frames: Sequence[Image.Image]) -> None:
 
 
 def main() -> None:
-    """Draw and write both."""
+    """Draw and write all."""
     with tempfile.TemporaryDirectory() as folder:
         write("band", [*band_frames(Path(folder))])
-    with tempfile.TemporaryDirectory() as folder:
-        write("playing", [*editor_frames(make_application(), Path(folder))])
+    application = make_application()
+    for language in LANGUAGES:
+        suffix = "" if language == "en" else f"_{language}"
+        with tempfile.TemporaryDirectory() as folder:
+            write(f"playing{suffix}", [*editor_frames(application, Path(folder), language)])
 
 
 if __name__ == "__main__":

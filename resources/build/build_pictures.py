@@ -36,10 +36,13 @@ class Picture:
     crop: tuple[int, int, int, int] | None = None
 
 
+TIMELINE = ("--time", "26.4", "--size", "3200x1700")
+TIMELINE_BOX = (308, 905, 1908, 1672)
 PICTURES = (
     Picture("editor", ("--time", "26.4", "--view", "ensemble")),
     Picture("editor_ja", ("--time", "26.4", "--view", "hands", "--language", "ja", "--theme", "light")),
-    Picture("timeline", ("--time", "26.4", "--size", "3200x1700"), (308, 905, 1908, 1672)),
+    Picture("timeline", TIMELINE, TIMELINE_BOX),
+    Picture("timeline_ja", (*TIMELINE, "--language", "ja"), TIMELINE_BOX),
 )
 
 

@@ -1,7 +1,7 @@
 """Draws the pictures of ``docs/bring-your-own-character.md``: a foreign character brought, corrected and played.
 
-Run from the repository: ``python -m tests.support.character_pictures FOLDER``; needs a display (without a screen:
-``xvfb-run -a -s "-screen 0 2560x1600x24"``). The user's own characters are not touched.
+Run from the repository: ``python -m tests.support.character_pictures FOLDER [LANGUAGE:THEME ...]``; needs a display
+(without a screen: ``xvfb-run -a -s "-screen 0 2560x1600x24"``). The user's own characters are not touched.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def draw(target: Path, language: str, theme: str) -> None:
     """All pictures in one language and theme."""
     application = QApplication.instance()
     assert isinstance(application, QApplication)
-    suffix = "" if language == "en" else f"-{language}"
+    suffix = "" if language == "en" else f"_{language}"
     with tempfile.TemporaryDirectory() as folder:
         os.environ[FOLDER_VARIABLE] = str(Path(folder) / "characters")
         studio = Studio(application, Path(folder), language, theme)

@@ -1,8 +1,8 @@
 """Draws the picture of ``docs/into-unreal.md``: the export dialog before it exports into an Unreal project again.
 
 Run from the repository: ``python -m tests.support.unreal_pictures``; needs a display (without a screen:
-``xvfb-run -a -s "-screen 0 2560x1600x24"``). With a folder as its argument it draws there, in both languages and
-themes, before the first export, before another and after it.
+``xvfb-run -a -s "-screen 0 2560x1600x24"``). Arguments: a folder, a language and a theme (``docs/pictures en dark`` if
+left out). In another folder the dialog is drawn before the first export and after it too.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from widgets.dialogs.export_files import ExportDialog
 
 ROOT: Final = Path(__file__).parents[2]
 PIECE: Final = ROOT / "resources" / "examples" / "quartet.mid"
-PICTURE: Final = ROOT / "docs" / "pictures" / "export-unreal.png"
-SIZE: Final = (1000, 500)
+PICTURES: Final = ROOT / "docs" / "pictures"
+SIZE: Final = (1000, 660)
 
 
 class Artist:
@@ -84,19 +84,22 @@ class Artist:
         self.dialog.grab().save(str(path))
 
 
-def main(target: Path | None, language: str, theme: str) -> None:
+def main(folder: str = str(PICTURES), language: str = "en", theme: str = "dark") -> None:
     """Draw."""
-    with tempfile.TemporaryDirectory() as folder:
-        artist = Artist(Path(folder), language, theme)
-        if target is not None:
+    target = Path(folder).resolve()
+    with tempfile.TemporaryDirectory() as work:
+        artist = Artist(Path(work), language, theme)
+        if target != PICTURES:
             artist.look(target / f"first_{language}_{theme}.png")
         artist.export()
-        if target is not None:
+        if target != PICTURES:
             artist.look(target / f"done_{language}_{theme}.png")
         artist.dialog._players.item(3).setCheckState(Qt.CheckState.Unchecked)
-        artist.look(PICTURE if target is None else target / f"again_{language}_{theme}.png")
+        suffix = "" if language == "en" else f"_{language}"
+        again = f"export-unreal{suffix}.png" if target == PICTURES else f"again_{language}_{theme}.png"
+        artist.look(target / again)
         artist.dialog.close()
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if sys.argv[1:] else None, *(sys.argv[2:] or ["en", "dark"]))
+    main(*sys.argv[1:])

@@ -63,3 +63,15 @@ def test_quick_examples_run(
     monkeypatch.chdir(ROOT)
     assert main([*words]) == DONE
     assert capsys.readouterr().out
+
+
+@pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.name)
+def test_pictures_of_guides_are_there_and_in_their_language(guide: Path) -> None:
+    pictures = [
+        guide.parent / name for name in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", guide.read_text(encoding="utf-8"))
+    ]
+    assert [picture for picture in pictures if not picture.is_file()] == []
+    is_japanese = guide.stem.endswith("_ja")
+    others = (picture.with_stem(f"{picture.stem}_ja") for picture in pictures)
+    assert not is_japanese or [other.name for other in others if other.is_file()] == []
+    assert is_japanese or [picture.name for picture in pictures if picture.stem.endswith("_ja")] == []
