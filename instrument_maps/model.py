@@ -120,6 +120,9 @@ class Control(MapTable, frozen=True):
         ... and at most this part of the sounding note before it.
     max_speed_m_s : float or None
         Where the distance decides (a slide): the window is then at least distance / speed.
+    unhurried_speed_m_s : float or None
+        Of such a control where the note before leaves it the time: its move then takes distance / speed, and its
+        fastest moment is 15/8 of that (`app.motion.curves.curve.minimum_jerk`).
     used_with : tuple of str
         Intonation only: labels of the fingerings it corrects.
     held_min_s : float or None
@@ -141,6 +144,7 @@ class Control(MapTable, frozen=True):
     move_window_s: float = 0.06
     move_note_share: float = 0.4
     max_speed_m_s: float | None = None
+    unhurried_speed_m_s: float | None = None
     used_with: tuple[str, ...] = ()
     held_min_s: float | None = None
     attack_s: float | None = None

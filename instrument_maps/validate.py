@@ -203,10 +203,14 @@ def _timing(path: str, control: Control) -> Iterator[Problem]:
     yield from within(f"{path}.move_note_share", control.move_note_share, 0.01, 1)
     if control.attack_s is not None:
         yield from within(f"{path}.attack_s", control.attack_s, 0.05, 2)
-    if control.max_speed_m_s is not None:
-        yield from within(f"{path}.max_speed_m_s", control.max_speed_m_s, 0.05, 20)
-        if not control.travel_m:
-            yield f"{path}.max_speed_m_s", "has no meaning for a turn"
+    for name in ("max_speed_m_s", "unhurried_speed_m_s"):
+        speed_m_s = getattr(control, name)
+        if speed_m_s is not None:
+            yield from within(f"{path}.{name}", speed_m_s, 0.05, 20)
+            if not control.travel_m:
+                yield f"{path}.{name}", "has no meaning for a turn"
+    if control.unhurried_speed_m_s is not None and control.unhurried_speed_m_s > (control.max_speed_m_s or 0.0):
+        yield f"{path}.unhurried_speed_m_s", "is more than max_speed_m_s"
 
 
 def _role(path: str, control: Control, labels: set[str]) -> Iterator[Problem]:

@@ -183,16 +183,19 @@ class NoteFrames:
         """The earliest times (N,) at which a control may leave the places of the notes: their ends, or shortly before.
 
         Where its share of the note is not enough for the way at the speed the map gives, it may take the time it
-        needs: the plan flags such notes.
+        needs: the plan flags such notes. Where it is enough for an unhurried way, that may be taken.
         """
         starts_s, next_s = self._starts_s[:-1], self._starts_s[1:]
-        needed_s = np.zeros(len(next_s))
-        if control.max_speed_m_s and control.travel_m:
-            needed_s = np.abs(targets[1:] - targets[:-1]) * control.travel_m / control.max_speed_m_s
+        needed_s, unhurried_s = np.zeros((2, len(next_s)))
+        distances_m = np.abs(targets[1:] - targets[:-1]) * control.travel_m
+        if control.max_speed_m_s:
+            needed_s = distances_m / control.max_speed_m_s
+        if control.unhurried_speed_m_s:
+            unhurried_s = distances_m / control.unhurried_speed_m_s
         # A note may sound on under the next one (legato); its control belongs to it until then only.
         ends_s = np.minimum(self._ends_s[:-1], next_s)
         allowed_s = np.maximum(next_s - ends_s, control.move_note_share * (ends_s - starts_s))
-        window_s = np.maximum(needed_s, np.minimum(control.move_window_s, allowed_s))
+        window_s = np.maximum(needed_s, np.minimum(np.maximum(control.move_window_s, unhurried_s), allowed_s))
         if control.kind == "slide":
             glides_s = np.array([note.glide_from_s or math.inf for note in self.notes[1:]])
             window_s = np.maximum(window_s, next_s - glides_s)

@@ -50,11 +50,18 @@ def need_s(control: Control, distance: float) -> float:
     return abs(distance) * control.travel_m / control.max_speed_m_s
 
 
+def _unhurried_s(control: Control, distances: FloatArray) -> FloatArray:
+    """Times of moves over ``distances`` (M,) for which there is time enough; 0 where the map gives no such speed."""
+    if control.unhurried_speed_m_s is None:
+        return np.zeros(len(distances))
+    return np.abs(distances) * control.travel_m / control.unhurried_speed_m_s
+
+
 def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
     """Return how long before its onsets (M,) a control may leave its place.
 
-    Where the share of the note is too short for a human speed (the plan flags such notes) the control starts
-    earlier, but leaves the note its first frame at 24 frames/s.
+    A way that its share of the note is enough for is unhurried. Where the share is too short for a human speed (the
+    plan flags such notes) the control starts earlier, but leaves the note its first frame at 24 frames/s.
 
     Parameters
     ----------
@@ -66,22 +73,28 @@ def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, g
     needs = np.zeros(len(distances))
     if control.max_speed_m_s is not None and control.travel_m:
         needs = np.abs(distances) * control.travel_m / control.max_speed_m_s
+    usual = np.maximum(needs, _unhurried_s(control, distances) * (1.0 - _unseen_phase(control, distances)))
     allowed = np.maximum(gaps_s, control.move_note_share * durations_s)
-    unhurried = np.minimum(np.maximum(control.move_window_s, needs), allowed)
+    unhurried = np.minimum(np.maximum(control.move_window_s, usual), allowed)
     hurried = np.minimum(needs, np.maximum(allowed, durations_s + gaps_s - SLOWEST_FRAME_S))
     return np.where(needs <= allowed, unhurried, hurried)
 
 
-def _unseen_s(control: Control, distances: FloatArray | float, windows_s: FloatArray | float) -> FloatArray | float:
-    """Return how much earlier than its windows a control may begin to move, because when the window opens it is still
-    in place.
+def _unseen_phase(control: Control, distances: FloatArray) -> FloatArray:
+    """Time, as a share of moves over ``distances`` (M,), in which a control still looks as if it stood in its place.
 
-    What looks like standing still is where finger or hand gathers speed, so that it need not jerk.
+    That is where finger or hand gathers speed, so that it need not jerk.
     """
-    phase: FloatArray | float = _PRESSED_PHASE
-    if control.kind == "slide" and control.travel_m:
-        share = STILL_IN_PLACE_M / np.maximum(np.abs(distances) * control.travel_m, STILL_IN_PLACE_M / STILL_SHARE)
-        phase = np.asarray(np.interp(share, _PROGRESS, _PHASES))
+    if control.kind != "slide" or not control.travel_m:
+        return np.full(len(distances), _PRESSED_PHASE)
+    share = STILL_IN_PLACE_M / np.maximum(np.abs(distances) * control.travel_m, STILL_IN_PLACE_M / STILL_SHARE)
+    return np.interp(share, _PROGRESS, _PHASES)
+
+
+def _unseen_s(control: Control, distances: FloatArray, windows_s: FloatArray) -> FloatArray:
+    """Return how much earlier than its windows (M,) a control may begin to move, because when the window opens it is
+    still in place."""
+    phase = _unseen_phase(control, distances)
     return windows_s * phase / (1.0 - phase)
 
 
@@ -191,25 +204,35 @@ def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: Inde
 
 
 def _free_window_s(control: Control, distance: float) -> float:
-    window = max(control.move_window_s, need_s(control, distance))
-    return window + float(_unseen_s(control, distance, window)) if distance else window
+    """Time of the way to a note that nothing precedes."""
+    distances = np.array([distance])
+    windows_s = window_s(control, distances, np.array([0.0]), np.array([np.inf]))
+    return float(windows_s[0] + (_unseen_s(control, distances, windows_s)[0] if distance else 0.0))
 
 
 def release_s(control: Control, value: float) -> float:
     """Unhurried time of the way back to rest."""
-    need = need_s(control, value - control.rest_value)
-    return max(CARRY_BACK_S, need / CARRY_BACK_SHARE) if need > 0.0 else RELEASE_S
+    distance = value - control.rest_value
+    need = need_s(control, distance)
+    unhurried = float(_unhurried_s(control, np.array([distance]))[0])
+    return max(CARRY_BACK_S, need / CARRY_BACK_SHARE, unhurried) if need > 0.0 else RELEASE_S
 
 
 def _through_rest(
     control: Control, end_s: float, onset_s: float, value: float, target: float
 ) -> list[tuple[float, float, float]]:
-    """Back to rest once the note has ended, and out again just before the next onset."""
+    """Back to rest once the note has ended, and out again just before the next onset.
+
+    A control that both ways would hurry, and that has an unhurried speed, waits out there and goes straight on.
+    """
     rest = control.rest_value
     gap_s = onset_s - end_s
     back, out = abs(value - rest), abs(target - rest)
     back_s = release_s(control, value) if back else 0.0
     out_s = _free_window_s(control, out) if out else 0.0
+    if back_s + out_s > gap_s and back and out and control.unhurried_speed_m_s is not None:
+        straight_s = min(_free_window_s(control, target - value), gap_s)
+        return [(end_s, onset_s - straight_s, value), (onset_s - straight_s, onset_s, target)]
     if back_s + out_s > gap_s:  # a fast beat: hurry both ways, each by its share of the distance
         back_s = max(gap_s - out_s, gap_s * back / (back + out))
         back_s = min(back_s, MOST_BACK_SHARE * gap_s) if out else gap_s

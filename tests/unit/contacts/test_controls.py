@@ -91,6 +91,21 @@ def test_a_slide_may_leave_the_last_note_of_a_cut_for_the_note_after_it() -> Non
     assert notes_of(notes, 1.0, 2.5) == notes[1:]
 
 
+def test_a_slide_may_leave_as_early_as_an_unhurried_way_needs_but_not_before_half_its_note() -> None:
+    slide = control(
+        kind="slide",
+        motion=ControlMotion((0.0, 0.0, 1.0), travel_m=0.6),
+        move_note_share=0.5,
+        max_speed_m_s=2.5,
+        unhurried_speed_m_s=1.0,
+    )
+    values = np.full(40, 0.5)  # 0.6 s of way before 2.0 s; half a note is 0.5 s
+    values[11:16], values[20:] = 1.0, 0.0
+    assert measured([event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)], slide, values).held_wrong == 0
+    values[15] = 0.5
+    assert measured([event(1.0, 2.0, 1.0), event(2.0, 3.0, 0.0)], slide, values).held_wrong == 1
+
+
 @given(
     notes=st.lists(st.tuples(st.floats(-1.0, 5.0), st.floats(0.0, 2.0), st.sampled_from((0.0, 0.5, 1.0))), max_size=8),
     values=arrays(np.float64, 40, elements=st.sampled_from((0.0, 0.05, 0.45, 0.5, 0.95, 1.0))),

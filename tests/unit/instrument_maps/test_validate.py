@@ -163,6 +163,11 @@ def problem_of(text: str, name: str) -> MapError | None:
     return None
 
 
+def test_an_unhurried_slide_is_not_faster_than_a_hurried_one() -> None:
+    text = TROMBONE.replace("unhurried_speed_m_s = 0.9", "unhurried_speed_m_s = 2.6")
+    assert "unhurried_speed_m_s" in str(refused(text, "trombone_tenor_F_attachment.toml"))
+
+
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.data())
 def test_no_damage_escapes_as_another_error(data: st.DataObject) -> None:

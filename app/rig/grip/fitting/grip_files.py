@@ -97,7 +97,13 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
 def _untimed(control: Control) -> Control:
     """A control without how fast and how long it is worked, which the hold does not depend on."""
     return msgspec.structs.replace(
-        control, move_window_s=0.0, move_note_share=0.0, max_speed_m_s=None, held_min_s=None, attack_s=None
+        control,
+        move_window_s=0.0,
+        move_note_share=0.0,
+        max_speed_m_s=None,
+        unhurried_speed_m_s=None,
+        held_min_s=None,
+        attack_s=None,
     )
 
 

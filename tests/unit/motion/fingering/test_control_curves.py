@@ -166,3 +166,48 @@ def test_when_its_window_opens_a_control_has_come_as_far_as_no_one_sees(control:
     values = control_curve(events, control, ((0, TICKS),)).sample(np.array([2.0 - window, 2.0]))
     unseen = 0.07 if control.kind != "slide" else 0.004 / 0.3
     assert (values - 0.5) / 0.5 == pytest.approx([unseen, 1.0], abs=1e-4)
+
+
+EASY = slide(unhurried_speed_m_s=0.9)
+MOST_M_S = 15 / 8 * 0.9
+
+
+def slide_motion(events: Sequence[FingeringEvent]) -> tuple[FloatArray, FloatArray]:
+    """Places and speeds of the unhurried slide, 2000 times a second."""
+    times_s = np.arange(events[0].start_s - 1.0, events[-1].end_s + 2.0, 0.0005)
+    place_m = control_curve(events, EASY, ((0, TICKS),)).sample(times_s) * 0.6
+    return times_s, np.abs(np.gradient(place_m, times_s))
+
+
+@pytest.mark.parametrize("places", [(0.0, 0.8, 0.2, 0.9, 0.1), (0.9, 0.4, 0.9, 0.0, 1.0)])
+def test_a_slide_leaves_early_enough_to_be_unhurried_where_half_the_note_before_is_enough(
+    places: tuple[float, ...],
+) -> None:
+    # 0.6 m at 0.9 m/s take 0.67 s; half of a note is 0.7 s.
+    events = fingerings([(1.4 * index, 1.4 * index + 1.4, {"slide": place}) for index, place in enumerate(places)])
+    _, speeds_m_s = slide_motion(events)
+    assert 1.2 < speeds_m_s.max() < MOST_M_S + 0.005
+    curve = control_curve(events, EASY, ((0, TICKS),))
+    for event, place in zip(events, places, strict=True):
+        held = curve.sample(np.linspace(event.start_s, event.start_s + 0.7, 200))
+        assert np.abs(held - place).max() * 0.6 < 0.0045
+
+
+def test_a_slide_without_that_time_takes_half_the_note_and_is_no_faster_than_it_must_be() -> None:
+    for length_s in (0.3, 0.4, 0.6, 0.8):
+        events = fingerings([(0.0, length_s, {"slide": 0.0}), (length_s, 2.0, {"slide": 1.0})])
+        curve = control_curve(events, EASY, ((0, TICKS),))
+        window_s = max(0.24, 0.5 * length_s) if length_s > 0.3 else 0.24
+        leaves_m, arrives_m = curve.sample(np.array([length_s - min(window_s, length_s - 1 / 24), length_s])) * 0.6
+        assert leaves_m < 0.0045
+        assert arrives_m == pytest.approx(0.6, abs=1e-9)
+
+
+def test_in_a_rest_too_short_to_go_home_and_out_unhurried_a_slide_goes_straight_to_its_next_place() -> None:
+    # Home and out again, 0.9 m, would take a second.
+    events = fingerings([(0.0, 1.0, {"slide": 0.8}), (1.6, 2.6, {"slide": 0.7}), (4.6, 5.6, {"slide": 0.7})])
+    times_s, speeds_m_s = slide_motion(events)
+    place = control_curve(events, EASY, ((0, TICKS),)).sample(times_s)
+    assert place[(times_s > 0.1) & (times_s < 1.6)].min() > 0.69
+    assert place[(times_s > 2.6) & (times_s < 4.6)].min() == 0.0
+    assert speeds_m_s.max() < MOST_M_S + 0.005
