@@ -29,7 +29,20 @@ _ROOMS: Final = ("app", "instrument_maps", "metadata", "resources")
 _NOT_INSTALLED: Final = frozenset({"__pycache__", "build"})
 """Folders that a checkout has and an installation does not."""
 _ELSEWHERE: Final = frozenset(
-    {"file", "to", "jobs", "scheduler", "piece", "run", "given", "command", "language", "pitch_names", "middle_c"}
+    {
+        "file",
+        "to",
+        "jobs",
+        "scheduler",
+        "piece",
+        "run",
+        "given",
+        "command",
+        "language",
+        "pitch_names",
+        "middle_c",
+        "pitches",
+    }
 )
 """Arguments that say where and how an export is made, not what it holds."""
 

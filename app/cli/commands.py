@@ -20,8 +20,10 @@ from app.cli.speech import (
     LANGUAGE,
     MIDDLE_C,
     MIDDLE_C_OCTAVES,
+    PITCH_CHOICES,
     PITCH_NAME_CHOICES,
     PITCH_NAMES,
+    PITCHES,
     said,
     spoken,
 )
@@ -207,10 +209,12 @@ def add_language_option(command: argparse.ArgumentParser) -> None:
         command.add_argument(LANGUAGE, choices=tuple(LANGUAGES), default="")
 
 
-def add_pitch_options(command: argparse.ArgumentParser) -> None:
-    """Declare how pitches are named."""
+def add_pitch_options(command: argparse.ArgumentParser, of_players: bool = True) -> None:
+    """Declare how pitches are named; ``of_players`` if they are those of players, whose parts may be transposed."""
     command.add_argument(PITCH_NAMES, choices=PITCH_NAME_CHOICES, default=PITCH_NAME_CHOICES[0])
     command.add_argument(MIDDLE_C, choices=tuple(MIDDLE_C_OCTAVES), default="C4")
+    if of_players:
+        command.add_argument(PITCHES, choices=PITCH_CHOICES, default=PITCH_CHOICES[0])
 
 
 def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:

@@ -239,6 +239,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap,
     table = {
         "name": player.name,
         "instrument": player.instrument_id,
+        "transposition_semitones": instrument.transposition_semitones,
         "part": part.name,
         "source": part.source,
         "musician": performance.project.musician(player).name,

@@ -62,7 +62,8 @@ def _tempo(tempos: list[Table]) -> str:
 
 def _row(player: Table) -> tuple[str, ...]:
     pitches = [note["pitch"] for note in player["notes"]]
-    span = f"{spoken().pitch(min(pitches))}-{spoken().pitch(max(pitches))}" if pitches else "-"
+    semitones = player["transposition_semitones"]
+    span = "-".join(spoken().pitch(pitch, semitones) for pitch in (min(pitches), max(pitches))) if pitches else "-"
     breaths = sum(BREATH_KINDS[breath["kind"]].draws_air for breath in player["breaths"])
     return (
         player["name"],

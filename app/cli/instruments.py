@@ -19,12 +19,12 @@ class InvalidMapError(AppError):
 def add_arguments(command: argparse.ArgumentParser) -> None:
     """Declare the sub-command."""
     command.set_defaults(run=list_maps)
-    add_pitch_options(command)
+    add_pitch_options(command, of_players=False)
     actions = add_actions(command)
     scale = actions.add_parser("scale", help="")
     scale.add_argument("id", metavar="ID")
     scale.add_argument("--first", action="store_true")
-    add_pitch_options(scale)
+    add_pitch_options(scale, of_players=False)
     scale.set_defaults(run=print_scale)
     check = actions.add_parser("check", help="")
     check.add_argument("file", type=Path, metavar="FILE")

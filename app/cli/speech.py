@@ -14,10 +14,12 @@ from dataclasses import dataclass
 from typing import Final, Protocol, get_args
 
 from app.errors import AppError, Argument, Message
-from app.messages import LANGUAGES, text
+from app.messages import LANGUAGES, TRANSPOSITION, text
 from app.messages.pitches import PitchNames, named_pitch
 
-LANGUAGE, PITCH_NAMES, MIDDLE_C = "--language", "--pitch-names", "--middle-c"
+LANGUAGE, PITCH_NAMES, MIDDLE_C, PITCHES = "--language", "--pitch-names", "--middle-c", "--pitches"
+PITCH_CHOICES: Final = ("concert", "written")
+"""Pitches as they sound, or as the parts of transposing instruments have them."""
 PITCH_NAME_CHOICES: Final[tuple[PitchNames, ...]] = get_args(PitchNames)
 MIDDLE_C_OCTAVES: Final = {"C4": 4, "C3": 3}
 """By name of middle C."""
@@ -49,23 +51,28 @@ class Speech:
         One of `PITCH_NAME_CHOICES`.
     middle_c_octave : int
         Octave of middle C.
+    written : bool
+        Whether pitches of a player are named as the player's part has them.
     """
 
     language: str = "en"
     names: PitchNames = "letters"
     middle_c_octave: int = 4
+    written: bool = False
 
     def __call__(self, message: Message) -> str:
         """The message as a sentence."""
-        return text(message, self.language, self.pitch)
+        semitones = int(message.arguments.get(TRANSPOSITION, 0))
+        return text(message, self.language, lambda pitch: self.pitch(pitch, semitones))
 
     def name(self, words: InLanguages) -> str:
         """Name in a table; the English one where it has no Japanese."""
         return (words.ja if self.language == "ja" else "") or words.en
 
-    def pitch(self, pitch: float) -> str:
-        """Name of a MIDI pitch."""
-        return named_pitch(pitch, self.names, self.language, self.middle_c_octave)
+    def pitch(self, pitch: float, transposition_semitones: int = 0) -> str:
+        """Name of a MIDI pitch of an instrument with this transposition (written minus sounding pitch)."""
+        shown = pitch + (transposition_semitones if self.written else 0)
+        return named_pitch(shown, self.names, self.language, self.middle_c_octave)
 
 
 ENGLISH: Final = Speech()
@@ -106,11 +113,13 @@ def error_sentence(error: AppError) -> str:
 def requested_speech(arguments: Sequence[str]) -> Speech:
     """The speech that a command line asks for, before anything else of it is read, since its errors are worded too;
     what is no possible value counts for nothing and is refused later."""
-    language, names, middle_c = (_value(arguments, option) for option in (LANGUAGE, PITCH_NAMES, MIDDLE_C))
+    options = (LANGUAGE, PITCH_NAMES, MIDDLE_C, PITCHES)
+    language, names, middle_c, pitches = (_value(arguments, option) for option in options)
     return Speech(
         language if language in LANGUAGES else system_language(),
         next((known for known in PITCH_NAME_CHOICES if known == names), "letters"),
         MIDDLE_C_OCTAVES.get(middle_c, 4),
+        pitches == "written",
     )
 
 

@@ -41,6 +41,9 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
 }
 """Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
 
+TRANSPOSITION: Final = "transposition_semitones"
+"""Argument that a message about a player may have: written minus sounding pitch of the player's instrument."""
+
 FINGERINGS: Final[dict[str, tuple[str, ...]]] = {
     **dict.fromkeys(("fingering.trill", "fingering.speed"), ("label", "first")),
     **dict.fromkeys(

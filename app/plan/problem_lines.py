@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Final, TypeAlias
 
 from app.errors import Argument, Message
+from app.messages import PITCHES, TRANSPOSITION
 from app.plan.model import Problem
 from app.score.model import Note, Score
 from instrument_maps.fingering_words import in_words
@@ -109,10 +110,14 @@ def with_names(
     is no note of the score stays as it is."""
     message = in_words(message, instrument, wording(Message("language.tag")))
     named: dict[str, Argument] = {}
+    transposed = {} if instrument is None else {TRANSPOSITION: instrument.transposition_semitones}
     for name in NOTES & message.arguments.keys():
         note = note_of(score, str(message.arguments[name]), part_id)
         if note is not None:
-            named[name] = wording(note_place(score, note))
+            place = note_place(score, note)
+            named[name] = wording(Message(place.id, {**place.arguments, **transposed}))
+    if message.id in PITCHES:
+        named |= transposed
     return Message(message.id, {**message.arguments, **named}) if named else message
 
 

@@ -20,6 +20,9 @@ from app.cli.speech import Speech, requested_speech, speaking, system_language
 from app.cli.status import BAD_USE, DONE
 from app.cli.summary import columns
 from app.cli.widths import width, wrapped
+from app.plan.problem_lines import problem_lines
+from instrument_maps.library import find_map
+from tests.unit.plan.test_problem_lines import SCORE, early
 
 QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
 JAPANESE = re.compile("[\u3041-\u30ff\u4e00-\u9fff]")
@@ -202,6 +205,19 @@ def test_pitches_by_the_german_system(capsys: pytest.CaptureFixture[str]) -> Non
     assert "Cis3 (15.2.000)" in report
     assert main(["instruments", "scale", "trumpet_Bb", "--pitch-names", "syllables", "--language", "ja"]) == DONE
     assert "シ♭3" in capsys.readouterr().out
+
+
+def test_pitches_as_the_parts_have_them(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", str(QUARTET), "--no-contacts", "--pitches", "written"]) == DONE
+    report = capsys.readouterr().out
+    assert "F♯4-B♭5" in report, "a trumpet in B flat sounds E4 to A♭5"
+    assert "E♭3-G4" in report, "a trombone is written as it sounds"
+
+
+@pytest.mark.parametrize(("speech", "named"), [(Speech(), "F♯4"), (Speech(written=True), "A♭4")], ids=str)
+def test_problems_name_pitches_as_the_part_has_them(speech: Speech, named: str) -> None:
+    (line,) = problem_lines([early(6)], SCORE, speech, instrument=find_map("trumpet_Bb"))
+    assert f"before note {named} (2.3.000)" in line
 
 
 def test_a_file_of_an_export_keeps_its_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
