@@ -96,7 +96,7 @@ STEPS = (
         ),
         "--soundfont: FluidR3_GM.sf2",
     ),
-    Step("licences", ("docs/licences.md",), _modules("resources.build.build_licences")),
+    Step("licences", ("docs/licences.md", "docs/licences_ja.md"), _modules("resources.build.build_licences")),
     Step(
         "pictures",
         ("docs/*.png", "docs/pictures/*.png", "docs/pictures/*.webp"),

@@ -18,7 +18,7 @@ LIBRARY = re.compile(r"\.(so|dylib|dll|exe)(\.|$)")
 OWN_MODULE = re.compile(r"\.(cpython|cp3|abi3|pypy)[^/]*\.so$")
 """A package's own, compiled from its own source and what its parts without files are."""
 SPDX_WORD = re.compile(r"[A-Za-z0-9.+-]+")
-DOCUMENT = (ROOT / "docs" / "licences.md").read_text(encoding="utf-8")
+DOCUMENTS = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("licences.md", "licences_ja.md")]
 
 
 class Stated(Distribution):
@@ -54,7 +54,7 @@ def test_every_package_has_a_licence_and_a_source(package: Package) -> None:
     for work in (package, *package.parts):
         assert work.licence, f"{work.name}: no licence is known; resources/licences.toml may say it"  # type: ignore[attr-defined]
         assert re.match("https?://", work.source)  # type: ignore[attr-defined]
-        assert f"| {work.name} |" in DOCUMENT, "run resources/build/build_licences.py"  # type: ignore[attr-defined]
+        assert all(f"| {work.name} |" in document for document in DOCUMENTS), "run resources/build/build_licences.py"  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("found", distributions().values(), ids=lambda found: found.metadata["Name"])
@@ -81,7 +81,7 @@ def test_the_program_that_makes_films_is_named() -> None:
 def test_every_folder_of_data_has_a_licence() -> None:
     folders = {path.name for path in (ROOT / "resources").iterdir() if path.is_dir()} - {"build", "__pycache__"}
     assert {folder for part in data() for folder in part.files} == folders
-    assert all(part.licence and f"| {part.name} |" in DOCUMENT for part in data())
+    assert all(part.licence and f"| {part.name} |" in DOCUMENTS[0] for part in data())
 
 
 def test_what_packages_state_is_read() -> None:

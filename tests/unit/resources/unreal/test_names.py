@@ -95,8 +95,9 @@ def test_every_option_that_may_be_set_is_set(editor: Editor, name: str) -> None:
 
 
 @real
-def test_the_guide_lists_every_option() -> None:
-    guide = (PLUGIN.parents[2] / "docs" / "unreal-import-options.md").read_text(encoding="utf-8")
+@pytest.mark.parametrize("language", ["", "_ja"])
+def test_the_guide_lists_every_option(language: str) -> None:
+    guide = (PLUGIN.parents[2] / "docs" / f"unreal-import-options{language}.md").read_text(encoding="utf-8")
     for name in OPTIONS:
         for prop in unreal_stub.documented_properties(name):
             assert f"`{prop}`" in guide, f"{name}.{prop}"
