@@ -510,7 +510,8 @@ def r_pufbx(a):
     s = pufbx.load_fbx(a['file'])
     st = s.anim_stacks[0]
     fps = a.get('fps') or 60
-    b = pufbx.bake_anim(s, st.anim, resample_rate=float(fps))
+    # Between keys closer than the minimum rate (19.5 by default) it would draw straight lines.
+    b = pufbx.bake_anim(s, st.anim, resample_rate=float(fps), minimum_sample_rate=float(fps))
     tr = {}
     for m in b.modified_nodes:
         k, r, sc = m.translation_keys, m.rotation_keys, m.scale_keys

@@ -272,7 +272,7 @@ def test_violent_rotations_stay_within_the_bounds(amplitude_rad: float, tmp_path
     _judge(read_scene(tmp_path / "player.fbx"), meant, PLACE_MM)
 
 
-CURVED_READERS = {".fbx": ("fbxsdk", "ufbx"), ".glb": ("gltfvalid", "three")}
+CURVED_READERS = {".fbx": ("fbxsdk", "ufbx", "pufbx"), ".glb": ("gltfvalid", "three")}
 """Readers that play cubic keys; Blender and assimp read their values only, and three.js does so in FBX."""
 
 
