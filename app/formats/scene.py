@@ -16,6 +16,7 @@ from app.arrays import AnyFloatArray, AnyIntArray, FloatArray
 from app.formats.euler import matrices
 from app.formats.joint_angles import order_along
 from app.formats.keys import Keys
+from app.formats.textures import NO_TEXTURES, AlphaMode, MaterialTextures
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,13 +69,31 @@ class MorphTarget:
 
 @dataclass(frozen=True)
 class Material:
-    """A metallic-roughness surface as in glTF 2.0: linear base colour RGBA, metallic and roughness from 0 to 1."""
+    """A metallic-roughness surface as in glTF 2.0: linear base colour RGBA, metallic and roughness from 0 to 1.
+
+    Attributes
+    ----------
+    textures : MaterialTextures
+        What is multiplied with these, where the mesh has UVs.
+    alpha : AlphaMode or None
+        None: blended where the base colour lets light through, opaque otherwise.
+    alpha_cutoff : float
+        Least alpha that is seen of a ``mask``.
+    """
 
     name: str
     base_color: tuple[float, float, float, float]
     metallic: float = 0.0
     roughness: float = 1.0
     double_sided: bool = False
+    textures: MaterialTextures = NO_TEXTURES
+    alpha: AlphaMode | None = None
+    alpha_cutoff: float = 0.5
+
+    @property
+    def alpha_mode(self) -> AlphaMode:
+        """The alpha mode that is meant."""
+        return self.alpha or ("blend" if self.base_color[3] < 1.0 else "opaque")
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, SingleArray
 from app.errors import FileError
-from app.formats.gltf.model import GltfMaterial, GltfModel, GltfNode, GltfPrimitive
+from app.formats.gltf.model import GltfModel, GltfNode, GltfPrimitive
 from app.formats.gltf.read import read_glb
+from app.formats.gltf.read_materials import scene_materials
 from app.formats.scene import Material
 from app.rig import quaternion
 from app.rig.mesh import Mesh, Morph
+
+OURS: Final = "Suisou build_characters"
+"""The generator of our own characters. A changed file names another program, and its vertices differ."""
+PLAIN: Final = Material("default", (1.0, 1.0, 1.0, 1.0), 0.0, 1.0)
+"""Material of surfaces without one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +39,11 @@ class GltfSource:
     file: str
     gltf: GltfModel
     world_from_node: FloatArray
+
+    @cached_property
+    def materials(self) -> tuple[Material, ...]:
+        """Its materials with those of their textures that can be read."""
+        return scene_materials(self.gltf, own=self.gltf.generator == OURS)
 
 
 def read_source(path: Path, *, animated: bool = False) -> GltfSource:
@@ -91,7 +104,7 @@ def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
         uvs=uvs,
         triangles=np.concatenate([np.zeros((0, 3), np.int64), *triangles]).astype(np.int32),
         triangle_materials=owners.astype(np.int32),
-        materials=tuple(_material(source, part.material) for part in primitives),
+        materials=tuple(PLAIN if part.material is None else source.materials[part.material] for part in primitives),
         joints=joints,
         weights=weights,
         morphs=tuple(_morph(title, parts) for title, parts in morphs.items()),
@@ -135,13 +148,6 @@ def _morph(name: str, parts: list[tuple[int, GltfPrimitive, int]]) -> Morph:
         deltas_m=np.concatenate([target.position_deltas for _, target in targets]).astype(np.float32),
         normal_deltas=np.concatenate(turned).astype(np.float32) if len(turned) == len(targets) else None,
     )
-
-
-def _material(source: GltfSource, index: int | None) -> Material:
-    if index is None:
-        return Material("default", (1.0, 1.0, 1.0, 1.0), 0.0, 1.0)
-    surface: GltfMaterial = source.gltf.materials[index]
-    return Material(surface.name, surface.base_color_rgba, surface.metallic, surface.roughness, surface.double_sided)
 
 
 def _world(nodes: tuple[GltfNode, ...]) -> FloatArray:

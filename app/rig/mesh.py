@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from app.arrays import SingleArray
 from app.formats.scene import Material
+from app.formats.texture_colors import plain_material
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,12 @@ class Mesh:
     joints: npt.NDArray[np.int32]
     weights: SingleArray
     morphs: tuple[Morph, ...] = ()
+
+
+def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
+    """A mesh's materials without textures, in their mean colours."""
+    used = [np.unique(mesh.triangles[mesh.triangle_materials == number]) for number in range(len(mesh.materials))]
+    return tuple(plain_material(one, mesh.uvs[own]) for one, own in zip(mesh.materials, used, strict=True))
 
 
 def scaled_mesh(mesh: Mesh, size: float) -> Mesh:

@@ -143,6 +143,7 @@ def write_glb(
     expressions: Mapping[str, Mapping[str, float]] | None = None,
     rigid: bool = False,
     image: bytes = b"",
+    alpha: str = "OPAQUE",
 ) -> Path:
     """Write a figure as a glTF binary.
 
@@ -160,6 +161,8 @@ def write_glb(
         Without a skin: each vertex in a mesh of the bone that holds most of it, which hangs from that bone.
     image : bytes
         The file of a texture for all surfaces.
+    alpha : str
+        Their alpha mode.
     """
     writer = _Glb()
     about = np.diag([-1.0, 1.0, -1.0, 1.0]) if vrm == 0 else np.eye(4)
@@ -204,6 +207,7 @@ def write_glb(
         document |= {"images": [{"bufferView": writer.blob(image), "mimeType": "image/png"}]}
         document |= {"textures": [{"source": 0}]}
         document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+        document["materials"][0]["alphaMode"] = alpha
     if vrm is not None:
         document |= _vrm(vrm, figure, expressions or {})
     writer.write(path, document)

@@ -13,6 +13,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 
 from app.arrays import FloatArray, IndexArray, IntArray
+from app.formats.texture_colors import linear, sampled
 from app.rig.characters.character_library import character_named
 from app.rig.mesh import Mesh
 from app.rig.model import Character
@@ -132,8 +133,15 @@ def picture(
 
 
 def _colours(mesh: Mesh) -> FloatArray:
+    """Colours (T, 3) of triangles, of textures in their middle."""
     base = np.array([material.base_color[:3] for material in mesh.materials], np.float64)
     result: FloatArray = base[mesh.triangle_materials]
+    for number, material in enumerate(mesh.materials):
+        own = np.flatnonzero(mesh.triangle_materials == number)
+        if material.textures.color is not None and len(own):
+            found = sampled(material.textures.color, mesh.uvs[mesh.triangles[own]].mean(axis=1))
+            if found is not None:
+                result[own] *= linear(found[:, :3])
     return result
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, IntArray, SingleArray
-from app.rig.mesh import Mesh
+from app.rig.mesh import Mesh, plain_materials
 from app.rig.model import Character, InstrumentModel
 from widgets.viewport.normals_across_seams import SplitMesh, Weld, row_keys, split_mesh
 from widgets.viewport.shape_cache import kept
@@ -228,10 +228,9 @@ class _Whole:
             bones, weights = _strongest(mesh.joints[split.vertices], mesh.weights[split.vertices])
             self._surface["a_bones"][own, : bones.shape[1]] = bones
             self._surface["a_weights"][own, : bones.shape[1]] = weights
-            colors = np.array(
-                [(*material.base_color[:3], material.roughness) for material in mesh.materials], np.float32
-            )
-            metallic = np.array([material.metallic for material in mesh.materials], np.float32)
+            plain = plain_materials(mesh)
+            colors = np.array([(*material.base_color[:3], material.roughness) for material in plain], np.float32)
+            metallic = np.array([material.metallic for material in plain], np.float32)
             self._surface["a_color"][own] = colors[split.materials]
             self._surface["a_metallic"][own] = metallic[split.materials]
             two_sided = np.array([material.double_sided for material in mesh.materials])

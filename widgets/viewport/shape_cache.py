@@ -101,7 +101,8 @@ def _digest(meshes: Sequence[Mesh], made_with: tuple[object, ...]) -> str:
     digest = hashlib.blake2b(repr((digest_of(Path(__file__).parent), made_with)).encode(), digest_size=16)
     for mesh in meshes:
         digest.update(repr(mesh.materials).encode())
-        arrays = [mesh.positions_m, mesh.normals, mesh.triangles, mesh.triangle_materials, mesh.joints, mesh.weights]
+        arrays = [mesh.positions_m, mesh.normals, mesh.uvs, mesh.triangles, mesh.triangle_materials]
+        arrays += [mesh.joints, mesh.weights]
         for morph in mesh.morphs:
             digest.update(morph.name.encode())
             arrays += [morph.vertices, morph.deltas_m]

@@ -41,13 +41,13 @@ class _Buffer:
             self._parts.append([])
         view = self._index[kind]
         data = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
-        there: int = self.views[view].byteLength
+        there: int = self.views[view].byteLength + -self.views[view].byteLength % 4
         start = self._starts.setdefault((kind, blake2b(data.data).digest()), there)
         if start != there:
             return view, start
         padding = -len(data) % 4
         self._parts[view] += [data, np.zeros(padding, np.uint8)] if padding else [data]
-        self.views[view].byteLength += len(data) + padding
+        self.views[view].byteLength = there + len(data)
         return view, start
 
     def pieces(self) -> Pieces:
@@ -55,7 +55,7 @@ class _Buffer:
         start = 0
         for view in self.views:
             view.byteOffset = start
-            start += view.byteLength
+            start += view.byteLength + -view.byteLength % 4
         return [part.data for parts in self._parts for part in parts]
 
 
@@ -116,6 +116,10 @@ class GlbDocument:
             ),
         )
         return self._add(accessor)
+
+    def blob(self, kind: str, content: bytes) -> int:
+        """Index of a view of its own that holds some bytes."""
+        return self.buffer.add(kind, np.frombuffer(content, np.uint8), None, None)[0]
 
     def _add(self, accessor: gltf.Accessor) -> int:
         self.gltf.accessors.append(accessor)

@@ -88,6 +88,15 @@ class GltfSkin:
 
 
 @dataclass(frozen=True)
+class GltfTextureUse:
+    """An image as a material uses it, with the scale and offset of ``KHR_texture_transform``."""
+
+    image: int
+    scale: tuple[float, float] = (1.0, 1.0)
+    offset: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
 class GltfMaterial:
     """A metallic-roughness surface; colours are linear."""
 
@@ -97,8 +106,13 @@ class GltfMaterial:
     roughness: float
     alpha_mode: str
     double_sided: bool
-    color_image: int | None = None
-    """The image of its base colour, if a texture gives it."""
+    alpha_cutoff: float = 0.5
+    color: GltfTextureUse | None = None
+    normal: GltfTextureUse | None = None
+    metallic_roughness: GltfTextureUse | None = None
+    occlusion: GltfTextureUse | None = None
+    normal_scale: float = 1.0
+    occlusion_strength: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,6 +181,14 @@ class GltfAnimation:
 
 
 @dataclass(frozen=True, eq=False)
+class GltfImage:
+    """An image: its file as it is, not looked at; empty where it is not in the glTF file."""
+
+    name: str
+    content: bytes
+
+
+@dataclass(frozen=True, eq=False)
 class GltfModel:
     """A whole file.
 
@@ -175,8 +197,7 @@ class GltfModel:
     nodes : tuple of GltfNode
         In the file's order, which need not have parents first.
     meshes, skins, materials : tuples
-    images : tuple of bytes
-        Files of images as they are, none of them looked at; empty where they are not in the file.
+    images : tuple of GltfImage
     extensions : mapping
         The document's, e.g. ``VRMC_vrm``, as parsed JSON.
     scene_extras : mapping
@@ -193,7 +214,7 @@ class GltfModel:
     meshes: tuple[GltfMesh, ...]
     skins: tuple[GltfSkin, ...]
     materials: tuple[GltfMaterial, ...]
-    images: tuple[bytes, ...] = ()
+    images: tuple[GltfImage, ...] = ()
     extensions: Mapping[str, Any] = field(default_factory=dict)
     scene_extras: Mapping[str, Any] = field(default_factory=dict)
     generator: str = ""

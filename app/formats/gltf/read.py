@@ -21,6 +21,7 @@ from app.formats.gltf.container import field, split
 from app.formats.gltf.model import (
     GltfAnimation,
     GltfChannel,
+    GltfImage,
     GltfMaterial,
     GltfMesh,
     GltfModel,
@@ -28,6 +29,7 @@ from app.formats.gltf.model import (
     GltfNode,
     GltfPrimitive,
     GltfSkin,
+    GltfTextureUse,
 )
 from app.formats.gltf.self_contained import read_whole
 
@@ -242,29 +244,46 @@ class _Reader(Accessors):
     def material(self, material: object) -> GltfMaterial:
         surface = field(material, "pbrMetallicRoughness")
         red, green, blue, alpha = self.floats(surface, "baseColorFactor", (1.0, 1.0, 1.0, 1.0))
-        metallic, roughness = (
-            1.0 if field(surface, name) is None else self.finite([field(surface, name)], 1, name)[0]
-            for name in ("metallicFactor", "roughnessFactor")
-        )
+        normal, occlusion = field(material, "normalTexture"), field(material, "occlusionTexture")
         return GltfMaterial(
             name=self.text(material, "name", ""),
             base_color_rgba=(red, green, blue, alpha),
-            metallic=metallic,
-            roughness=roughness,
+            metallic=self._factor(surface, "metallicFactor"),
+            roughness=self._factor(surface, "roughnessFactor"),
             alpha_mode=self.text(material, "alphaMode", "OPAQUE"),
             double_sided=field(material, "doubleSided") is True,
-            color_image=self._color_image(field(surface, "baseColorTexture")),
+            alpha_cutoff=self._factor(material, "alphaCutoff", 0.5),
+            color=self._texture(field(surface, "baseColorTexture")),
+            normal=self._texture(normal),
+            metallic_roughness=self._texture(field(surface, "metallicRoughnessTexture")),
+            occlusion=self._texture(occlusion),
+            normal_scale=self._factor(normal, "scale"),
+            occlusion_strength=self._factor(occlusion, "strength"),
         )
 
-    def _color_image(self, use: object) -> int | None:
-        """The image of a texture that a material uses; None where an extension hides it."""
+    def _factor(self, owner: object, name: str, otherwise: float = 1.0) -> float:
+        value = field(owner, name)
+        return otherwise if value is None else self.finite([value], 1, name)[0]
+
+    def _texture(self, use: object) -> GltfTextureUse | None:
+        """A texture that a material uses; None where its image is of an extension that is not known, or it lies by
+        texture coordinates of another set than the first."""
         if use is None:
             return None
         textures = self.items("textures")
         texture = textures[self.index(field(use, "index"), len(textures), "texture")]
-        return self.optional_index(texture, "source", len(self.items("images")))
+        moved = self.mapping(self.mapping(use, "extensions"), "KHR_texture_transform")
+        count = len(self.items("images"))
+        webp = self.mapping(self.mapping(texture, "extensions"), "EXT_texture_webp")
+        image = self.optional_index(texture, "source", count)
+        image = self.optional_index(webp, "source", count) if image is None else image
+        if image is None or (moved.get("texCoord") or field(use, "texCoord") or 0) != 0:
+            return None
+        scale_u, scale_v = self.floats(moved, "scale", (1.0, 1.0))
+        offset_u, offset_v = self.floats(moved, "offset", (0.0, 0.0))
+        return GltfTextureUse(image, (scale_u, scale_v), (offset_u, offset_v))
 
-    def images(self) -> tuple[bytes, ...]:
+    def images(self) -> tuple[GltfImage, ...]:
         """The images' files; empty where one lies elsewhere, which is not needed. The same bytes are there once,
         however many images they are."""
         blobs: dict[int, bytes] = {}
@@ -272,14 +291,15 @@ class _Reader(Accessors):
         for image in self.items("images"):
             uri = field(image, "uri")
             view = self.optional_index(image, "bufferView", len(self.items("bufferViews")))
+            name = self.text(image, "name", "")
             if isinstance(uri, str) and uri.startswith("data:"):
-                found.append(self.data(uri))
+                found.append(GltfImage(name, self.data(uri)))
             elif view is None:
-                found.append(b"")
+                found.append(GltfImage(name, b""))
             else:
                 if view not in blobs:
                     blobs[view] = self.blob(view)
-                found.append(blobs[view])
+                found.append(GltfImage(name, blobs[view]))
         return tuple(found)
 
     def nodes(self) -> tuple[GltfNode, ...]:

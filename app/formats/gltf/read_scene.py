@@ -19,8 +19,9 @@ from app.formats.gltf.animation import sampled
 from app.formats.gltf.model import GltfAnimation, GltfChannel, GltfMesh, GltfModel, GltfSkin
 from app.formats.gltf.primitives import primitives
 from app.formats.gltf.read import read_glb
+from app.formats.gltf.read_materials import scene_materials
 from app.formats.gltf.samplers import METRES
-from app.formats.scene import Bone, Clip, Material, MorphTarget, NodePlace, Scene, SkinnedMesh, check_scene
+from app.formats.scene import Bone, Clip, MorphTarget, NodePlace, Scene, SkinnedMesh, check_scene
 
 
 def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> Scene:
@@ -78,16 +79,14 @@ def _mesh(model: GltfModel, mesh: GltfMesh, skin: GltfSkin, written: SkinnedMesh
     binds[:, :3, 3] /= METRES
     parts = [*zip(numbers, mesh.primitives, strict=True)]
     corners = [primitive.triangles.ravel() for primitive in mesh.primitives]
-    surfaces = [model.materials[one.material or 0] for one in mesh.primitives]
+    surfaces = scene_materials(model, own=True)
     return SkinnedMesh(
         name=mesh.name,
         vertices_cm=vertices_cm,
         faces=np.concatenate([own[one.triangles] for own, one in parts]),
         normals=np.concatenate([np.zeros((0, 3)), *_by_corner(corners, [one.normals for one in mesh.primitives])]),
         uvs=None if any(one.uvs is None for one in mesh.primitives) else _uvs(corners, mesh),
-        materials=tuple(
-            Material(one.name, one.base_color_rgba, one.metallic, one.roughness, one.double_sided) for one in surfaces
-        ),
+        materials=tuple(surfaces[one.material or 0] for one in mesh.primitives),
         face_materials=np.repeat(np.arange(len(parts)), [len(one.triangles) for one in mesh.primitives]),
         joint_indices=joints,
         weights=weights,

@@ -60,6 +60,8 @@ def read_whole(path: str | os.PathLike[str]) -> bytes:
                 known[uri] = f"data:application/octet-stream;base64,{base64.b64encode(content).decode()}"
             elif (left := left - len(known[uri])) < 0:
                 raise FileError("gltf.too_large", file=str(file))
+            if name == "images":
+                entry.setdefault("name", Path(unquote(uri)).stem)
             entry["uri"], changed = known[uri], True
     return _joined(document, binary) if changed else data
 

@@ -30,6 +30,7 @@ from app.formats.gltf.container import BINARY, JSON, MAGIC
 from app.formats.gltf.document import GlbDocument, Pieces, listed
 from app.formats.gltf.primitives import Primitive, primitives
 from app.formats.gltf.samplers import METRES, Samplers, weights_move
+from app.formats.gltf.write_materials import add_materials
 from app.formats.scene import Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 from app.formats.skin import influences
 
@@ -103,7 +104,7 @@ def _document(scenes: Iterable[Scene]) -> GlbDocument:
         if scene.clip is not None:
             samplers = Samplers(document, scene.clip) if samplers is None else samplers
             samplers.add_clip(scene, scene.clip, first, mesh_nodes)
-    out.materials = [_material(material) for material in materials]
+    add_materials(document, materials)
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0
     return document
@@ -156,21 +157,6 @@ def node_at(name: str, place: NodePlace) -> gltf.Node:
         name=name,
         translation=listed(np.asarray(place.translation_cm) * METRES),
         rotation=listed(rotation / np.linalg.norm(rotation)),
-    )
-
-
-def _material(material: Material) -> gltf.Material:
-    return gltf.Material(
-        name=material.name,
-        pbrMetallicRoughness=gltf.PbrMetallicRoughness(
-            baseColorFactor=list(material.base_color),
-            metallicFactor=material.metallic,
-            roughnessFactor=material.roughness,
-        ),
-        alphaMode=gltf.BLEND if material.base_color[3] < 1.0 else gltf.OPAQUE,
-        # Without an alpha that is compared there may be no threshold, which the library would set.
-        alphaCutoff=None,
-        doubleSided=material.double_sided,
     )
 
 

@@ -24,7 +24,6 @@ from app.rig.characters.figure_build import (
     transforms_differ,
     turned,
 )
-from app.rig.characters.texture_color import Textures, coloured
 from app.rig.figure import Figure, Origin
 from app.rig.gltf_source import GltfSource, build_mesh, read_source
 
@@ -126,14 +125,11 @@ def _nodes(source: GltfSource) -> NodeHierarchy:
 
 def _parts(source: GltfSource) -> list[FigurePart]:
     parts = []
-    textures = Textures(source.gltf)
     for node, entry in enumerate(source.gltf.nodes):
         if entry.mesh is None:
             continue
         name = source.gltf.meshes[entry.mesh].name or entry.name
         mesh, skinned = build_mesh(source, entry.mesh, name)
-        colours = coloured(mesh.materials, source.gltf.meshes[entry.mesh].primitives, source.gltf, textures)
-        mesh = replace(mesh, materials=colours)
         mesh = replace(mesh, morphs=tuple(replace(m, name=morph_name(source, entry.mesh, m.name)) for m in mesh.morphs))
         skin = source.gltf.skins[entry.skin] if entry.skin is not None else None
         if skinned and skin is not None and len(skin.joints):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
@@ -16,13 +15,10 @@ from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.characters.read_figure import read_figure
 from app.rig.characters.t_pose import facing_ahead, upright
 from app.rig.figure import Figure
-from app.rig.gltf_source import GltfSource, build_mesh, invalid, read_source
+from app.rig.gltf_source import OURS, GltfSource, build_mesh, invalid, read_source
 from app.rig.model import Character, Landmark, Skeleton
 from app.rig.skeleton import rest_positions
 from metadata.model import REQUIRED_JOINTS
-
-OURS: Final = "Suisou build_characters"
-"""The generator of our own files. A changed file names another program, and its vertices differ."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,8 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from app.errors import FileError
+from app.formats.texture_colors import plain_material
+from app.formats.textures import NO_TEXTURES
 from app.rig import quaternion
 from app.rig.characters import figure_build
 from app.rig.characters.character_library import character_named
@@ -24,6 +26,7 @@ from app.rig.characters.load_character import load_character, read_character
 from app.rig.characters.read_figure import read_figure
 from app.rig.characters.t_pose import turned_figure
 from app.rig.figure import Figure
+from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import patch
@@ -294,7 +297,11 @@ def png(pixels: np.ndarray) -> bytes:
     return stream.getvalue()
 
 
-def test_a_textured_surface_has_its_textures_colour(ours: Character, tmp_path: Path) -> None:
+def plain_green(mesh: Mesh) -> float:
+    return plain_material(mesh.materials[0], mesh.uvs).base_color[1]
+
+
+def test_a_textured_surface_keeps_its_texture_and_has_its_mean_colour_without(ours: Character, tmp_path: Path) -> None:
     made = foreign(ours, extra=False)
     green = np.zeros((8, 8, 4), np.uint8)
     green[..., 1] = green[..., 3] = 255
@@ -302,23 +309,28 @@ def test_a_textured_surface_has_its_textures_colour(ours: Character, tmp_path: P
     # The material's own factors, 0.5, 0.4 and 0.3, are multiplied in.
     for mesh in figure.meshes:
         for surface in mesh.materials:
-            assert surface.base_color == pytest.approx((0.0, 0.4, 0.0, 1.0))
+            assert surface.textures.color is not None
+            assert surface.textures.color.texture.content.startswith(png(green))
+            assert surface.base_color == pytest.approx((0.5, 0.4, 0.3, 1.0))
+            assert plain_material(surface, mesh.uvs).base_color == pytest.approx((0.0, 0.4, 0.0, 1.0))
     # sRGB 188 is linear 0.5; what is cut out has no colour.
     green[:, :, 1] = 188
     half = replace(made, meshes=[replace(mesh, uvs=np.full_like(mesh.uvs, 0.3)) for mesh in made.meshes])
     green[4:] = 0
-    figure = read_figure(write_glb(tmp_path / "y.glb", half, image=png(green)))
-    assert figure.meshes[0].materials[0].base_color[1] == pytest.approx(0.4 * 0.5, abs=2e-3)
+    figure = read_figure(write_glb(tmp_path / "y.glb", half, image=png(green), alpha="MASK"))
+    assert plain_green(figure.meshes[0]) == pytest.approx(0.4 * 0.5, abs=2e-3)
 
 
 @pytest.mark.parametrize(
-    "image", [b"no image", png(np.zeros((4, 4, 4), np.uint8))[:-20], png(np.zeros((4, 4, 4), np.uint8))]
+    "image", [b"no image", png(np.random.default_rng(1).integers(0, 255, (40, 40, 4), np.uint8))[:-900]]
 )
 def test_a_texture_that_cannot_be_read_leaves_the_surface_its_own_colour(
     ours: Character, tmp_path: Path, image: bytes
 ) -> None:
     figure = read_figure(write_glb(tmp_path / "x.glb", foreign(ours, extra=False), image=image))
-    assert figure.meshes[0].materials[0].base_color == pytest.approx((0.5, 0.4, 0.3, 1.0))
+    surface = figure.meshes[0].materials[0]
+    assert surface.textures == NO_TEXTURES
+    assert surface.base_color == pytest.approx((0.5, 0.4, 0.3, 1.0))
 
 
 def test_every_required_joint_is_asked_for_by_name(ours: Character, tmp_path: Path) -> None:

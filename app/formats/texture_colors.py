@@ -1,0 +1,82 @@
+"""Colours of textured surfaces at points and in the mean: for where textures are not shown."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, FloatArray
+from app.formats.images import small
+from app.formats.scene import Material, SkinnedMesh
+from app.formats.textures import NO_TEXTURES, TextureUse
+
+OPAQUE: Final = 0.5
+"""Least opacity that has a colour; what lets more light through is cut out."""
+
+
+def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
+    """Values (N, 4) from 0 to 1 of a texture at texture coordinates (N, 2), v down; None where it cannot be read."""
+    pixels = small(use.texture)
+    if pixels is None:
+        return None
+    height, width = pixels.shape[:2]
+    places = (np.asarray(uvs, np.float64) * use.scale + use.offset) % 1.0
+    rows = np.minimum((places[:, 1] * height).astype(np.intp), height - 1)
+    columns = np.minimum((places[:, 0] * width).astype(np.intp), width - 1)
+    values: FloatArray = pixels[rows, columns].astype(np.float64)
+    return values / 255.0
+
+
+def linear(srgb: FloatArray) -> FloatArray:
+    """Linear values of sRGB ones (IEC 61966-2-1)."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
+    """A material without textures: with the mean colour and roughness of them at some texture coordinates, v down.
+
+    It is neither cut out nor blended by what its texture leaves out.
+    """
+    if material.textures == NO_TEXTURES:
+        return material
+    color, roughness, metallic = np.array(material.base_color[:3]), material.roughness, material.metallic
+    if material.textures.color is not None and len(uvs):
+        found = sampled(material.textures.color, uvs)
+        if found is not None:
+            seen = found if material.alpha_mode == "opaque" else found[found[:, 3] > OPAQUE]
+            if len(seen):
+                color = color * linear(seen[:, :3]).mean(axis=0)
+    if material.textures.metallic_roughness is not None and len(uvs):
+        found = sampled(material.textures.metallic_roughness, uvs)
+        if found is not None:
+            roughness, metallic = roughness * float(found[:, 1].mean()), metallic * float(found[:, 2].mean())
+    red, green, blue = color.tolist()
+    alpha = None if material.alpha == "mask" else material.alpha
+    return replace(
+        material,
+        base_color=(red, green, blue, material.base_color[3]),
+        roughness=roughness,
+        metallic=metallic,
+        textures=NO_TEXTURES,
+        alpha=alpha,
+    )
+
+
+def without_textures(mesh: SkinnedMesh) -> SkinnedMesh:
+    """A mesh of `plain_material`s."""
+    if all(material.textures == NO_TEXTURES for material in mesh.materials):
+        return mesh
+    owners = np.zeros(len(mesh.faces), np.int64) if mesh.face_materials is None else mesh.face_materials
+    uvs = np.zeros((len(mesh.vertices_cm), 2)) if mesh.uvs is None else mesh.uvs
+    by_vertex = len(uvs) == len(mesh.vertices_cm)
+    corners = np.arange(mesh.faces.size).reshape(mesh.faces.shape)
+    plain: dict[Material, int] = {}
+    table = []
+    for number, material in enumerate(mesh.materials):
+        own = owners == number
+        places = uvs[np.unique(mesh.faces[own]) if by_vertex else corners[own].ravel()]
+        made = plain_material(material, np.stack([places[:, 0], 1.0 - places[:, 1]], axis=1))
+        table.append(plain.setdefault(made, len(plain)))
+    return replace(mesh, materials=tuple(plain), face_materials=np.array(table)[owners])

@@ -1,0 +1,107 @@
+"""Textures of surfaces, as plain values: encoded images and how a material uses them."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import unicodedata
+from dataclasses import dataclass, field
+from typing import Final, Literal
+from weakref import WeakValueDictionary
+
+AlphaMode = Literal["opaque", "mask", "blend"]
+
+PNG_MAGIC: Final = b"\x89PNG\r\n\x1a\n"
+_MOST_NAME: Final = 40
+_UNSAFE: Final = re.compile(r"[^A-Za-z0-9_-]+")
+
+
+@dataclass(frozen=True)
+class Texture:
+    """An image as the bytes of a PNG or JPEG file. Textures of the same bytes are equal, whatever they are called.
+
+    Attributes
+    ----------
+    digest : str
+        Of the content, 32 hexadecimal digits.
+    """
+
+    digest: str
+    name: str = field(compare=False)
+    content: bytes = field(compare=False, repr=False)
+
+    @property
+    def mime_type(self) -> str:
+        """Kind of the content, as the internet names it."""
+        return "image/png" if self.content.startswith(PNG_MAGIC) else "image/jpeg"
+
+    @property
+    def file_name(self) -> str:
+        """Name of its file, the same for the same content and name: letters, digits, ``_`` and ``-`` of its name, and
+        the start of its digest."""
+        plain = unicodedata.normalize("NFKD", self.name).encode("ascii", "ignore").decode()
+        stem = _UNSAFE.sub("_", plain).strip("_")[:_MOST_NAME] or "texture"
+        return f"{stem}_{self.digest[:8]}{'.png' if self.mime_type == 'image/png' else '.jpg'}"
+
+
+@dataclass(frozen=True)
+class TextureUse:
+    """A texture as a material has it; it is repeated in both directions.
+
+    Attributes
+    ----------
+    scale, offset : (float, float)
+        The image's coordinates are ``scale * uv + offset``, v down, as in glTF's ``KHR_texture_transform``.
+    """
+
+    texture: Texture
+    scale: tuple[float, float] = (1.0, 1.0)
+    offset: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def offset_up(self) -> tuple[float, float]:
+        """The offset where v points up, in the mesh and in the image alike."""
+        return self.offset[0], 1.0 - self.scale[1] - self.offset[1]
+
+
+@dataclass(frozen=True)
+class MaterialTextures:
+    """Textures of a metallic-roughness surface, as in glTF 2.0: each is multiplied with the material's own value.
+
+    Attributes
+    ----------
+    color : TextureUse or None
+        sRGB; its alpha counts where the material is no opaque one.
+    normal : TextureUse or None
+        Tangent space, green up (OpenGL).
+    metallic_roughness : TextureUse or None
+        Linear: green is roughness, blue metallic.
+    occlusion : TextureUse or None
+        Linear: red.
+    normal_scale, occlusion_strength : float
+    """
+
+    color: TextureUse | None = None
+    normal: TextureUse | None = None
+    metallic_roughness: TextureUse | None = None
+    occlusion: TextureUse | None = None
+    normal_scale: float = 1.0
+    occlusion_strength: float = 1.0
+
+    @property
+    def uses(self) -> tuple[TextureUse, ...]:
+        """Those that there are."""
+        found = (self.color, self.normal, self.metallic_roughness, self.occlusion)
+        return tuple(use for use in found if use is not None)
+
+
+NO_TEXTURES: Final = MaterialTextures()
+
+_known: Final[WeakValueDictionary[tuple[str, str], Texture]] = WeakValueDictionary()
+"""Those in use: figures from different files share what is the same."""
+
+
+def texture_of(name: str, content: bytes) -> Texture:
+    """The texture of a PNG or JPEG file's bytes, which are not looked at."""
+    digest = hashlib.blake2b(content, digest_size=16).hexdigest()
+    return _known.setdefault((digest, name), Texture(digest, name, content))
