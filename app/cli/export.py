@@ -28,6 +28,7 @@ from app.cli.summary import project_summary, summary
 from app.cli.terminal import interrupted_by, say
 from app.encoding import shown
 from app.errors import UsageError
+from app.export.earlier_exports import other_bars
 from app.export.face_curves import CURVE_NAMES, DEFAULT_FACE, FACE_PARTS, FaceOptions, FacePart
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, refuse_attachment, requested
 from app.export.request import ExportRequest
@@ -168,8 +169,9 @@ def export(arguments: argparse.Namespace) -> int:
     try:
         with interrupted_by(signal.SIGTERM):
             if unreal is None:
+                remark = other_bars(folder, request.bars)
                 report = write(request, text, progress=progress, shown_in=sentence)
-                reported = summary(report, arguments.to)
+                reported = [*summary(report, arguments.to), *([] if remark is None else ["", sentence(remark)])]
             else:
                 from app.export.unreal.run import export_into
 

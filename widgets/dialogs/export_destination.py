@@ -10,6 +10,7 @@ from typing import Literal
 
 from app.encoding import shown
 from app.errors import Message
+from app.export.earlier_exports import other_bars
 from app.export.file_names import REPORT, file_names, sound_name, stage_names
 from app.export.formats import Format
 from app.export.report import Report
@@ -35,6 +36,8 @@ class Foreseen:
     replaced, removed : tuple of str
         Names of files that are there.
     kept : tuple of Message
+    remarks : tuple of Message
+        What an earlier export has otherwise: other bars, or the same music under another name.
     project : UnrealProject or None
     """
 
@@ -42,6 +45,7 @@ class Foreseen:
     replaced: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
     kept: tuple[Message, ...] = ()
+    remarks: tuple[Message, ...] = ()
     project: UnrealProject | None = None
 
 
@@ -58,8 +62,10 @@ class Done:
     new_plugin: bool = False
 
 
-def foresee_unreal(place: Path, performance: Performance, player_ids: tuple[str, ...], source: str) -> Foreseen:
-    """Foresee an export into an Unreal project, by its file or folder.
+def foresee_unreal(
+    place: Path, performance: Performance, player_ids: tuple[str, ...], source: str, bars: tuple[int, int] | None
+) -> Foreseen:
+    """Foresee an export of some bars (None: all) into an Unreal project, by its file or folder.
 
     Raises
     ------
@@ -67,12 +73,13 @@ def foresee_unreal(place: Path, performance: Performance, player_ids: tuple[str,
         There is no project, or files of another program are in the way.
     """
     unreal = find_project(place)
-    plan = plan_export(performance, player_ids, source, unreal, by_length=True)
+    plan = plan_export(performance, player_ids, source, unreal, by_length=True, bars=bars)
     return Foreseen(
         count=len(plan.written),
         replaced=tuple(shown(path.name) for path in plan.replaced),
         removed=tuple(shown(path.name) for path in plan.removed),
         kept=plan.kept,
+        remarks=plan.remarks,
         project=unreal,
     )
 
@@ -85,6 +92,8 @@ def foresee_folder(
     source: str,
     sound: bool,
     stage: bool,
+    *,
+    bars: tuple[int, int] | None = None,
 ) -> Foreseen:
     """Foresee an export into a folder.
 
@@ -94,6 +103,8 @@ def foresee_folder(
         Name of the piece's file.
     sound, stage : bool
         Whether the sound is written too, and the whole stage in one file.
+    bars : (int, int) or None
+        First and last bar that is exported; None: the whole piece.
     """
     names = file_names(performance, formats)
     project = performance.project
@@ -107,7 +118,9 @@ def foresee_folder(
         requested.append(sound_name(source))
     if stage:
         requested += stage_names(performance, formats, source).values()
-    return Foreseen(len(requested), tuple(name for name in requested if os.path.exists(folder / name)))
+    replaced = tuple(name for name in requested if os.path.exists(folder / name))
+    remark = other_bars(folder, bars) if replaced else None
+    return Foreseen(len(requested), replaced, remarks=() if remark is None else (remark,))
 
 
 def write(

@@ -374,13 +374,12 @@ class ExportDialog(WorkingDialog):
 
     def _foreseen(self) -> str:
         """Say which files will be written, replaced and removed."""
-        performance = Performance(self._project)
-        place, formats = self._place.path, self._formats
+        performance, ids, bars = Performance(self._project), self.player_ids, self._range.bars
+        place, made, source = self._place.path, self._formats, self._source
         if self._place.destination == "unreal":
-            seen = foresee_unreal(place, performance, self.player_ids, self._source)
+            seen = foresee_unreal(place, performance, ids, source, bars)
         else:
-            ids, source = self.player_ids, self._source
-            seen = foresee_folder(place, performance, ids, formats.formats, source, formats.sound, formats.stage)
+            seen = foresee_folder(place, performance, ids, made.formats, source, made.sound, made.stage, bars=bars)
         lines = []
         if seen.project is not None:
             engine = "" if seen.project.version is None else f" {seen.project.engine}"
@@ -392,7 +391,7 @@ class ExportDialog(WorkingDialog):
         if seen.removed:
             removed = self.tr("export_dialog.no_longer_needed_will_be")
             lines.append(removed.format(count=len(seen.removed), names=_some(seen.removed)))
-        lines += [f"⚠ {sentence(message)}" for message in seen.kept]
+        lines += [f"⚠ {sentence(message)}" for message in (*seen.kept, *seen.remarks)]
         return "\n".join(lines)
 
     def retranslate(self) -> None:

@@ -20,6 +20,7 @@ import numpy as np
 from app.audio.track import RATE_HZ
 from app.errors import Message, StopRequested, raise_if_stopped
 from app.export.bind_pose import CENTIMETRES
+from app.export.earlier_exports import other_bars, same_music
 from app.export.file_names import REPORT as EXPORTED_REPORT
 from app.export.formats import FILE_FORMATS, FileContent
 from app.export.instrument import instrument_bones
@@ -70,6 +71,8 @@ class Plan:
         Of those that are there.
     kept : tuple of Message
         Leftovers that were changed by hand.
+    remarks : tuple of Message
+        What an earlier export has otherwise: other bars, or the same music under another name.
     plugin : mapping of path to bytes
         The plug-in's files, by path in its folder; none if the project has it.
     staying : mapping of path to OwnFile
@@ -82,6 +85,7 @@ class Plan:
     replaced: tuple[PurePosixPath, ...]
     removed: tuple[PurePosixPath, ...]
     kept: tuple[Message, ...]
+    remarks: tuple[Message, ...]
     plugin: dict[PurePosixPath, bytes]
     staying: dict[PurePosixPath, OwnFile]
 
@@ -101,6 +105,7 @@ def plan_export(
     project: UnrealProject,
     by_length: bool = False,
     left_out: tuple[str, ...] = (),
+    bars: tuple[int, int] | None = None,
 ) -> Plan:
     """Plan the export of some players and dancers into a project; nothing is written.
 
@@ -114,6 +119,8 @@ def plan_export(
         Whether what is there is reported from what we wrote by its length alone, which takes no time.
     left_out : tuple of str
         Ids of those who were to be exported but cannot be: their files of an earlier export stay.
+    bars : (int, int) or None
+        First and last bar that is exported; None: the whole piece.
 
     Raises
     ------
@@ -140,6 +147,14 @@ def plan_export(
         replaced=tuple(sorted(folder / path for folder, change in found for path in change.replaced)),
         removed=tuple(sorted(folder / path for folder, change in found for path in change.removed)),
         kept=tuple(message for _, change in found for message in change.kept),
+        remarks=tuple(
+            remark
+            for remark in (
+                other_bars(project.folder / layout.sources, bars),
+                same_music(project.folder, layout, performance.project),
+            )
+            if remark is not None
+        ),
         plugin=plugin,
         staying=found[0][1].staying,
     )
@@ -179,7 +194,7 @@ def export_into(
     request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False)
     cast = cast_of(request, shown_in or wording, stop_requested)
     left_out = tuple(one.player.id for one in cast.left_out)
-    plan = plan_export(request.performance, cast.ids, request.source, project, left_out=left_out)
+    plan = plan_export(request.performance, cast.ids, request.source, project, left_out=left_out, bars=request.bars)
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
         reports = _figures(request, cast, plan.layout, sources, (wording, shown_in), stop_requested, progress)

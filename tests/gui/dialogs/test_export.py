@@ -110,6 +110,11 @@ def test_it_says_what_will_be_replaced_and_what_is_missing(dialog: ExportDialog,
     (tmp_path / "out" / "report.json").write_text("{}")
     bvh_only(dialog)
     assert "report.json" in outcome.text()
+    assert "⚠" not in outcome.text(), "nothing is known of what a foreign report is about"
+    (tmp_path / "out" / "report.json").write_text('{"bars": [1, 4]}')
+    bvh_only(dialog)
+    bvh_only(dialog)
+    assert "bars 1 to 4 only; this one has the whole piece" in outcome.text()
     box = child(dialog, QCheckBox, "export_bvh")
     QTest.mouseClick(box, Qt.MouseButton.LeftButton)
     assert not button.isEnabled()

@@ -165,6 +165,7 @@ def test_inspect_has_exactly_these_keys(run: Run) -> None:
         assert set(player) == {
             "name",
             "instrument",
+            "transposition_semitones",
             "part",
             "musician",
             "source",

@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 import soundfile
@@ -26,6 +27,7 @@ from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import export_into, plan_export
 from app.formats.fbx.read import read_scene
 from app.messages import text
+from app.performance.ensemble import Performance
 from app.project.casting import StagePosition
 from tests.unit.export.unreal.conftest import (
     QUARTET,
@@ -385,6 +387,32 @@ def test_another_ones_plug_in_is_reported(unreal: UnrealProject, export: Export)
 def test_a_name_that_differs_in_case_is_the_same_piece(exported: UnrealProject) -> None:
     plan = plan_export(request_of(quartet()).performance, (), "QUARTET.mid", exported)
     assert plan.layout.piece == "quartet"
+
+
+def test_the_same_music_under_another_name_is_remarked(exported: UnrealProject) -> None:
+    performance = request_of(quartet()).performance
+    renamed = plan_export(performance, (), "quartet final.mid", exported)
+    (remark,) = renamed.remarks
+    assert (remark.id, remark.arguments) == (
+        "unreal.second_performance",
+        {"piece": renamed.layout.piece, "earlier": "quartet"},
+    )
+    other = replace(
+        performance.project, players=(msgspec.structs.replace(performance.project.players[0], name="Solo"),)
+    )
+    assert plan_export(Performance(other), (), "solo.mid", exported).remarks == ()
+
+
+@pytest.mark.parametrize(
+    ("bars", "remark"),
+    [((1, 1), None), (None, "export.bars_before"), ((1, 2), "export.other_bars_before")],
+    ids=["the same bars", "all", "others"],
+)
+def test_other_bars_than_before_are_remarked(
+    exported: UnrealProject, bars: tuple[int, int] | None, remark: str | None
+) -> None:
+    plan = plan_export(request_of(quartet()).performance, (), "quartet.mid", exported, bars=bars)
+    assert [message.id for message in plan.remarks] == ([] if remark is None else [remark])
 
 
 def test_places_as_unreal_has_them() -> None:
