@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from character_skeleton import SkeletonFit
 from character_surface import Surface, modelled
 from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import coo_array
 from scipy.spatial import ConvexHull
+
+if TYPE_CHECKING:
+    from character_skeleton import SkeletonFit
 
 
 @dataclass(frozen=True)

@@ -6,26 +6,50 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from character_skeleton import SkeletonFit
 from character_surface import Surface
+from character_textures import Texture
 from pygltflib import GLTF2
+
+if TYPE_CHECKING:
+    from character_skeleton import SkeletonFit
 
 FLOAT, USHORT, UBYTE, UINT = 5126, 5123, 5121, 5125
 _DTYPES = {FLOAT: np.dtype("<f4"), USHORT: np.dtype("<u2"), UBYTE: np.dtype("u1"), UINT: np.dtype("<u4")}
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
+LINEAR, LINEAR_MIPMAP_LINEAR, REPEAT = 9729, 9987, 10497
+TRANSFORM = "KHR_texture_transform"
 MORPH_THRESHOLD_M = 2e-6
 
 
 @dataclass(frozen=True)
 class Material:
-    """A PBR material, no metal: linear base colour, roughness in 0..1."""
+    """A PBR material, no metal: linear base colour, roughness in 0..1.
+
+    Attributes
+    ----------
+    colour, roughness : factors of the textures where there are some.
+    colour_texture : base colour; its alpha counts where `alpha_cutoff` is given.
+    normal_texture : normals, repeated `normal_tiles` times across the material's coordinates.
+    orm_texture : occlusion (red), roughness (green) and metal (blue).
+    alpha_cutoff : alpha below which nothing is drawn.
+    """
 
     colour: tuple[float, float, float]
     roughness: float
     two_sided: bool = False
+    colour_texture: Texture | None = None
+    normal_texture: Texture | None = None
+    normal_scale: float = 1.0
+    normal_tiles: float = 1.0
+    orm_texture: Texture | None = None
+    alpha_cutoff: float | None = None
+
+    def textures(self) -> tuple[Texture, ...]:
+        present = (self.colour_texture, self.normal_texture, self.orm_texture)
+        return tuple(texture for texture in present if texture is not None)
 
 
 class _Buffer:
@@ -135,15 +159,44 @@ def _nodes(fit: SkeletonFit, positions: np.ndarray) -> list[dict[str, Any]]:
     return nodes
 
 
-def _material(name: str, material: Material) -> dict[str, Any]:
+def _material(name: str, material: Material, textures: Sequence[Texture]) -> dict[str, Any]:
+    physical: dict[str, Any] = {
+        "baseColorFactor": [*material.colour, 1.0],
+        "metallicFactor": 0.0,
+        "roughnessFactor": material.roughness,
+    }
+    entry: dict[str, Any] = {"name": name, "pbrMetallicRoughness": physical, "doubleSided": material.two_sided}
+    if material.colour_texture is not None:
+        physical["baseColorTexture"] = {"index": textures.index(material.colour_texture)}
+    if material.orm_texture is not None:
+        physical["metallicRoughnessTexture"] = {"index": textures.index(material.orm_texture)}
+        entry["occlusionTexture"] = {"index": textures.index(material.orm_texture)}
+    if material.normal_texture is not None:
+        normal: dict[str, Any] = {"index": textures.index(material.normal_texture), "scale": material.normal_scale}
+        if material.normal_tiles != 1.0:
+            normal["extensions"] = {TRANSFORM: {"scale": [material.normal_tiles, material.normal_tiles]}}
+        entry["normalTexture"] = normal
+    if material.alpha_cutoff is not None:
+        entry |= {"alphaMode": "MASK", "alphaCutoff": material.alpha_cutoff}
+    return entry
+
+
+def _pictures(buffer: _Buffer, textures: Sequence[Texture]) -> dict[str, Any]:
+    """The parts of a document that hold textures; none where there are none."""
+    if not textures:
+        return {}
+    images = [
+        {
+            "name": texture.name,
+            "mimeType": texture.mime_type,
+            "bufferView": buffer.view(np.frombuffer(texture.content, np.uint8)),
+        }
+        for texture in textures
+    ]
     return {
-        "name": name,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [*material.colour, 1.0],
-            "metallicFactor": 0.0,
-            "roughnessFactor": material.roughness,
-        },
-        "doubleSided": material.two_sided,
+        "images": images,
+        "samplers": [{"magFilter": LINEAR, "minFilter": LINEAR_MIPMAP_LINEAR, "wrapS": REPEAT, "wrapT": REPEAT}],
+        "textures": [{"source": index, "sampler": 0} for index in range(len(textures))],
     }
 
 
@@ -210,6 +263,8 @@ def write_character(
     """Write one character; `positions` are the (J, 3) joint centres of the T-pose as standing on the floor."""
     buffer = _Buffer()
     used = [name for name in materials if any(name in surface.triangles for surface in surfaces)]
+    textures = list(dict.fromkeys(texture for name in used for texture in materials[name].textures()))
+    tiled = any(materials[name].normal_tiles != 1.0 for name in used)
     nodes = _nodes(fit, positions)
     meshes = [_mesh(buffer, surface, used) for surface in surfaces]
     inverse_binds = np.linalg.inv(fit.world_from_joint_rest)
@@ -226,13 +281,14 @@ def write_character(
         nodes.append({"name": surface.name, "mesh": index, "skin": 0})
     document = {
         "asset": {"version": "2.0", "generator": "Suisou build_characters", "copyright": meta["copyrightInformation"]},
-        "extensionsUsed": ["VRMC_vrm"],
+        "extensionsUsed": ["VRMC_vrm", *([TRANSFORM] if tiled else [])],
         "scene": 0,
         "scenes": [{"name": meta["name"], "nodes": [0, *mesh_nodes.values()], "extras": {"suisou": suisou}}],
         "nodes": nodes,
         "meshes": meshes,
         "skins": [skin],
-        "materials": [_material(name, materials[name]) for name in used],
+        "materials": [_material(name, materials[name], textures) for name in used],
+        **_pictures(buffer, textures),
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"byteLength": len(buffer.data)}],

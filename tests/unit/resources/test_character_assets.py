@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from importlib import import_module
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).parents[3]
 OBJ = """
 v 0 0 0
 v 1 0 0
@@ -53,11 +52,8 @@ SCALES = ((0, 3, 2.0), (1, 4, 0.5), (2, 5, 4.0))
 
 
 @pytest.fixture(scope="module")
-def assets() -> ModuleType:
-    """The module, which is imported by its bare name, as by the Python that builds characters."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(ROOT / "resources" / "build"))
-        return import_module("character_assets")
+def assets(build_module: Callable[[str], ModuleType]) -> ModuleType:
+    return build_module("character_assets")
 
 
 @pytest.fixture

@@ -1,0 +1,178 @@
+"""The skin: MakeHuman's painted skins laid out anew with more room for head and hands, and fine detail over them.
+
+Only head, neck and hands are seen from near, so their parts of the texture get more of it than hm08's layout gives. The
+skins are 512 pixels wide: blotches, pores and the sheen of brow, nose and lips come from here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from character_surface import Surface
+from character_textures import Texture, cells, jpeg, noise, normals_of, png, sampled, spread, to_linear, to_srgb
+from PIL import Image, ImageDraw
+from scipy.ndimage import gaussian_filter
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+SKIN_PX, ORM_PX, PORES_PX = 1024, 512, 256
+PORE_TILES = 22.0
+"""Tiles of pores across the texture: one covers 2 cm of face."""
+MARGIN_PX = 6
+
+ISLANDS = (
+    # A texture coordinate that is in the island, lower left corner in the new layout, and how much larger it becomes.
+    ((0.93, 0.49), (0.004, 0.012), 1.455),
+    ((0.38, 0.60), (0.535, 0.470), 0.61),
+    ((0.44, 0.10), (0.528, 0.225), 1.20),
+    ((0.68, 0.10), (0.763, 0.225), 1.20),
+    ((0.10, 0.09), (0.530, 0.110), 0.62),
+    ((0.28, 0.09), (0.650, 0.110), 0.62),
+    ((0.84, 0.07), (0.780, 0.110), 0.70),
+    ((0.045, 0.59), (0.530, 0.030), 0.60),
+    ((0.118, 0.59), (0.590, 0.030), 0.60),
+)
+"""Head, trunk with limbs, right hand, left hand, feet, mouth, nostrils or sockets."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The new layout of the body's texture.
+
+    Attributes
+    ----------
+    hm08, uvs : (T, 2) old and new texture coordinates of the base mesh.
+    source_u, source_v : (SKIN_PX, SKIN_PX) hm08's coordinates per pixel.
+    inside : (SKIN_PX, SKIN_PX) whether a pixel belongs to the body.
+    """
+
+    hm08: np.ndarray
+    uvs: np.ndarray
+    source_u: np.ndarray
+    source_v: np.ndarray
+    inside: np.ndarray
+
+    def picture(self, hm08: np.ndarray) -> np.ndarray:
+        """A picture over hm08's coordinates in the new layout."""
+        return sampled(hm08, self.source_u, self.source_v)
+
+    def dressed(self, body: Surface) -> Surface:
+        """A surface cut from the body, with the new coordinates and the one material `skin`."""
+        rows = cKDTree(self.hm08).query(body.uvs)[1]
+        return replace(body, uvs=self.uvs[rows], triangles={"skin": body.all_triangles()})
+
+
+def skin_layout(uvs: np.ndarray, faces: np.ndarray) -> Layout:
+    """The layout of a body with hm08's (T, 2) texture coordinates and its (F, 4) corners."""
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 3]]])
+    links = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(len(uvs), len(uvs)))
+    labels = connected_components(links, directed=False)[1]
+    used = np.unique(faces)
+    moved = uvs.copy()
+    centres = (np.arange(SKIN_PX) + 0.5) / SKIN_PX
+    grid_u, grid_v = np.meshgrid(centres, centres[::-1])
+    source_u, source_v = np.zeros_like(grid_u), np.zeros_like(grid_v)
+    inside = np.zeros(grid_u.shape, dtype=bool)
+    for spot, corner, scale in ISLANDS:
+        label = labels[used[np.linalg.norm(uvs[used] - spot, axis=1).argmin()]]
+        rows = used[labels[used] == label]
+        low, high = uvs[rows].min(axis=0), uvs[rows].max(axis=0)
+        moved[rows] = (uvs[rows] - low) * scale + corner
+        canvas = Image.new("1", (SKIN_PX, SKIN_PX))
+        drawing = ImageDraw.Draw(canvas)
+        for face in faces[labels[faces[:, 0]] == label]:
+            drawing.polygon([(u * SKIN_PX, (1 - v) * SKIN_PX) for u, v in moved[face]], fill=1, outline=1)
+        inside |= np.asarray(canvas)
+        room = MARGIN_PX / SKIN_PX
+        top = np.asarray(corner) + (high - low) * scale
+        near = (grid_u > corner[0] - room) & (grid_u < top[0] + room) & (grid_v > corner[1] - room)
+        near &= grid_v < top[1] + room
+        source_u[near] = (grid_u[near] - corner[0]) / scale + low[0]
+        source_v[near] = (grid_v[near] - corner[1]) / scale + low[1]
+    return Layout(uvs, moved, source_u, source_v, inside)
+
+
+def _blob(layout: Layout, u: float, v: float, wide: float, high: float) -> np.ndarray:
+    """A soft spot about a place in hm08's coordinates."""
+    return np.exp(-(((layout.source_u - u) / wide) ** 2) - ((layout.source_v - v) / high) ** 2)
+
+
+def _face_masks(layout: Layout) -> dict[str, np.ndarray]:
+    """Parts of the face as soft spots; hm08's head lies on its side, forehead to the left, chin to the right."""
+    return {
+        "forehead": _blob(layout, 0.80, 0.484, 0.030, 0.055),
+        "nose": _blob(layout, 0.865, 0.484, 0.020, 0.012) + _blob(layout, 0.886, 0.484, 0.010, 0.018),
+        "cheeks": _blob(layout, 0.885, 0.415, 0.025, 0.030) + _blob(layout, 0.885, 0.553, 0.025, 0.030),
+        "chin": _blob(layout, 0.945, 0.484, 0.014, 0.022),
+    }
+
+
+def read_picture(path: Path) -> np.ndarray:
+    """(H, W, 3) or, where the file has alpha, (H, W, 4)."""
+    image = Image.open(path)
+    return np.asarray(image.convert("RGBA" if "A" in image.getbands() else "RGB"), dtype=np.float64) / 255.0
+
+
+def skin_colour(
+    name: str,
+    painted: np.ndarray,
+    layout: Layout,
+    masks: dict[str, np.ndarray],
+    mean_linear: tuple[float, float, float],
+) -> Texture:
+    """The base colour: a painted skin, brought to a mean over the face, with blotches, redness and pores.
+
+    Parameters
+    ----------
+    painted : (H, W, 3) one of MakeHuman's skins over hm08's coordinates.
+    masks : the base mesh's masks ("lips", "fingernails") over hm08's coordinates.
+    mean_linear : the mean linear colour of forehead, nose and cheeks.
+    """
+    colour = to_linear(np.clip(layout.picture(painted), 0.0, 1.0))
+    face = _face_masks(layout)
+    middle = face["cheeks"] + 0.5 * face["forehead"]
+    mean = (colour * middle[..., None]).sum(axis=(0, 1)) / middle.sum()
+    colour *= np.asarray(mean_linear) / mean
+    lips = np.clip(layout.picture(masks["lips"]), 0.0, 1.0)
+    nails = np.clip(layout.picture(masks["fingernails"]), 0.0, 1.0)
+    skin = 1.0 - np.clip(lips + nails, 0.0, 1.0)
+    blotches = 0.6 * noise(SKIN_PX, 14, 60, 3) + 0.4 * noise(SKIN_PX, 4, 16, 4)
+    redness = 0.04 * face["cheeks"] + 0.02 * face["nose"] + 0.02 * face["chin"] + 0.018 * blotches
+    colour *= 1.0 + redness[..., None] * np.array([0.25, -1.0, -0.9])
+    pores = np.maximum(0.0, noise(SKIN_PX, 1.2, 3.5, 5))
+    freckles = np.maximum(0.0, noise(SKIN_PX, 2.5, 6, 6) - 2.2)
+    colour *= 1.0 - skin[..., None] * (0.035 * pores[..., None] + 0.10 * freckles[..., None] * np.array([0.6, 1, 1.2]))
+    # Lips have fine lines across; they and the nails are a little paler at their middle.
+    colour *= 1.0 + lips[..., None] * 0.05 * noise(SKIN_PX, 1.2, 5, 7)[..., None]
+    colour = colour * (1 - 0.35 * nails[..., None]) + 0.35 * nails[..., None] * np.asarray(mean_linear) * [
+        1.2,
+        1.0,
+        0.95,
+    ]
+    return jpeg(name, spread(to_srgb(colour), layout.inside))
+
+
+def skin_roughness(name: str, layout: Layout, masks: dict[str, np.ndarray]) -> Texture:
+    """Occlusion (none), roughness and metal (none): brow, nose and lips shine a little more than cheeks and hands."""
+    face = _face_masks(layout)
+    lips = np.clip(layout.picture(masks["lips"]), 0.0, 1.0)
+    nails = np.clip(layout.picture(masks["fingernails"]), 0.0, 1.0)
+    mouth = np.clip(layout.picture(masks["inside-mouth"]), 0.0, 1.0)
+    rough = 0.60 - 0.12 * face["forehead"] - 0.16 * face["nose"] - 0.06 * face["chin"] + 0.03 * noise(SKIN_PX, 3, 24, 8)
+    for part, value in ((lips, 0.38), (nails, 0.30), (mouth, 0.35)):
+        rough = rough * (1 - part) + value * part
+    filled = spread(rough, layout.inside)
+    small = gaussian_filter(filled, 0.7)[:: SKIN_PX // ORM_PX, :: SKIN_PX // ORM_PX]
+    return jpeg(name, np.stack([np.ones_like(small), small, np.zeros_like(small)], axis=-1))
+
+
+def pores(name: str) -> Texture:
+    """Normals of a tile of skin: furrows between fine plates, and pores where they meet."""
+    near, following = cells(PORES_PX, 8.0, 11)
+    furrows = np.exp(-(((following - near) / 1.3) ** 2))
+    holes = np.exp(-((cells(PORES_PX, 15.0, 12)[0] / 1.6) ** 2))
+    heights = -0.55 * furrows - 0.8 * holes + 0.12 * noise(PORES_PX, 2, 10, 13)
+    return png(name, normals_of(gaussian_filter(heights, 0.6, mode="wrap"), 0.55))

@@ -1,0 +1,175 @@
+"""Hair, brows and lashes as cards: MakeHuman's meshes, their painted strands made grey, so that any colour tints them.
+
+The painted pictures are 512 pixels wide. Finer strands are drawn along those that are painted: noise smeared along the
+direction in which the picture changes least.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from character_assets import Asset, asset_surface, read_asset, read_material
+from character_skin import read_picture
+from character_surface import Surface
+from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
+from PIL import Image, ImageDraw
+from scipy.ndimage import gaussian_filter, map_coordinates
+
+if TYPE_CHECKING:
+    from character_skeleton import SkeletonFit
+    from character_source import Source
+
+HAIR_PX = 1024
+STRAND_STEPS, STRAND_STEP_PX = 14, 1.5
+MIDDLE_GREY_LINEAR = 0.32
+"""Mean of the grey strands: a colour of hair divided by it tints them, up to fair hair."""
+ALPHA_CUTOFF = 0.4
+LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
+LOCK_HEIGHT, STRAND_SLOPE = 0.5, 0.16
+GREYS, ALPHAS = 48, 8
+"""Steps of grey and of alpha that are kept: pictures half as large."""
+
+
+def covered(uvs: np.ndarray, uv_faces: np.ndarray, size: int) -> np.ndarray:
+    """(size, size) whether faces use a pixel of their texture."""
+    canvas = Image.new("1", (size, size))
+    drawing = ImageDraw.Draw(canvas)
+    for face in uv_faces:
+        drawing.polygon([(u * size, (1 - v) * size) for u, v in uvs[face]], fill=1, outline=1)
+    return np.asarray(canvas)
+
+
+def directions(grey: np.ndarray, reach_px: float) -> np.ndarray:
+    """(H, W, 2) unit vectors (row, column) along which a picture changes least (its structure tensor)."""
+    down, right = np.gradient(gaussian_filter(grey, 1.0))
+    dd, dr, rr = (gaussian_filter(product, reach_px) for product in (down * down, down * right, right * right))
+    across = 0.5 * np.arctan2(2 * dr, dd - rr)
+    return np.stack([-np.sin(across), np.cos(across)], axis=-1)
+
+
+def strands(along: np.ndarray, seed: int) -> np.ndarray:
+    """(H, W) fine strands, mean 0 and deviation 1: white noise averaged along the directions, both ways."""
+    height, width = along.shape[:2]
+    white = gaussian_filter(np.random.Generator(np.random.PCG64(seed)).normal(0, 1, (height, width)), 0.55)
+    total = white.copy()
+    start = np.stack(np.meshgrid(np.arange(height), np.arange(width), indexing="ij"), axis=-1).astype(float)
+    for sign in (1.0, -1.0):
+        place, heading = start.copy(), along * sign
+        for _ in range(STRAND_STEPS):
+            place += heading * STRAND_STEP_PX
+            rows = np.clip(np.round(place[..., 0]).astype(int), 0, height - 1)
+            columns = np.clip(np.round(place[..., 1]).astype(int), 0, width - 1)
+            ahead = along[rows, columns]
+            # A direction has no sign: keep on.
+            heading = ahead * np.where((ahead * heading).sum(axis=-1) < 0, -1.0, 1.0)[..., None]
+            total += map_coordinates(white, [place[..., 0], place[..., 1]], order=1, mode="nearest")
+    return (total - total.mean()) / total.std()
+
+
+def _steps(picture: np.ndarray, count: int) -> np.ndarray:
+    return np.round(np.clip(picture, 0, 1) * (count - 1)) / (count - 1)
+
+
+def _enlarged(picture: np.ndarray, size: int) -> np.ndarray:
+    centres = (np.arange(size) + 0.5) / size
+    u, v = np.meshgrid(centres, centres[::-1])
+    return np.clip(sampled(picture, u, v), 0.0, 1.0)
+
+
+def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Texture, Texture]:
+    """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; what no face uses is left empty."""
+    size = len(used)
+    large = _enlarged(painted, size)
+    alpha = large[..., 3] * used
+    solid = alpha > 0.5
+    grey = to_linear(large[..., :3]) @ np.array([0.2126, 0.7152, 0.0722])
+    smooth = gaussian_filter(spread(grey, solid), 6)
+    # Shine and shade painted over whole locks are mostly taken out; light does that.
+    grey = spread(grey, solid) / (smooth + 1e-3) ** 0.75
+    fine = strands(directions(grey / grey[solid].mean(), 4.0), 31)
+    grey = grey / grey[solid].mean() * (1 + 0.38 * fine)
+    grey = np.clip(grey / grey[solid].mean() * MIDDLE_GREY_LINEAR, 0.02, 0.95)
+    # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
+    alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)
+    shade = _steps(to_srgb(spread(grey, solid)), GREYS)
+    colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
+    # Normals at half the size: locks from what is painted, strands from the noise.
+    rows = slice(None, None, 2)
+    heights = gaussian_filter(np.log(grey), 1.5)[rows, rows] * LOCK_HEIGHT + gaussian_filter(fine, 0.6)[rows, rows]
+    return colour, jpeg(f"hair_{style}_normal", normals_of(heights, STRAND_SLOPE), quality=85)
+
+
+def _strip(asset: Asset) -> tuple[np.ndarray, np.ndarray]:
+    """Lower left and upper right corner of what an asset uses of its texture."""
+    used = asset.uvs[np.unique(asset.uv_faces)]
+    return np.clip(used.min(axis=0) - 0.004, 0, 1), np.clip(used.max(axis=0) + 0.004, 0, 1)
+
+
+def _brow_picture(painted: np.ndarray) -> np.ndarray:
+    """Single grey hairs: what is painted solid is thinned and shaded along its strokes."""
+    alpha = np.clip(painted[..., 3], 0, 1)
+    fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5), 32)
+    grey = to_srgb(np.clip(MIDDLE_GREY_LINEAR * (1 + 0.35 * fine), 0.05, 0.9))
+    return np.stack([grey, grey, grey, np.clip(alpha * (0.95 + 0.32 * fine), 0, 1)], axis=-1)
+
+
+def _lash_picture(painted: np.ndarray, lower: np.ndarray) -> np.ndarray:
+    """Near black, and thinner along the lower lid (mask `lower`)."""
+    grey = to_srgb(np.full(painted.shape[:2], LASH_GREY_LINEAR))
+    alpha = np.clip(painted[..., 3], 0, 1) * np.where(lower, LOWER_LASHES, 0.95)
+    return np.stack([grey, grey, grey, alpha], axis=-1)
+
+
+def brow_textures(name: str, brow: Asset, lash: Asset, lower_lid: np.ndarray) -> tuple[Texture, Asset, Asset]:
+    """One picture, brows above lashes, and both assets with their texture coordinates in it.
+
+    `lower_lid` are the base mesh's vertices of the lower lashes.
+    """
+    height, width = HAIR_PX // 2, HAIR_PX
+    u, v = np.meshgrid((np.arange(width) + 0.5) / width, 1 - (np.arange(height // 2) + 0.5) / (height // 2))
+    halves, moved = [], []
+    below = np.isin(lash.binding.corners[lash.faces], lower_lid).all(axis=(1, 2))
+    lower = covered(lash.uvs, lash.uv_faces[below], HAIR_PX).astype(float)
+    for asset, floor in ((brow, 0.5), (lash, 0.0)):
+        if asset.material is None:
+            raise ValueError(f"{asset.name} has no material")
+        painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
+        low, high = _strip(asset)
+        place = (low[0] + u * (high - low)[0], low[1] + v * (high - low)[1])
+        part = sampled(painted, *place)
+        halves.append(_brow_picture(part) if asset is brow else _lash_picture(part, sampled(lower, *place) > 0.5))
+        moved.append(replace(asset, uvs=(asset.uvs - low) / (high - low) * [1.0, 0.5] + [0.0, floor]))
+    picture = np.concatenate(halves)
+    picture[..., :3] = _steps(picture[..., :3], GREYS)
+    picture[..., 3] = _steps(picture[..., 3], 2 * ALPHAS)
+    return png(name, picture), moved[0], moved[1]
+
+
+def hair(folder: Path, style: str, source: Source, fit: SkeletonFit) -> tuple[Surface, Texture, Texture]:
+    """A style of hair on a body, its colour and its normals."""
+    asset = read_asset(folder / "hair" / style / f"{style}.mhclo")
+    if asset.material is None:
+        raise ValueError(f"{style} has no material")
+    painted = read_picture(read_material(asset.material).textures["diffuseTexture"])
+    used = covered(asset.uvs, asset.uv_faces, HAIR_PX)
+    return asset_surface(asset, source, fit, "hair", "hair"), *hair_textures(style, painted, used)
+
+
+def brows_and_lashes(
+    folder: Path, brow: str, lash: str, source: Source, fit: SkeletonFit
+) -> tuple[tuple[Surface, Surface], Texture]:
+    """Brows and lashes on a body, with the shapes of the face, and their picture."""
+    texture, *assets = brow_textures(
+        f"{brow}_{lash}_color",
+        read_asset(folder / "eyebrows" / brow / f"{brow}.mhclo"),
+        read_asset(folder / "eyelashes" / lash / f"{lash}.mhclo"),
+        np.unique([source.groups[group].vertices for group in ("helper-l-eyelashes-1", "helper-r-eyelashes-1")]),
+    )
+    first, second = (
+        asset_surface(asset, source, fit, name, "brows", morphs=True)
+        for asset, name in zip(assets, ("brows", "lashes"), strict=True)
+    )
+    return (first, second), texture

@@ -1,0 +1,245 @@
+"""Pictures of the bundled characters: noise that tiles, the skin's layout, eyes, strands, and how a file holds them."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import numpy as np
+import pygltflib as gltf
+import pytest
+from PIL import Image
+
+Module = Callable[[str], ModuleType]
+
+
+def _pixels(content: bytes) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(content)), dtype=np.float64) / 255.0
+
+
+def test_noise_and_normals_go_on_across_the_edge_of_a_tile(build_module: Module) -> None:
+    textures = build_module("character_textures")
+    waves = textures.noise(64, 6, 24, 1)
+    assert abs(waves.mean()) < 1e-9
+    assert waves.std() == pytest.approx(1.0)
+    for axis in (0, 1):
+        within = np.abs(np.diff(waves, axis=axis)).max()
+        assert np.abs(np.take(waves, 0, axis) - np.take(waves, -1, axis)).max() < 1.2 * within
+    near, following = textures.cells(48, 8.0, 2)
+    assert (near <= following).all()
+    assert np.abs(near[0] - near[-1]).max() < 2.0
+    # A slope that rises to the right leans the normal to the left; one that rises downwards leans it up (green).
+    ramp = np.tile(np.arange(8.0), (8, 1))
+    right = textures.normals_of(ramp, 1.0)[4, 4] * 2 - 1
+    assert right == pytest.approx(np.array([-1, 0, 1]) / np.sqrt(2))
+    down = textures.normals_of(ramp.T, 1.0)[4, 4] * 2 - 1
+    assert down == pytest.approx(np.array([0, 1, 1]) / np.sqrt(2))
+
+
+def test_pictures_are_sampled_spread_and_stored_alike(build_module: Module) -> None:
+    textures = build_module("character_textures")
+    picture = np.random.default_rng(3).uniform(0, 1, (8, 8, 3))
+    centres = (np.arange(8) + 0.5) / 8
+    u, v = np.meshgrid(centres, centres[::-1])
+    assert np.allclose(textures.sampled(picture, u, v), picture)
+    inside = np.zeros((8, 8), dtype=bool)
+    inside[2, 3] = True
+    assert (textures.spread(picture, inside) == picture[2, 3]).all()
+    stored = textures.png("a", picture)
+    assert stored == textures.png("a", picture)
+    assert stored.mime_type == "image/png"
+    assert textures.jpeg("a", picture).mime_type == "image/jpeg"
+    assert np.abs(_pixels(stored.content) - picture).max() < 1 / 255
+    assert np.allclose(textures.to_srgb(textures.to_linear(picture)), picture)
+
+
+def _squares(spots: list[tuple[float, float]], half: float) -> tuple[np.ndarray, np.ndarray]:
+    """One quad around each spot."""
+    corners = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
+    uvs = np.concatenate([np.asarray(spot) + corners for spot in spots])
+    return uvs, np.arange(len(uvs)).reshape(-1, 4)
+
+
+def test_parts_of_the_skin_get_new_places_of_their_own(build_module: Module) -> None:
+    skin, surface = build_module("character_skin"), build_module("character_surface")
+    uvs, faces = _squares([spot for spot, _, _ in skin.ISLANDS], 0.03)
+    layout = skin.skin_layout(uvs, faces)
+    assert layout.inside.sum() == pytest.approx(
+        sum((0.06 * scale * skin.SKIN_PX) ** 2 for _, _, scale in skin.ISLANDS), rel=0.05
+    ), "no two lie on one another"
+    assert layout.uvs.min() > 0
+    assert layout.uvs.max() < 1
+    # A picture in which every place has a colour of its own shows the same colour at both coordinates of a corner.
+    u, v = np.meshgrid((np.arange(256) + 0.5) / 256, 1 - (np.arange(256) + 0.5) / 256)
+    moved = layout.picture(np.stack([u, v], axis=-1))
+    middles, old = layout.uvs[faces].mean(axis=1), uvs[faces].mean(axis=1)
+    rows = ((1 - middles[:, 1]) * skin.SKIN_PX).astype(int)
+    assert np.allclose(moved[rows, (middles[:, 0] * skin.SKIN_PX).astype(int)], old, atol=2e-3)
+    body = surface.modelled(
+        "body", np.eye(4)[:, :3], np.ones((4, 1)), {"a": [[0, 1, 2]], "b": [[0, 2, 3]]}, uvs=uvs[[5, 9, 2, 30]]
+    )
+    dressed = layout.dressed(body)
+    assert np.array_equal(dressed.uvs, layout.uvs[[5, 9, 2, 30]])
+    assert dressed.triangles["skin"].tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+def test_lips_shine_and_the_face_has_the_colour_asked_for(build_module: Module) -> None:
+    skin, textures = build_module("character_skin"), build_module("character_textures")
+    uvs, faces = _squares([(0.84, 0.48)], 0.15)
+    layout = skin.skin_layout(uvs, faces)
+    lips = np.zeros((64, 64))
+    lips[:, 57:59] = 1.0
+    masks = {"lips": lips, "fingernails": np.zeros((64, 64)), "inside-mouth": np.zeros((64, 64))}
+    painted = np.full((64, 64, 3), (0.8, 0.6, 0.5))
+    colour = _pixels(skin.skin_colour("skin", painted, layout, masks, (0.5, 0.3, 0.2)).content)
+    assert np.allclose(textures.to_linear(colour)[layout.inside].mean(axis=0), (0.5, 0.3, 0.2), rtol=0.12)
+    rough = _pixels(skin.skin_roughness("orm", layout, masks).content)[..., 1]
+    mouth = layout.picture(lips)[::2, ::2] > 0.9
+    assert rough[mouth].mean() < 0.42
+    assert rough[(layout.picture(lips)[::2, ::2] < 0.05) & layout.inside[::2, ::2]].mean() > 0.5
+
+
+def test_eyes_have_a_pupil_an_iris_of_the_colour_asked_for_and_a_cornea(build_module: Module) -> None:
+    eyes = build_module("character_eyes")
+    picture = _pixels(eyes.eye_colour("eye", (0.05, 0.10, 0.30)).content)
+    middle = eyes.EYE_PX // 2
+
+    def ring(share: float) -> np.ndarray:
+        angle = np.linspace(0, 2 * np.pi, 40)
+        rows, columns = (middle + share * middle * turn(angle) for turn in (np.sin, np.cos))
+        return picture[rows.astype(int), columns.astype(int)].mean(axis=0)
+
+    assert ring(0.05).max() < 0.1
+    assert ring(0.3)[2] > 1.3 * ring(0.3)[0]
+    assert ring(0.55).min() > 0.6
+    names, centres = ("head", "leftEye", "rightEye"), np.array([[0, 0, 0], [0.03, 0, 0], [-0.03, 0, 0]])
+    frames = np.tile(np.eye(4), (3, 1, 1))
+    frames[:, :3, 3] = centres
+    fit = SimpleNamespace(names=names, index=names.index, world_from_joint_rest=frames)
+    balls = np.concatenate(
+        [centres[1] + 0.012 * np.array([[1, 0, 0], [-1, 0, 0]]), centres[2] + [[0.012, 0, 0], [-0.012, 0, 0]]]
+    )
+    groups = {f"helper-{side}-eye": SimpleNamespace(vertices=rows) for side, rows in (("l", [0, 1]), ("r", [2, 3]))}
+    surface = eyes.eyeballs(SimpleNamespace(vertices=balls, groups=groups), fit)
+    for joint in (1, 2):
+        own = surface.weights[:, joint] == 1.0
+        off = surface.positions[own] - centres[joint]
+        distance, share = np.linalg.norm(off, axis=1), np.linalg.norm(surface.uvs[own] - 0.5, axis=1) * 2
+        front = share < 0.01
+        assert np.allclose(distance[front], 0.012 + eyes.BULGE_M)
+        assert (off[front, 2] > 0.012).all()
+        # The iris in the picture is as large as an iris is.
+        edge = np.abs(share - eyes.IRIS_SHARE) < 0.01
+        assert np.hypot(off[edge, 0], off[edge, 1]) == pytest.approx(eyes.IRIS_M, rel=0.05)
+        assert np.allclose(distance[share > 0.6], 0.012)
+    assert (
+        np.einsum("ij,ij->i", surface.normals, surface.positions - np.where(surface.weights[:, 1:2] > 0, *centres[1:]))
+        > 0
+    ).all()
+
+
+def test_strands_run_along_what_is_painted(build_module: Module) -> None:
+    strands = build_module("character_strands")
+    rows, columns = np.mgrid[:96, :96]
+    for turn in np.radians([0, 30, 75, 120]):
+        stripes = np.sin(0.8 * (columns * np.sin(turn) + rows * np.cos(turn)))
+        along = strands.directions(stripes, 4.0)[48, 48]
+        expected = np.array([-np.sin(turn), np.cos(turn)])
+        assert abs(along @ expected) > 0.99
+    fine = strands.strands(np.broadcast_to([0.0, 1.0], (96, 96, 2)).copy(), 5)
+    assert np.abs(np.diff(fine, axis=1)).mean() < 0.4 * np.abs(np.diff(fine, axis=0)).mean()
+
+
+def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) -> None:
+    strands, textures = build_module("character_strands"), build_module("character_textures")
+    painted = np.zeros((64, 64, 4))
+    painted[8:56, 8:56] = (0.5, 0.2, 0.1, 1.0)
+    painted[8:56, 8:56, :3] *= np.random.default_rng(4).uniform(0.6, 1, (48, 48, 1))
+    used = np.zeros((128, 128), dtype=bool)
+    used[:, :64] = True
+    colour, normals = strands.hair_textures("bob", painted, used)
+    assert (colour.name, normals.name) == ("hair_bob_color", "hair_bob_normal")
+    pixels = _pixels(colour.content)
+    assert np.array_equal(pixels[..., 0], pixels[..., 2])
+    assert (pixels[:, 64:, 3] == 0).all()
+    assert (pixels[40:88, 24:60, 3] > 0.8).all()
+    middle = textures.to_linear(pixels[40:88, 24:60, 0]).mean()
+    assert middle == pytest.approx(strands.MIDDLE_GREY_LINEAR, rel=0.25)
+
+
+def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module: Module, tmp_path: Path) -> None:
+    strands, assets = build_module("character_strands"), build_module("character_assets")
+    picture = np.zeros((64, 64, 4), dtype=np.uint8)
+    picture[16:48, 16:48, 3] = 255
+    Image.fromarray(picture).save(tmp_path / "a.png")
+    material = tmp_path / "a.mhmat"
+    material.write_text("name a\ndiffuseTexture a.png\n", encoding="utf-8")
+    corners = np.arange(8)[:, None].repeat(3, axis=1)
+    binding = assets.Binding(corners, np.full((8, 3), 1 / 3), np.zeros((8, 3)), np.zeros((3, 2)), np.ones(3))
+    # Two quads, the left and the right half of the picture; the right one is the lower lid's.
+    uvs = np.array([(0, 0), (0.5, 0), (0.5, 1), (0, 1), (0.5, 0), (1, 0), (1, 1), (0.5, 1)], dtype=float)
+    faces = np.arange(8).reshape(2, 4)
+    asset = assets.Asset("a", binding, faces, faces, uvs, np.zeros(0), material)
+    texture, brow, lash = strands.brow_textures("x", replace(asset, name="b"), asset, np.array([4, 5, 6, 7]))
+    assert brow.uvs[:, 1].min() >= 0.5
+    assert lash.uvs[:, 1].max() <= 0.5
+    alpha = _pixels(texture.content)[..., 3]
+    height, width = alpha.shape
+    assert alpha[: height // 2][height // 4, width // 2] > strands.ALPHA_CUTOFF
+    below = alpha[3 * height // 4]
+    assert below[3 * width // 8] > 0.9
+    assert below[5 * width // 8] < 0.7
+    assert alpha[0].max() == 0
+
+
+def test_teeth_gums_and_tongue_have_patches_of_their_own(build_module: Module) -> None:
+    mouth, surface = build_module("character_mouth"), build_module("character_surface")
+    picture = _pixels(mouth.mouth_colour("mouth").content)
+    points = np.random.default_rng(6).normal(0, 1, (9, 3))
+    triangles = {name: np.array([[3 * row, 3 * row + 1, 3 * row + 2]]) for row, name in enumerate(mouth.PATCHES)}
+    inside = mouth.with_mouth_material(surface.modelled("mouth", points, np.ones((9, 1)), triangles))
+    assert list(inside.triangles) == ["mouth"]
+    columns = (inside.uvs[:, 0] * mouth.MOUTH_PX).astype(int)
+    rows = np.clip(((1 - inside.uvs[:, 1]) * mouth.MOUTH_PX).astype(int), 0, mouth.MOUTH_PX - 1)
+    colours = picture[rows, columns]
+    assert (colours[:3, 1] > 0.7).all(), "teeth are pale"
+    assert (colours[3:, 1] < 0.55).all()
+    assert (colours[3:, 0] > 0.55).all(), "gums and tongue are red"
+
+
+def test_a_file_holds_each_picture_once_with_tiles_and_cut_alpha(build_module: Module, tmp_path: Path) -> None:
+    glb, surface, textures = (build_module(f"character_{name}") for name in ("glb", "surface", "textures"))
+    colour = textures.png("hair_color", np.full((4, 4, 4), 0.5))
+    normal = textures.png("skin_normal", np.full((4, 4, 3), 0.5))
+    orm = textures.jpeg("skin_orm", np.full((4, 4, 3), 0.5))
+    materials = {
+        "skin": glb.Material(
+            (1.0, 1.0, 1.0), 1.0, normal_texture=normal, normal_scale=0.5, normal_tiles=9.0, orm_texture=orm
+        ),
+        "hair": glb.Material((0.2, 0.1, 0.05), 0.6, two_sided=True, colour_texture=colour, alpha_cutoff=0.4),
+        "brows": glb.Material((0.2, 0.1, 0.05), 0.6, colour_texture=colour),
+        "unused": glb.Material((0.0, 0.0, 0.0), 0.6, colour_texture=textures.png("no", np.zeros((2, 2, 3)))),
+    }
+    body = surface.modelled(
+        "body", np.eye(3), np.ones((3, 1)), {name: np.array([[0, 1, 2]]) for name in ("skin", "hair", "brows")}
+    )
+    fit = SimpleNamespace(names=("hips",), parents=(-1,), world_from_joint_rest=np.eye(4)[None])
+    path = tmp_path / "character.glb"
+    meta = {"name": "x", "copyrightInformation": "y"}
+    glb.write_character(path, fit, np.zeros((1, 3)), [body], materials, meta, {})
+    stored = gltf.GLTF2().load(str(path))
+    assert [image.name for image in stored.images] == ["skin_normal", "skin_orm", "hair_color"]
+    for image, texture in zip(stored.images, (normal, orm, colour), strict=True):
+        view = stored.bufferViews[image.bufferView]
+        assert stored.binary_blob()[view.byteOffset : view.byteOffset + view.byteLength] == texture.content
+        assert image.mimeType == texture.mime_type
+    assert stored.extensionsUsed == ["VRMC_vrm", "KHR_texture_transform"]
+    skin, hair, brows = stored.materials
+    assert (skin.normalTexture.index, skin.normalTexture.scale) == (0, 0.5)
+    assert skin.normalTexture.extensions["KHR_texture_transform"]["scale"] == [9.0, 9.0]
+    assert skin.pbrMetallicRoughness.metallicRoughnessTexture.index == skin.occlusionTexture.index == 1
+    assert hair.pbrMetallicRoughness.baseColorTexture.index == brows.pbrMetallicRoughness.baseColorTexture.index == 2
+    assert (hair.alphaMode, hair.alphaCutoff, brows.alphaMode) == ("MASK", 0.4, "OPAQUE")
