@@ -97,7 +97,7 @@ class Child(MessageChannel[T]):
     """A process that this one has started."""
 
     def end(self) -> None:
-        """End the process, whatever it does."""
+        """End the process, even in the middle of its work."""
         raise NotImplementedError
 
 
@@ -128,7 +128,7 @@ class StartedChild(Child[T]):
         super().__init__(kind, self.process.stdout, self.process.stdin)
 
     def end(self) -> None:
-        """End the process, whatever it does."""
+        """End the process, even in the middle of its work."""
         self.process.kill()
         self.ended()
 
@@ -208,7 +208,7 @@ class ForkedChild(Child[T]):
         _close(there, here)
 
     def end(self) -> None:
-        """End the process, whatever it does."""
+        """End the process, even in the middle of its work."""
         os.kill(self._id, signal.SIGKILL)
         os.waitpid(self._id, 0)
         _close(self.outgoing, self.incoming)

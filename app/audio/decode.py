@@ -26,11 +26,12 @@ MOST_HOURS: Final = 4
 """Longer recordings would fill the memory: an hour takes 0.7 GB."""
 FREE_S: Final = 600.0
 LEAST_BYTES_PER_S: Final = 500.0
-"""A file may hold `FREE_S`, and a second more for so many of its bytes: the least that speech takes is more than that,
-but silence can be packed into a hundredth of it, and a small file fill the memory."""
+"""A file may hold `FREE_S` seconds of sound, plus one second for every this many bytes of its size. Real speech
+needs more bytes than that; silence can be packed into a hundredth of it, so a small file could fill the memory."""
 FREE_VALUES: Final = 2**26
 VALUES_PER_BYTE: Final = 256
-"""The same of samples of all channels: a few bytes can stand for 65,536 samples of each of eight channels."""
+"""Samples, of all channels together, that a file may hold for each byte of its size: a few bytes can stand for
+65,536 samples of each of eight channels."""
 MOST_CHANNELS: Final = 64
 LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
 _BLOCK: Final = 1 << 16
@@ -54,7 +55,7 @@ class AudioRecording:
 
     @property
     def duration_s(self) -> float:
-        """Its length."""
+        """Duration of the recording in seconds."""
         return len(self.samples) / RATE_HZ
 
 

@@ -35,7 +35,8 @@ _QUIETEST, _LOUDEST = 0.2, 0.95
 _LEAST, _MOST = 0.1, 1.0
 _SHARE: Final = 0.05
 _SELDOM_S: Final = 4.0
-"""A pitch that sounds so long in all is believed by half to be louder or quieter than others."""
+"""Total sounding time in seconds at which half of a pitch's measured difference in loudness from the other pitches
+is believed; less for rarer pitches."""
 _RESOLUTION: Final = 127
 """Steps of a MIDI controller."""
 

@@ -49,13 +49,16 @@ _LOCAL_S: Final = 2.5
 """Half the width over which a beat's confidence is measured."""
 _EVEN_BEATS: Final = 4
 _USUAL_UNEVEN: Final = 0.4
-"""Natural logarithm of the tempo against that of the whole, over so many beats: 1.5 times as fast or slow."""
+"""Largest usual deviation of the tempo over `_EVEN_BEATS` beats from that of the whole, as a natural logarithm: 1.5
+times as fast or slow."""
 _SQUEEZED: Final = -0.6
-"""The same where beats have little more than half their time: the recording leaves them out."""
+"""Deviation of the tempo (natural logarithm, over `_EVEN_BEATS` beats) below which the recording is taken to leave
+these beats out: they have little more than half their time."""
 RECOGNISED: Final = 0.4
-"""Mean confidence below which it is rather a recording of another piece ..."""
+"""Mean confidence below which the recording is taken for that of another piece."""
 _SOME_RECOGNISED: Final = 0.75
-"""... and where it has few of the beats, which may be found wherever they are most alike."""
+"""The same limit where the recording has only few of the beats: these few could be found wherever the music is most
+alike, so more is asked for."""
 _SHARES: Final = (0.3, 0.7)
 """Few and most of the beats."""
 _WHOLE: Final = 0.8
@@ -63,15 +66,15 @@ _WHOLE: Final = 0.8
 _SURE: Final = 0.6
 """Mean confidence below which other tones are tried."""
 _PARTIAL: Final = 0.97
-"""A part is at most so much of the piece."""
+"""Largest share of the piece that counts as a part of it."""
 _PART_RECOGNISED: Final = 0.6
-"""Like `RECOGNISED`, for a part, which is found wherever it is most alike ..."""
+"""The limit `RECOGNISED` for a recording of only a part of the piece, which is found wherever it is most alike."""
 _SHORT_S: Final = (10.0, 20.0)
 _SHORT_RECOGNISED: Final = 0.2
-"""... and so much more where it goes on for the first of these at most; less up to the second. Of eight pieces, 8 s of
-another one reached 0.76."""
+"""Added to `_PART_RECOGNISED` for parts no longer than the first of `_SHORT_S`, and less of it up to the second. Of
+eight pieces, 8 s of another one reached 0.76."""
 _ALONE_RECOGNISED: Final = 0.2
-"""... and for what the recording has beside it, this by its share."""
+"""Added to `_PART_RECOGNISED`, times the share of the recording that is not the piece."""
 _SURER: Final = 0.05
 """A place at a constant tempo is taken where it is surer by this than what the warping found."""
 _AS_SURE: Final = 0.01
@@ -162,7 +165,8 @@ def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Follo
 
 
 def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Following | None, RunnerUp | None]:
-    """The surest of what was found and of the likeliest places at a constant tempo; and the second of these.
+    """The surest of what the warping found and of the likeliest places at a constant tempo; and the runner-up among
+    these.
 
     A warping may slip by a note where all are alike; a line cannot.
     """
@@ -281,7 +285,7 @@ def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
 def _present(
     times: FloatArray, found: FloatArray, rough: Warped, recorded: RecordedSound
 ) -> tuple[FloatArray, FloatArray]:
-    """The onsets that the recording has."""
+    """Pairs of score onset and recorded onset, without those that the recording leaves out."""
     there = (found >= 0.0) & (found < recorded.length_s)
     for span in rough.missing:
         there &= (times < span.start) | (times >= span.end)
@@ -296,8 +300,8 @@ def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
 
 
 def _beats(beat_s: FloatArray, times: FloatArray, found: FloatArray, warped: Warped, pins: Pins) -> FloatArray:
-    """Return when the beats sound: by the onsets around each, else by the warping; at least `LEAST_GAP_S` apart, and
-    pinned ones where they are pinned."""
+    """Times at which the beats sound: read off the onsets around each beat, else off the warping; at least
+    `LEAST_GAP_S` apart, and pinned beats exactly where they are pinned."""
     result = warped.at(beat_s)
     # What the onsets say beside the warping, so that between them its tempo goes on.
     aside = found - warped.at(times)
@@ -366,7 +370,7 @@ def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
 
 
 def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, ...]:
-    """Seconds of the score that the recording hardly has time for: it leaves them out, whatever sounds there."""
+    """Seconds of the score for which the recording has hardly any time: it leaves them out, whatever sounds there."""
     places = np.flatnonzero(lengths < _SQUEEZED)
     if not len(places):
         return ()

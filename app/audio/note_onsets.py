@@ -22,7 +22,7 @@ _STEP_S: Final = _HOP / ANALYSIS_RATE_HZ
 _SIZE: Final = 2048
 _PARTIALS: Final = 6
 _REACH_S: Final = 0.09
-"""A note is looked for so far from where its beat puts it."""
+"""Seconds around the time that a note's beat gives, within which its onset is looked for."""
 _EDGE_S: Final = 0.03
 """Length of the sound after a moment that is compared with the sound before it."""
 _USUAL_S: Final = 0.05
@@ -32,7 +32,7 @@ _LEAST_RISE: Final = 1.5
 _UNIQUE: Final = 0.75
 """Another moment, apart from it, must rise less than this part of it."""
 _BESIDE_S: Final = 0.12
-"""Notes that sound so near share partials."""
+"""Notes that sound within this time of each other share partials."""
 _APART: Final = 0.9
 """Semitones between partials that are not the same."""
 _LEAST_PARTIALS: Final = 2

@@ -19,7 +19,7 @@ from app.audio.score_sound import CHROMA_S
 _JUMP: Final = 6.0
 """Cost of a jump, in frames that are wholly alike."""
 _UNEVEN: Final = 0.25
-"""The same of standing still, and of skipping a frame."""
+"""Cost of standing still, and of skipping a frame, on the same scale."""
 _LEAST_S: Final = 3.0
 """Shorter passages are chance."""
 _LEAST_ALIKE: Final = 0.6

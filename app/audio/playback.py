@@ -20,7 +20,7 @@ _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
 """Length of the grain that sounds while scrubbing."""
 _GRAINS_REST_MS: Final = 3000
-"""The device is kept open so long after a grain: opening one takes a while."""
+"""Milliseconds for which the device stays open after a short preview sound: opening it takes a while."""
 _LEAST_S: Final = 1e-3
 _HOPELESS_S: Final = 1.0
 _RETRY_S: Final = 2.0

@@ -88,7 +88,7 @@ class Reader:
         return (np.concatenate(parts) if parts else self._waiting[:0]), marks
 
     def _begin(self, at: int) -> None:
-        """Read from a sample on; what was made ahead and is not read yet is dropped."""
+        """Read on from a sample; discards what was rendered ahead and not read yet."""
         self._made -= len(self._waiting)
         self._waiting = self._waiting[:0]
         # A frame of the stretch sounds around its middle: what the first one begins with lies as much earlier.
@@ -102,7 +102,7 @@ class Reader:
         self._marks.append((self._made, at / RATE_HZ, self._speed))
 
     def _next(self, requested: int) -> Block:
-        """Some output."""
+        """Return the next block of output."""
         if self._speed == 1.0:
             segments = len(self._segments)
             block = self._input(requested)
@@ -130,7 +130,7 @@ class Reader:
         return at + stream - start
 
     def _input_all(self, count: int) -> Block:
-        """That many samples of the mix, over the end of a loop if need be."""
+        """Return this many samples of the mix, across the end of a loop if necessary."""
         parts = []
         while count:
             part = self._input(count)

@@ -27,7 +27,8 @@ Harmonics: TypeAlias = tuple[tuple[int, float], ...]
 """Pitch classes above a note's own that its overtones sound in (the third and the fifth harmonic), and how loud."""
 USUAL_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 0.25), (4, 0.08))
 ODD_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 1.0), (4, 0.3))
-"""Those of a stopped pipe, as clarinets have them: alone they sound a twelfth higher as much as at their own pitch."""
+"""Odd harmonics, which a stopped pipe such as a clarinet has: alone they sound a twelfth higher as much as at their
+own pitch."""
 EARLY_S: Final = 0.007
 """Lead of the onsets found over the notes, by windows that reach ahead: mean over seven pieces by the
 built-in synthesiser."""
@@ -82,7 +83,7 @@ def sounds_to_compare(
 
 
 def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
-    """One channel at `ANALYSIS_RATE_HZ`, from -1 to 1.
+    """Mix a sound down to one channel at `ANALYSIS_RATE_HZ`, from -1 to 1.
 
     Parameters
     ----------
@@ -96,7 +97,7 @@ def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
 
 
 def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> RecordedSound:
-    """Features of a recording, whatever its tuning.
+    """Return the features of a recording, independent of its tuning.
 
     Parameters
     ----------
@@ -141,7 +142,7 @@ def levelled_onsets(onsets: FloatArray) -> FloatArray:
 
 
 def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> FloatArray:
-    """The score's chroma at a tempo, from second 0 of the score, or from so many frames before it."""
+    """The score's chroma at a tempo, from second 0 of the score or from a number of frames before it."""
     begin = expected.onset_s / ratio / CHROMA_S + later_frames
     end = expected.end_s / ratio / CHROMA_S + later_frames
     frames = int(np.ceil(end.max())) + 1

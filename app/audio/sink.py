@@ -63,7 +63,7 @@ class SilentSink:
         self._written += len(block)
 
     def processed_s(self) -> float:
-        """Time since the start: what is late is not waited for."""
+        """Seconds since the start: late data is not waited for."""
         return self._now() - self._start_s
 
     def set_volume(self, gain: float) -> None:
@@ -74,4 +74,4 @@ class SilentSink:
         return False
 
     def stop(self) -> None:
-        """It is silent already."""
+        """Do nothing: there is no sound to stop."""

@@ -16,7 +16,8 @@ import numpy as np
 from app.audio.track import Samples
 
 _FILE_BYTES: Final = 16 * 1024 * 1024
-"""A file goes once nothing in it is needed any more, so that many small ones take less room on the disk."""
+"""Bytes of one cache file. A file is deleted once nothing in it is needed, so small files take less room on the
+disk."""
 
 
 @dataclass(eq=False)

@@ -63,7 +63,7 @@ def steady_line(times: FloatArray, found: FloatArray, onsets: FloatArray) -> tup
 
 
 def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
-    """Both ends of the line through what was found, of which some is wrong."""
+    """Both ends of the straight line through the places that were found, some of which are wrong."""
     weights = np.ones(len(times))
     line = np.zeros(2)
     for _ in range(_FITS):
@@ -74,7 +74,7 @@ def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
 
 
 def _refined(edges: FloatArray, times: FloatArray, first_s: float, last_s: float) -> tuple[float, float]:
-    """Both ends, moved a little to where the onsets on the line are strongest."""
+    """Both ends of the line, moved slightly to where the onsets along it are strongest."""
     shares = (times - times[0]) / (times[-1] - times[0])
     for reach_s, step_s in _REFINED_S:
         moves = np.arange(-reach_s, reach_s + 1e-9, step_s)

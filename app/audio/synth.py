@@ -35,7 +35,7 @@ _WINDOW_QUARTERS: Final = 8
 _TAIL_S: Final = 1.5
 """The longest release and the reverberation."""
 _BLOCK: Final = 64
-"""The synthesiser heeds events once in so many samples."""
+"""Samples between the moments at which the synthesiser looks at its events."""
 _STROKE: Final = 480
 """Samples between a drum's note-on and its note-off."""
 _VOLUME, _EXPRESSION = 7, 11

@@ -17,7 +17,7 @@ Samples: TypeAlias = npt.NDArray[np.int16]
 Block: TypeAlias = SingleArray
 
 RATE_HZ: Final = 48000
-"""Everything is mixed at this rate; a device that has another gets it resampled."""
+"""Sample rate of all mixing; a device with another rate gets resampled sound."""
 _FULL_SCALE: Final = 1.0 / 32768.0
 _KNEE: Final = 0.8
 """Louder samples are bent below full scale instead of being cut off."""
@@ -102,7 +102,7 @@ class Mix:
 
 
 def soft_clipped(block: Block) -> Block:
-    """A block whose peaks are bent below full scale; quieter ones stay as they are."""
+    """Bend the peaks of a block below full scale; quieter blocks stay unchanged."""
     size = np.abs(block)
     if block.size == 0 or size.max() <= _KNEE:
         return block

@@ -51,12 +51,12 @@ class Pins:
     recording_s: FloatArray
 
     def inside(self, recording_s: float) -> Pins:
-        """Those within a recording of this length."""
+        """The pins that lie within a recording of this length."""
         there = (self.recording_s >= 0.0) & (self.recording_s <= recording_s)
         return Pins(self.score_s[there], self.recording_s[there])
 
     def within(self, start_s: float, end_s: float) -> Pins:
-        """Those in a part of the score, in seconds of that part."""
+        """The pins in a part of the score, in seconds of that part."""
         there = (self.score_s >= start_s) & (self.score_s < end_s)
         return Pins(self.score_s[there] - start_s, self.recording_s[there])
 
@@ -74,7 +74,7 @@ class Jump:
     recording_to_s: float
 
     def later(self, score_s: float) -> Jump:
-        """The same in a score that begins earlier by an offset."""
+        """The jump in a score that begins earlier by an offset."""
         return replace(self, from_s=self.from_s + score_s, to_s=self.to_s + score_s)
 
     def agrees_with(self, pins: Pins) -> bool:
@@ -96,8 +96,8 @@ class Warped:
     """Duration of the score."""
 
     def later(self, score_s: float, end_s: float) -> Warped:
-        """The same for a whole score, of which this is a part from ``score_s`` on. It lasts until ``end_s``; all beyond
-        the part is missing."""
+        """The warping of a whole score of which this is the part from ``score_s`` on. The whole lasts until
+        ``end_s``; everything outside the part is missing."""
         last_s = score_s + self.length_s
         missing = tuple(UnmatchedSpan(span.start + score_s, span.end + score_s) for span in self.missing)
         outside = [UnmatchedSpan(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]

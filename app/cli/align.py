@@ -76,7 +76,8 @@ def _same(one: Path, other: Path) -> bool:
 
 
 def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
-    """Result of following the recording, in seconds of the whole recording, whatever part of it was asked for."""
+    """Follow the recording, and return the result in seconds of the whole recording even if only a part of it was
+    requested."""
     from app.audio.decode import decode
     from app.audio.followed_recording import FollowOptions, listen
     from app.audio.track import RATE_HZ

@@ -341,7 +341,7 @@ def _spans(
     what: str,
     *fields: str,
 ) -> list[Table]:
-    """The same without the reason."""
+    """Events as tables with their times, without the reason."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter
     return [

@@ -75,7 +75,7 @@ def with_pitches(
     written: bool,
     maps: Mapping[str, InstrumentMap],
 ) -> Sequence[ImportRow]:
-    """The rows with the pitches of the players of these names taken for written or for sounding ones."""
+    """The rows of an import with the pitches of some players taken as written or as sounding."""
     parts = score_of_rows(contents, rows, maps).parts
     places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
     return [

@@ -138,7 +138,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """The other visible instruments of a streamed musician."""
+    """The visible instruments of a streamed musician other than the one being played."""
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -208,7 +208,7 @@ class _Streamed:
 
 
 def _play(cast: list[_Streamed], senders: list[Sender], span: FrameSpan, first: int, loop: bool) -> None:
-    """Every frame at its time; late ones are dropped."""
+    """Send every frame at its time; late frames are dropped."""
     fps, frames = float(span.fps), span.count
     began_s = time.perf_counter()
     sounding_s, inaudible, sent = began_s, False, 0

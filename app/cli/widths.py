@@ -42,8 +42,8 @@ def cut(text: str, columns: int) -> str:
 
 
 def wrapped(text: str, columns: int) -> list[str]:
-    """Lines of at most so many columns, broken at blanks and between Japanese characters; punctuation stays with the
-    character before it. A word that is longer than a line has one of its own."""
+    """Break a text into lines of a given number of columns, at blanks and between Japanese characters; punctuation
+    stays with the character before it. A word longer than a line has a line of its own."""
     lines, line = list[str](), ""
     for piece in _unbroken(" ".join(text.split())):
         if line and width(line + piece.rstrip()) > columns:

@@ -25,7 +25,7 @@ PRESSED = 0.9
 SLIDE_M = 0.005
 """... or, where it slides, within this distance."""
 MOVED_MM = 1.0
-"""A hand that is farther from its place takes its fingers with it: what they miss is the hand's matter."""
+"""Distance of a hand from its place from which what its fingers miss is reported as the hand's problem."""
 UNREACHED_M = 0.005
 """A hand may stay this far from its grip before the user sees it."""
 

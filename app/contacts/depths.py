@@ -164,7 +164,7 @@ class _Pairs:
         return found
 
     def split(self, parts: int) -> _Pairs:
-        """The same in each of the parts of the blocks."""
+        """The same pairs, divided by the parts of the blocks."""
         blocks, spots = ((values[:, None] * parts + np.arange(parts)).ravel() for values in (self.blocks, self.spots))
         return _Pairs(blocks, np.repeat(self.items, parts), spots, np.repeat(self.nodes, parts))
 

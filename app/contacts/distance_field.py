@@ -143,8 +143,8 @@ class DistanceField:
         return result
 
     def _inside(self, scaled: AnyFloatArray, nodes: IndexArray, parts: int) -> AnyFloatArray:
-        """Numbers (3, N) within the nodes' grids, of so many parts of a brick. What is beyond a grid is taken for
-        something at its edge: nothing is near that."""
+        """Fractional indices (3, N) of places within the grids, in parts of a brick. A place outside a grid is taken
+        to its edge, which is far from everything."""
         scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
         # Compared before they are whole numbers, which hold less.
         np.minimum(scaled, (self._shapes.T * parts - _EDGE).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
@@ -248,7 +248,7 @@ class DistanceField:
 
 
 def _off_middle(inside: SingleArray, numbers: npt.NDArray[np.int32], cells: int) -> SingleArray:
-    """Return how far (N,) places (3, N), in cells, are from the middles of what they are in: cubes of so many cells."""
+    """Distance (N,) of places (3, N), in cells, from the middles of the cubes of cells that they lie in."""
     x, y, z = inside - numbers * np.float32(cells) - np.float32(0.5 * cells)
     off_m: SingleArray = np.sqrt(x * x + y * y + z * z) * np.float32(CELL_M)
     return off_m

@@ -79,7 +79,7 @@ def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -
 
 
 def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> SingleArray:
-    """Points (3, N) through chosen ones (N,) of matrices (3, 4, M)."""
+    """Transform points (3, N) by chosen ones (N,) of the matrices (3, 4, M)."""
     result = np.empty_like(points_m)
     for axis, row in enumerate(matrices):
         # In the order of a matrix product, whose rounding this has.

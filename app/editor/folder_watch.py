@@ -14,7 +14,8 @@ from app.errors import FileError
 from app.formats.files import files_in
 
 QUIET_MS = 250
-"""A program that writes a file touches it several times: it is reported after so long without a change."""
+"""Milliseconds without a change after which a changed file is reported: a program that writes a file touches it
+several times."""
 
 
 class FolderWatch(QObject):

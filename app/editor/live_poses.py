@@ -65,7 +65,7 @@ class LivePoses:
 
 
 class WornFaces:
-    """Poses, in which the player in front wears the session's `preview_morphs` while there are some.
+    """Poses in which the player in front shows the session's `preview_morphs`, if there are any.
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ class PictureReader:
             return self._end is not None and number >= self._end
 
     def close(self) -> None:
-        """End the thread, whatever it reads."""
+        """End the thread, even while it reads."""
         with self._condition:
             self._closed = True
             if self._stream is not None:

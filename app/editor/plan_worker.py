@@ -67,7 +67,8 @@ class Reports(Generic[T]):
 
 
 class PlanWorker(Generic[T]):
-    """The thread: plans first, then motion. Holds nothing of the window, so that it may end at any time."""
+    """Worker thread that makes plans first, then motion. It holds nothing of the window, so that it may end at any
+    time."""
 
     def __init__(self, live: LiveMotion, report: Reporter[T], says: Reports[T], clock: _Clock = time) -> None:
         self._live, self._report, self._says, self._clock = live, report, says, clock

@@ -309,7 +309,7 @@ class Recorder(QObject):
         self._state.received.emit(events)
 
     def _silence(self) -> None:
-        """Nothing is played any more: the device is gone or another."""
+        """Stop what sounds: the device is gone or another was chosen."""
         self._sounding.end_all()
         self._state.set_played(0.0, None)
         self._live.silence()

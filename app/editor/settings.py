@@ -230,7 +230,7 @@ class Settings(StoredSettings):
         return tuple(path for text in self._recent[:MOST_RECENT] if (path := encoding.restored(text)))
 
     def add_recent(self, path: Path) -> None:
-        """This file was opened or saved just now."""
+        """Put a file that was just opened or saved at the top of the recent files."""
         text = str(path)
         others = tuple(other for other in self.recent if other != text)
         self._recent = tuple(map(encoding.stored, (text, *others)))[:MOST_RECENT]

@@ -20,14 +20,14 @@ from app.project.model import Project
 from app.project.performers import Player
 
 _SETTLE_MS = 120
-"""Rendering waits until a drag rests for so long."""
+"""Milliseconds for which a drag has to rest before rendering begins."""
 _LOOK_MS = 250
 """Interval at which newly rendered sound is added to the mix."""
 _MOST_BYTES = 160 * 1024 * 1024
 """Most sound that is requested: four players for six minutes, fifty for half a minute. Of longer sound the part that
 sounds next is kept, and the window moves along."""
 _AHEAD_S = 20.0
-"""The next window is begun so long before the end of this one is reached."""
+"""Seconds before the end of one window at which rendering the next begins."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,7 +23,8 @@ WRITE_MS: Final = 300
 
 
 class Setting(Generic[T]):
-    """One setting, an attribute of `StoredSettings`: declared once, restored, remembered and shown by what it says.
+    """Declaration of one setting, an attribute of `StoredSettings`: its default, label and options. It is restored,
+    remembered and shown by this declaration alone.
 
     Parameters
     ----------
@@ -60,7 +61,7 @@ class Setting(Generic[T]):
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Its label and the words of its options."""
+        """Return the ids of the setting's label and of its options."""
         return (self.label, *(word for _, word in self.options))
 
     @overload

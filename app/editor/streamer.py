@@ -43,7 +43,8 @@ RETRY_S: Final = 2.0
 REPORT_S: Final = 0.5
 """Interval of reports on the stream."""
 ALONE_S: Final = 1.0
-"""A window that says nothing of where the sound is for so long hangs: nothing goes on without it."""
+"""Seconds without news of the playback's position after which the window is taken to hang, and streaming stops with
+it."""
 _SECOND_S: Final = 1.0
 
 

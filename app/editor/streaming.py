@@ -14,7 +14,8 @@ from app.stream.sender import LOOPBACK, MOST_PORT
 from app.stream.vmc import PORT
 
 StreamState = Literal["off", "looking", "sending", "no_receiver", "failed"]
-"""Nothing is sent; the computer is looked up; it is sent; it is sent, but no receiver answers; nothing can be sent."""
+"""State of streaming: off, looking the computer up, sending, sending without an answer from the receiver, unable to
+send."""
 
 RATES_HZ: Final = (24, 30, 60, 90)
 USUAL_RATE_HZ: Final = 60

@@ -26,15 +26,15 @@ class Excerpt:
 
     @property
     def duration_s(self) -> float:
-        """Its length."""
+        """Duration of the excerpt in seconds."""
         return self.until_s - self.from_s
 
 
 def choose_excerpts(
     project: Project, count: int, length_s: float, within_s: tuple[float, float] | None = None
 ) -> tuple[Excerpt, ...]:
-    """Excerpts that contain playing, in order: the piece is cut into as many parts, and the fullest place of each is
-    taken. Fewer, or one that is shorter, where the piece does not hold so many.
+    """Choose excerpts that contain playing, in order: the piece is divided into as many parts as excerpts, and the
+    fullest stretch of each is taken. There are fewer, or one shorter one, where the piece is too short.
 
     Parameters
     ----------

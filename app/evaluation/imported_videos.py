@@ -28,7 +28,7 @@ MOST_DRIFT_S: Final = 0.1
 MOST_S: Final = 2 * 3600.0
 """Longest part of the sound that is looked at."""
 _EARLY_S: Final = 0.05
-"""A video may begin so much later than what is shown of it."""
+"""Seconds by which a video may begin after the first moment that is shown of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class ImportedVideo:
         return self.offset_s, self.offset_s + length_s
 
     def sound(self, excerpt: Excerpt) -> Block:
-        """Its sound during an excerpt (N, 2)."""
+        """Sound of the video during an excerpt (N, 2)."""
         assert self.samples is not None
         mix = Mix([MixTrack([AudioSegment(round(self.offset_s * RATE_HZ), self.samples)])])
         return mix.read(round(excerpt.from_s * RATE_HZ), round(excerpt.duration_s * RATE_HZ))

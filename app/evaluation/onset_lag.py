@@ -21,7 +21,7 @@ from instrument_maps.model import Control
 DETECTED_S: Final = (-0.125, 0.045)
 ACCEPTED_S: Final = (-0.185, 0.090)
 _AROUND_S: Final = 0.5
-"""An arrival belongs to a note at most so far from it."""
+"""Seconds around a note within which a finger's arrival counts as that note's."""
 _PHRASE_S: Final = 0.15
 """After a longer rest fingers are in place early, unheard: such a note says nothing about lag."""
 

@@ -19,7 +19,7 @@ _HEAD: Final = 34.0
 _GAP: Final = 28.0
 _EDGE: Final = 24.0
 _INK: Final[dict[Presentation, str]] = {"single": "#1b6ca8", "pair": "#c2571a"}
-"""They differ in lightness and shape, too."""
+"""Colours of the plot; curves also differ in lightness and shape."""
 
 
 def plot(results: EvaluationResults, language: str) -> str:

@@ -32,7 +32,7 @@ class ResultTable(msgspec.Struct, frozen=True):
 
 
 def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], language: str) -> list[ResultTable]:
-    """All of them; that of the measures only where there are any."""
+    """All tables of an evaluation; that of the measures only where measures were taken."""
     found = [_scores(results, language), _contrasts(results, language), _agreements(results, language)]
     return [*found, *([measures_table(measures, language)] if measures else [])]
 

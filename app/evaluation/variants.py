@@ -18,7 +18,7 @@ LATE_S: Final = 0.2
 """Delay of the fingers in the control: beyond what anyone takes for synchronous (ITU-R BT.1359: 45 ms early, 125 ms
 late)."""
 OURS: Final[tuple[Variant, ...]] = ("generated", "still", "shifted")
-"""Those that are drawn from a project."""
+"""Variants that are drawn from a project."""
 
 
 class LateFingers(Performance):

@@ -20,7 +20,7 @@ from app.export.playback import PlaybackBones, ScenePlayback, Surface
 from app.formats.scene import SkinnedMesh
 
 ARM_MM: Final = 10.0
-"""Cloth gives way by so much."""
+"""Depth of a forearm in cloth, in millimetres, that is tolerated: cloth gives way."""
 _TRUNK: Final = ("hips", "spine", "chest", "upperChest", "leftUpperLeg", "rightUpperLeg")
 _CARRIED: Final = 0.9
 """Share of a vertex that the trunk, or an arm, holds: between both lies the armpit, where surfaces must meet."""

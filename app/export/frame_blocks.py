@@ -18,7 +18,7 @@ from instrument_maps.model import ROOT, InstrumentMap
 
 SOLES = ("left.foot.sole", "right.foot.sole")
 _CHUNK = 512
-"""Frames that are read at once: what they need stays in a core's cache."""
+"""Frames read at once: few enough for a core's cache."""
 _TORSO = ("hips", "neck")
 _HANDS = ("left.hand", "right.hand")
 

@@ -203,7 +203,7 @@ class KeyedPoses(NamedTuple):
 
 
 def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
-    """Frames after frames."""
+    """Join poses along their frames."""
     return KeyedPoses(
         np.concatenate([one.turned for one in shown], axis=1),
         {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},

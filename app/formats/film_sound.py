@@ -29,7 +29,7 @@ _KEPT_LINES: Final = 200
 _MOST_LEFT_OUT: Final = 0.25
 """Most of the sound, 0..1, that may be left out for overlaps; more shows wrong time stamps."""
 _JUMP_S: Final = 0.02
-"""Time stamps that are off by less are rounded ones."""
+"""Seconds by which time stamps may differ from the expected ones through rounding."""
 
 Samples = npt.NDArray[np.int16]
 

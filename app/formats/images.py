@@ -21,7 +21,7 @@ PX_PER_BYTE: Final = 64
 """Most pixels that are looked at, and most for each byte of the images: a few bytes can be any number."""
 MOST_SIDE_PX: Final = 8192
 MOST_SCANS: Final = 64
-"""A JPEG is read once for each of its scans, of which real ones have about ten."""
+"""Scans that a JPEG may have, each of which is a pass over the picture; real ones have about ten."""
 JPEG_QUALITY: Final = 92
 _JPEG_MAGIC: Final = b"\xff\xd8"
 _SCAN: Final = b"\xff\xda"

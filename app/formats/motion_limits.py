@@ -15,7 +15,7 @@ FREE_FRAMES, FRAMES_PER_KB = 54_000, 50
 """Frames of any file, a quarter of an hour at 60 frames per second, and more for its size. A frame of a body that is
 written out takes more than a hundred bytes in every format, so only what is sampled between keys meets this bound."""
 FREE_TRANSFORMS, TRANSFORMS_PER_KB = 2**20, 512
-"""The same of frames times nodes."""
+"""Frames times nodes that a file may have: a free allowance, plus this many for each kilobyte of its size."""
 MOST_TRANSFORMS: Final = 2**23
 """Frames times nodes of a file of any size: a quarter of an hour of 150 nodes at 60 frames per second."""
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Final
 
 LEAST_ACCURACY: Final = 2e-3
-"""Rates that differ by more are different ones, however coarsely they are written."""
+"""Relative difference from which two frame rates are different ones, even if they are written coarsely."""
 
 
 def exact_rate(fps: float, accuracy: float = 0.0) -> Fraction:

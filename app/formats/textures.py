@@ -90,7 +90,7 @@ class MaterialTextures:
 
     @property
     def uses(self) -> tuple[TextureUse, ...]:
-        """Those that there are."""
+        """The textures that the material has."""
         found = (self.color, self.normal, self.metallic_roughness, self.occlusion)
         return tuple(use for use in found if use is not None)
 
@@ -98,7 +98,7 @@ class MaterialTextures:
 NO_TEXTURES: Final = MaterialTextures()
 
 _known: Final[WeakValueDictionary[tuple[str, str], Texture]] = WeakValueDictionary()
-"""Those in use: figures from different files share what is the same."""
+"""Textures in use, so that figures from different files share equal ones."""
 
 
 def texture_of(name: str, content: bytes) -> Texture:

@@ -29,7 +29,7 @@ TABLE = ".toml"
 
 @dataclass(frozen=True)
 class Shelf(Generic[V]):
-    """All there are of a kind, as they were when the folder was read.
+    """All items of a kind, as they were when the folder was read.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Read(Generic[V]):
 
 
 class UserFolder(Generic[V, S]):
-    """A kind of which there are bundled ones and the user's own.
+    """Items of one kind: those bundled with the program, and the user's own in a folder.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ class UserFolder(Generic[V, S]):
         return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / self.name
 
     def begin(self) -> S:
-        """Have the bundled ones alone, unless the folder was read already: for a program that reads it beside its
-        window."""
+        """Start with the bundled items alone unless the folder was read already: for a program that reads it in the
+        background."""
         with self.lock:
             self.last = self.last or self._shelf(self.folder(), self._bundled())
             return self.last
@@ -199,8 +199,8 @@ class Named(Generic[V]):
         self._read, self._name_of = read, name_of
 
     def found(self, folder: Path) -> tuple[dict[str, V], tuple[Message, ...]]:
-        """The sound ones by name, in the order of the names, and what is wrong with the others. A folder that is not
-        there holds none."""
+        """The valid items by name, in the order of the names, and what is wrong with the invalid ones. A missing
+        folder holds none."""
         items: dict[str, V] = {}
         problems = []
         try:

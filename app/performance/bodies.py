@@ -107,8 +107,8 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
 
 @contextlib.contextmanager
 def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[None]:
-    """Report failures of a user's own character or instrument, whose shape may be unusable, as problems of its player;
-    with bundled ones they would be faults of the program.
+    """Turn failures with a user's own character or instrument, whose shape may be unusable, into problems of its
+    player. With bundled ones they would be faults of the program and are raised.
 
     Raises
     ------

@@ -35,7 +35,8 @@ class Dancing(Protocol):
         """Problems of the dance, once it is generated."""
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
-        """Some frames of the performance. The same frames are the same bits in every span."""
+        """Motion of some frames of the performance; the same frames are identical to the bit whichever span they are
+        asked for in."""
 
     def changed_s(self, before: object) -> FloatArray:
         """Spans (K, 2) in which this is other motion than another."""

@@ -452,7 +452,8 @@ class Performance:
             hold_now(player, self.instrument(player), reported)
 
     def held(self, player: Player) -> InstrumentMap:
-        """That map as the player's body plays it: of its size, touched by what the body has. Raises AppError."""
+        """The instrument's map at the size that the player's body plays, with the touch points that the body has.
+        Raises AppError."""
         return suited_to(player, self.instrument(player)).instrument
 
 

@@ -127,8 +127,8 @@ LINE: Final = StepTable(
 )
 """The line of a player who has an instrument."""
 ASIDE: Final = ("cues", "gestures", "expressions", "problems", "glances")
-"""Fields of a plan that are others while the instrument is put aside; what is as it was is the same object, field by
-field: motions are compared so."""
+"""Fields of a plan that differ while the instrument is put aside. Fields that do not differ stay the same objects,
+since motions are compared by identity."""
 HELD: Final = StepTable(
     held=held_plan,
     **{f"held_{name}": f"held.{name}" for name in ASIDE},

@@ -19,7 +19,7 @@ from app.steps import StepRuns
 
 BEFORE_S: Final = 24.0
 AFTER_S: Final = 36.0
-"""Notes so long before and after a moment are planned."""
+"""Seconds before and after a moment whose notes are planned."""
 SURE_S: Final = 16.0
 """Near the first and the last of these notes, nearer than this, nothing is shown: there players begin and end."""
 WORTH: Final = 4
@@ -75,6 +75,6 @@ class PerformanceExcerpt(Performance):
 
 
 def is_worth_it(whole: Performance) -> bool:
-    """Return whether a performance is so long that an excerpt takes little of the time that all of it does."""
+    """Return whether a performance is long enough for an excerpt to take much less time than the whole."""
     span_s = whole.time_frame.end_s - whole.time_frame.first_frame_s
     return span_s >= WORTH * (BEFORE_S + AFTER_S)

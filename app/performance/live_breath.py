@@ -50,7 +50,7 @@ EMPTY_PAUSE_S, FULL_PAUSE_S = 0.12, 0.45
 LEAST_SPENT = 0.08
 """Players breathe in only when they have breathed out enough."""
 RELAXES_S = 2.0
-"""Full lungs are held for so long; then the body lets go."""
+"""Seconds for which full lungs are held before the body lets go."""
 TENSION_S, PRESSED_S, AIR_S, EFFORT_S, RAISES_S = 0.09, 0.05, 0.10, 0.50, 1.6
 """Settling times of the lips after notes, and after bite and bend, of the cheeks after the air, of the face after the
 strain, and of the bell after the loudness."""

@@ -21,11 +21,11 @@ TURNS_RAD_S2, SHOULDER_RAD_S2, DRAWS_M_S2 = 180.0, 200.0, 12.0
 """Largest accelerations of the turn of the whole trunk, of a shoulder, and of the rest after them: the remainder for
 each joint is then within its range."""
 STOPS = 4.0
-"""Help that is on its way already takes so much longer: its speed over the acceleration, times this."""
+"""Factor on the braking time (speed over acceleration) by which help that is already moving is prolonged."""
 LEAST_S = 0.08
 """Help that is nearly none takes this long."""
 STAYS_S = 0.30
-"""Help that is not needed any more goes in so much more time than the hand takes to come back."""
+"""Seconds that help no longer needed takes to recede, on top of the hand's way back."""
 CHANGES = 0.004
 """Radians and metres: less than this is no other help."""
 _PHASES = np.linspace(0.0, 1.0, 65)

@@ -129,7 +129,7 @@ def speaking_curve(part: Part) -> ControllerCurve | None:
 
 
 def sounding_curve(part: Part) -> ControllerCurve | None:
-    """The same as it sounds: a note that was not blown at all sounds as loud as its velocity says."""
+    """The loudness curve as it sounds: a note that was not blown at all has the loudness of its velocity."""
     curve = speaking_curve(part)
     if curve is None:
         return None

@@ -87,7 +87,7 @@ def _alone(
 
 @lru_cache(maxsize=64)
 def _same(felt_beats: FeltBeats) -> FeltBeats:
-    """One object for equal ones."""
+    """Return one shared object for equal values."""
     return felt_beats
 
 

@@ -66,7 +66,7 @@ def _make(make: Callable[[range], Motion], part: range, channel: MessageChannel[
 
 
 _Array = tuple[str, list[int], bytes]
-"""Its type, shape and bytes."""
+"""Type, shape and bytes of an array."""
 
 
 class _Sent(msgspec.Struct, frozen=True):

@@ -33,7 +33,7 @@ PLAYER_WORK, CURVE_WORK = 1300, 1.0
 SPARSE_S: Final = 4.0
 """Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
 SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4
-"""... of which so many are looked at, and for each note so many more, up to those of any piece."""
+"""Frames of a long piece that are examined, and further frames for each note, up to the number for a short piece."""
 LEAST_PER_S: Final = 2.0
 """At fewer frames in a second breaks of a contact would be missed: sooner, fewer players are looked at."""
 
@@ -95,7 +95,7 @@ def _judged(
 def _looked(
     performance: Performance, players: Sequence[int], notes: Sequence[int], most: float
 ) -> tuple[_Looked | None, int]:
-    """Return which frames are looked at, None for none, and of how many musicians, the first ones.
+    """Frames that are examined (None: none), and the number of musicians examined, counted from the first.
 
     Parameters
     ----------

@@ -36,7 +36,8 @@ _RATES: Final = (
     *(12, 15, 23.976, 24, 25, 29.97, 30, 48, 50, 59.94, 60, 72, 75, 90),
     *(100, 119.88, 120, 144, 150, 180, 200, 240, 250, 300, 360, 480, 500),
 )
-"""Rates of film, games and motion capture: a frame time of so much is a rate, unless it is one in milliseconds too."""
+"""Frame rates of film, games and motion capture. A frame time near one of them is read as that rate, unless it also
+fits one in milliseconds."""
 _NEAR: Final = 0.002
 """Part of a rate by which another may differ to be the same of `_RATES`."""
 _MOTION: Final = re.compile(r"(?:^|[\r\n])[ \t]*MOTION(?=\s|$)", re.IGNORECASE)

@@ -28,8 +28,8 @@ except ImportError:
     os._exit(NO_READER)
 
 FREE_NUMBERS, NUMBERS_PER_BYTE = 2**20, 4
-"""Numbers that a file may ask for: so many, and so many more for its size. A file of a real program takes a fifth of
-it; arrays of equal values can be packed a thousand times as small."""
+"""Numbers that a file may ask for: a free allowance, plus this many for each byte of its size. A real program's file
+takes a fifth of that; arrays of equal values can be packed a thousand times as small."""
 
 FREE_MOTION_NUMBERS: Final = 2**24
 """Numbers of motion: few keys may stand for many frames. Two minutes of a hundred nodes at 60 frames per second."""

@@ -15,7 +15,7 @@ GROUPS: Final = 31
 """Bits of a group that a signed number has; surfaces that do not touch share them."""
 _PLACES: Final = 1e5
 _DIRECTIONS: Final = 1e3
-"""Places and normals that agree to so many parts of a centimetre and of one are the same."""
+"""Resolution at which places (parts of a centimetre) and normals (parts of one) count as equal."""
 
 
 def smoothing_groups(mesh: SkinnedMesh) -> IntArray:

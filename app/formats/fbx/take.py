@@ -18,7 +18,7 @@ from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
 MOST_VALUES = 2**25
 """Frames times bones, and vertices times influences: far beyond any real file, small enough for any computer."""
 _MOST_FRAMES = 2**20
-"""Some hours: few keys may claim to be a long clip."""
+"""Longest clip in frames, some hours: a few keys could claim to span any length."""
 _KEY_PARTS = ("right slope", "next left slope", "weights", "velocities")
 _ANIMATED = {
     "Lcl Rotation": ("LimbNode", 3),

@@ -37,7 +37,7 @@ MOST_NODES = 20_000
 DEEPEST = 500
 """Deepest nesting of nodes; strands of hair have some dozens of bones."""
 _FREE_NUMBERS = 2**19
-"""A small file may show its meshes as often as comes to so many numbers."""
+"""Numbers that the repeated meshes of a small file may add up to."""
 _ANIMATED = {"translation": 3, "rotation": 4, "scale": 3}
 _INTERPOLATIONS = ("LINEAR", "STEP", "CUBICSPLINE")
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6

@@ -22,7 +22,8 @@ from app.formats.gltf.container import BINARY, JSON, MAGIC, field, split
 MOST_BYTES: Final = 2**30
 """Largest file; characters have a hundredth of it."""
 MOST_BESIDE: Final = 2**27
-"""All that lies beside it: a small document may name anything, and is held several times."""
+"""Bytes of all files beside a glTF document together: a small document may name anything, and the bytes are held
+several times."""
 _SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
