@@ -73,6 +73,8 @@ LIMITS: Final[Mapping[str, ChildLimits]] = MappingProxyType(
         # ufbx, for files of others.
         "ufbx.figure": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=4.0, wall_s=180.0, written_bytes=0),
         "ufbx.motion": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=8.0, wall_s=180.0, written_bytes=0),
+        # DracoPy and meshopt, for compressed parts of glTF files.
+        "unpacker": ChildLimits(512 * _MB, 64, cpu_s=3.0, cpu_s_per_mb=4.0, wall_s=180.0, written_bytes=0),
         # Our own modules work on values that were checked when they were read. The recorder runs as long as a take, the
         # others as long as there is work: they end with their input.
         "recorder": ChildLimits(8 * _GB),

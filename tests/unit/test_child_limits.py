@@ -65,7 +65,7 @@ def test_arguments_reach_the_program_unchanged() -> None:
 
 
 def test_one_kilobyte_may_cost_a_gigabyte_and_five_seconds() -> None:
-    for name in ("ffmpeg.facts", "ffmpeg.pictures", "ffmpeg.sound", "ufbx.figure"):
+    for name in ("ffmpeg.facts", "ffmpeg.pictures", "ffmpeg.sound", "ufbx.figure", "unpacker"):
         memory, cpu_s = LIMITS[name].memory_of(1024), LIMITS[name].cpu_of(1024)
         assert memory is not None
         assert memory <= 2**30 + MB
@@ -129,8 +129,8 @@ STARTED = {
     "app/capture/link.py": "recorder",
     "app/child.py": "export",
     "app/export/video.py": "ffmpeg.",
-    "app/formats/fbx/foreign.py": "ufbx.",
     "app/formats/ffmpeg.py": "ffmpeg.",
+    "app/formats/reading_child.py": "ufbx.",
     "app/performance/motion_copies.py": "export",
 }
 """Modules that start processes, and the rows of what they start."""

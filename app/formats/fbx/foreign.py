@@ -10,8 +10,6 @@ from __future__ import annotations
 import io
 import json
 import os
-import signal
-import subprocess
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -24,11 +22,10 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, IntArray
-from app.child import own_process
-from app.child_limits import LIMITS, confine
 from app.errors import FileError
 from app.formats.files import read_file
 from app.formats.rates import exact_rate
+from app.formats.reading_child import NO_MEMORY, NO_READER, UNREADABLE, read_by_child
 
 T = TypeVar("T")
 
@@ -36,10 +33,6 @@ MOST_BYTES: Final = 2**30
 """Largest file; characters have a hundredth of it."""
 MOTION: Final = "motion"
 """The child's constant; this process does not import it."""
-UNREADABLE, NO_MEMORY, NO_READER = 3, 4, 5
-"""Exit statuses of the child."""
-_LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number := getattr(signal, name, 0)))
-"""The system ended the child: it had taken too long, or all the memory there is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,26 +193,8 @@ def _child(data: bytes, file: str, *arguments: str) -> bytes:
     of_motion = arguments == (MOTION,)
     limits = f"ufbx.{MOTION}" if of_motion else "ufbx.figure"
     too_large = "fbx.motion_too_large" if of_motion else "fbx.too_large"
-    try:
-        process: subprocess.Popen[bytes]
-        with subprocess.Popen(
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            **own_process("app.formats.fbx.foreign_child", *arguments),
-        ) as process:
-            try:
-                job = confine(limits, process, len(data))
-                printed, _ = process.communicate(data, LIMITS[limits].wall_s)
-                del job
-            finally:
-                process.kill()
-    except subprocess.TimeoutExpired as error:
-        raise FileError(too_large, file=file) from error
-    except OSError as error:
-        raise FileError("file.cannot_read", file=file, reason=str(error)) from error
-    status = process.returncode
-    if status in (NO_MEMORY, *_LIMITS):
+    status, printed = read_by_child("app.formats.fbx.foreign_child", limits, data, file, *arguments)
+    if status == NO_MEMORY:
         raise FileError(too_large, file=file)
     if status == NO_READER:
         raise FileError("fbx.no_reader", file=file)

@@ -17,14 +17,15 @@ from app.arrays import FloatArray, IntArray
 from app.errors import FileError, shortened
 from app.formats.gltf.container import field
 
-_COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
 # What decoding may take in all, in bytes: this and a multiple of the file's size. Accessors may overlap, be used many
 # times or have no bytes at all, so that a small file could ask for any amount; the largest that a real one takes is
 # eight times its size (numbers that are stored as bytes), more where parts share what they do not use alike.
 _FREE_BYTES = 2**23
 _MOST_TIMES = 32
+_MOST_TIMES_UNPACKED = 8
 
 # Extensions without which the file can still be read as it is meant here: they change materials only, or add meaning.
 _HARMLESS = (
@@ -36,13 +37,24 @@ _HARMLESS = (
 
 
 class Accessors:
-    """A document and its bytes; every method raises FileError for what is not as it should be."""
+    """A document and its bytes; every method raises FileError for what is not as it should be.
 
-    def __init__(self, document: dict[str, Any], binary: bytes | None, file: str, size: int) -> None:
+    Parameters
+    ----------
+    size : int
+        The file's, in bytes.
+    unpacked : bytes
+        Contents of the last buffer where that has no address (`app.formats.gltf.packed`).
+    """
+
+    def __init__(
+        self, document: dict[str, Any], binary: bytes | None, file: str, size: int, unpacked: bytes = b""
+    ) -> None:
         self.document = document
         self._binary = binary
         self.file = file
-        self._left_bytes = _FREE_BYTES + _MOST_TIMES * size
+        self._left_bytes = _FREE_BYTES + _MOST_TIMES * size + _MOST_TIMES_UNPACKED * len(unpacked)
+        self._unpacked = unpacked
         self._lists: dict[str, list[Any]] = {}
         required = document.get("extensionsRequired")
         for name in required if isinstance(required, list) else []:
@@ -116,7 +128,8 @@ class Accessors:
     def _buffer(self, buffer: object, index: int) -> bytes:
         uri = field(buffer, "uri")
         if uri is None:
-            data = self._binary if index == 0 else None
+            last = bool(self._unpacked) and index == len(self.items("buffers")) - 1
+            data = self._unpacked if last else self._binary if index == 0 else None
         elif isinstance(uri, str) and uri.startswith("data:"):
             data = self.data(uri)
         else:
@@ -142,11 +155,21 @@ class Accessors:
         """The buffer that a view is of, where it begins there, its length and its stride, which may be 0."""
         views = self.items("bufferViews")
         view = views[self.index(number, len(views), "bufferView")]
+        return *self._span(view), self.number(view, "byteStride", 0)
+
+    def _span(self, view: object) -> tuple[bytes, int, int]:
+        """A buffer, and where a part of it begins and how long it is."""
         buffer = self._buffers[self.index(field(view, "buffer"), len(self._buffers), "buffer")]
         start, length = self.number(view, "byteOffset", 0), self.number(view, "byteLength")
         if start + length > len(buffer):
             raise self.damaged("bufferView")
-        return buffer, start, length, self.number(view, "byteStride", 0)
+        return buffer, start, length
+
+    def part_of_buffer(self, view: object) -> bytes:
+        """The bytes that an object with the members of a buffer view is of."""
+        buffer, start, length = self._span(view)
+        self.take(length // 8)
+        return buffer[start : start + length]
 
     def take(self, numbers: int) -> None:
         """Refuse the file if it makes more of its bytes than any does, before the memory for it is asked for.
@@ -177,8 +200,8 @@ class Accessors:
         """Accessor, its type, its numbers per element and its count."""
         accessors = self.items("accessors")
         accessor = accessors[self.index(number, len(accessors), "accessor")]
-        component = _COMPONENTS.get(self.number(accessor, "componentType"))
-        width = _WIDTHS.get(self.text(accessor, "type", ""))
+        component = COMPONENTS.get(self.number(accessor, "componentType"))
+        width = WIDTHS.get(self.text(accessor, "type", ""))
         if component is None or width is None:
             raise self.damaged("accessor type")
         return accessor, np.dtype(component), width, self.number(accessor, "count")
@@ -190,7 +213,7 @@ class Accessors:
             return np.empty(0, dtype=np.int64), np.empty((0, width), dtype)
         changed = self.number(sparse, "count")
         places, values = field(sparse, "indices"), field(sparse, "values")
-        index_type = _COMPONENTS.get(self.number(places, "componentType"))
+        index_type = COMPONENTS.get(self.number(places, "componentType"))
         if index_type not in ("<u1", "<u2", "<u4"):
             raise self.damaged("sparse indices")
         offset = self.number(places, "byteOffset", 0)

@@ -31,6 +31,7 @@ from app.formats.gltf.model import (
     GltfSkin,
     GltfTextureUse,
 )
+from app.formats.gltf.packed import unpacked
 from app.formats.gltf.self_contained import read_whole
 
 MOST_NODES = 20_000
@@ -74,7 +75,9 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False, morphing: 
 
 def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: bool = False) -> GltfModel:
     """Model of a file's bytes, as `read_glb`."""
-    reader = _Reader(*split(data, file), file, len(data))
+    document, binary = split(data, file)
+    document, parts = unpacked(document, binary, file, len(data))
+    reader = _Reader(document, binary, file, len(data), parts)
     nodes = reader.nodes()
     meshes = tuple(reader.mesh(mesh, index) for index, mesh in enumerate(reader.items("meshes")))
     reader.check_instances(nodes, meshes)

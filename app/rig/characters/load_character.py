@@ -12,7 +12,7 @@ from app.encoding import shown
 from app.rig.characters.face_map import FaceMapping, map_morphs
 from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.joint_mapping import JointMapping, map_joints
-from app.rig.characters.read_figure import read_figure
+from app.rig.characters.read_figure import is_glb, read_figure
 from app.rig.characters.t_pose import facing_ahead, upright
 from app.rig.figure import Figure
 from app.rig.gltf_source import OURS, GltfSource, build_mesh, invalid, read_source
@@ -65,7 +65,7 @@ def load_character(
         The file cannot be read, or holds no humanoid that can play.
     """
     try:
-        if path.suffix.lower() == ".glb":
+        if is_glb(path):
             source = read_source(path)
             if source.gltf.generator == OURS and not height_m and not hidden:
                 return _ours(source, id or shown(path.stem))

@@ -7,12 +7,19 @@ from typing import Final
 
 from app.errors import FileError
 from app.formats.files import open_file
+from app.formats.gltf.container import MAGIC
 from app.rig.characters.figure_gltf import gltf_figure
 from app.rig.figure import Figure
 from app.rig.gltf_source import invalid
 
 SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
 """Suffixes of the files that can be opened."""
+
+
+def is_glb(path: Path) -> bool:
+    """Return whether a file is a glTF binary by its content. Raises FileError where it cannot be read."""
+    with open_file(path) as opened:
+        return opened.read(4) == MAGIC
 
 
 def read_figure(path: Path) -> Figure:
@@ -26,7 +33,7 @@ def read_figure(path: Path) -> Figure:
     with open_file(path) as opened:
         start = opened.read(64)
     try:
-        if start.startswith(b"glTF") or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+        if start.startswith(MAGIC) or start.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
             return gltf_figure(path)
         if start.startswith(b"Kaydara FBX") or path.suffix.lower() == ".fbx":
             # Reads by another process; our own characters are GLB files.

@@ -332,7 +332,7 @@ DAMAGE = {
     "a material beyond the list": (_set("meshes/0/primitives/0/material", 5), "damaged"),
     "a colour of text": (_set("materials/0/pbrMetallicRoughness/baseColorFactor", "red"), "damaged"),
     "lines": (_set("meshes/0/primitives/0/mode", 1), "unsupported"),
-    "a compression": (_set("extensionsRequired", ["KHR_draco_mesh_compression"]), "compressed"),
+    "a compression": (_set("extensionsRequired", ["EXT_unheard_of_compression"]), "compressed"),
     "an extension": (_set("extensionsRequired", ["KHR_unheard_of"]), "unsupported"),
     "a scene beyond the list": (_set("scene", 4), "damaged"),
     "version 1": (_set("asset/version", "1.0"), "not_gltf"),

@@ -2,7 +2,6 @@
 
 import contextlib
 import io
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -285,8 +284,7 @@ def test_what_no_character_has_is_refused(ours: Character, tmp_path: Path, monke
 def test_a_reader_that_dies_is_an_error_of_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "x.fbx"
     path.write_bytes(b"Kaydara FBX Binary  \0")
-    died = subprocess.CompletedProcess([], -11, b"", b"")
-    monkeypatch.setattr("app.formats.fbx.foreign.subprocess.run", lambda *args, **kwargs: died)
+    monkeypatch.setattr("app.formats.fbx.foreign.read_by_child", lambda *args: (-11, b""))
     with pytest.raises(FileError, match="foreign_damaged"):
         read_figure(path)
 

@@ -1,0 +1,49 @@
+"""Compressed parts of glTF files, as they go to the process that unpacks them (`packed_child`), and what comes back."""
+
+from __future__ import annotations
+
+from typing import Final, Literal, TypeAlias
+
+import msgspec
+
+INDICES: Final = ""
+"""Name of a mesh's triangles among its attributes; no attribute has it."""
+LIMITS_ROW: Final = "unpacker"
+"""Row of `app.child_limits.LIMITS`."""
+Mode: TypeAlias = Literal["ATTRIBUTES", "TRIANGLES", "INDICES"]
+Filter: TypeAlias = Literal["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"]
+
+
+class MeshoptPart(msgspec.Struct, frozen=True, tag="meshopt"):
+    """A buffer view under EXT_meshopt_compression: ``count`` elements of ``stride`` bytes."""
+
+    data: bytes
+    count: int
+    stride: int
+    mode: Mode
+    filter: Filter
+
+
+class DracoPart(msgspec.Struct, frozen=True, tag="draco"):
+    """A primitive under KHR_draco_mesh_compression: Draco's ids of its attributes, by their names in the file."""
+
+    data: bytes
+    attributes: dict[str, int]
+
+
+PackedPart: TypeAlias = MeshoptPart | DracoPart
+
+
+class PackedParts(msgspec.Struct, frozen=True):
+    """Request to unpack parts; all of them together become no more than ``most_bytes``."""
+
+    parts: list[PackedPart]
+    most_bytes: int
+
+
+class UnpackedArray(msgspec.Struct, frozen=True):
+    """Rows of ``width`` numbers of a kind (`numpy.dtype.str`)."""
+
+    kind: str
+    width: int
+    data: bytes
