@@ -25,9 +25,9 @@ _LEAST_S: Final = 3.0
 _LEAST_ALIKE: Final = 0.6
 """Passages less alike than this part of the most alike one are chance."""
 _PLAYED: Final = (1, 0, 2)
-"""Frames of the score from one frame of the recording to the next, in the order of preference ..."""
+"""Frames of the score from one frame of the recording to the next, in the order of preference."""
 _JUMPED: Final = 3
-"""... and the number of what is none of these."""
+"""Number that stands for any other step than those of `_PLAYED`."""
 
 
 @dataclass(frozen=True)

@@ -21,10 +21,11 @@ _FITS: Final = 5
 _REFINED_S: Final = ((0.02, 0.002), (0.003, 0.0005))
 """Reach and step, in seconds, by which either end of the line is then moved to where onsets are strongest."""
 _AS_STRONG: Final = 0.66
-"""The line must meet this share of the onset strength of the free path in all ..."""
+"""Share of the onset strength of the free path that a line at constant tempo must have in all. Renders of seven
+pieces at a constant tempo had 0.69 or more; against a score whose tempo sways by two per cent in nine seconds (29
+ms), at most 0.57."""
 _AS_STRONG_LOCALLY: Final = 0.45
-"""... and this share in every stretch. Renders of seven pieces at a constant tempo had 0.69 and 0.47 or more; against a
-score whose tempo sways by two per cent in nine seconds, which is 29 ms, at most 0.57 and 0.29."""
+"""The share in every stretch: such renders had 0.47 or more, against the swaying score at most 0.29."""
 _STRETCH_S: Final = 4.0
 _LEAST_ONSETS: Final = 12
 _LEAST_S: Final = 6.0

@@ -21,9 +21,9 @@ HOVER_MM = 1000.0 * MOST_HOVER_M
 CLEAR_MM = 3.0
 """A finger farther than this from a hole lets it sound open; of a smaller instrument, from its smaller one."""
 PRESSED = 0.9
-"""A control is where it should be within a tenth of its travel ..."""
+"""Share of its travel within a tenth of which a control counts as in place."""
 SLIDE_M = 0.005
-"""... or, where it slides, within this distance."""
+"""Distance within which a slide counts as in place."""
 MOVED_MM = 1.0
 """Distance of a hand from its place from which what its fingers miss is reported as the hand's problem."""
 UNREACHED_M = 0.005

@@ -29,9 +29,9 @@ from instrument_maps.library import library
 from metadata.library import metadata_library
 
 AT_ONCE_NOTES = 2500
-"""Number of notes that are planned within the time of two pictures ..."""
+"""Number of notes up to which a change is planned immediately: within the time of two pictures; see `AT_ONCE_S`."""
 AT_ONCE_S = 0.1
-"""... unless they turn out to cost more of the processor than this: many players, or what no musician writes."""
+"""Processor seconds from which planning is no longer done immediately: many players, or what no musician writes."""
 REPORTED_NOTES = 6000
 """Number of notes from which planning shows its progress and can be stopped."""
 MOST_WAIT_S = 30.0

@@ -23,9 +23,9 @@ T = TypeVar("T", bound=QObject)
 SWITCH_S = 0.001
 """The window gets the interpreter back from the worker within this time."""
 REPORT_S = 0.04
-"""Other poses at the playhead are reported to the window at once, but no more often than this ..."""
+"""Least seconds between two reports of other poses at the playhead to the window."""
 REPORT_READY_S = 0.25
-"""... and of how much is made this often."""
+"""Least seconds between two reports of how much is made."""
 GIVE_WAY = 3.0
 """Rest of the worker after work that no one waits for, in multiples of that work's time, if the window or another
 thread worked too: two threads of Python hold each other up far more than they compute."""

@@ -45,7 +45,7 @@ __all__ = ["EnsemblePlanning", "MonophonicPart", "Piece", "frame_around"]
 PREROLL_BEATS = 4.0
 PREROLL_LEAST_S = 2.0
 COME_UP_S = 3.0
-"""A new piece begins so long before the first note at least: time to be seen at rest, and to come up from it."""
+"""Least seconds of a new piece before its first note: time to be seen at rest and to raise the instrument."""
 MOST_PREROLL_BEATS = 32
 START_BEATS = 2.0
 """The preparatory beat of the start, and what is missing of the one before it where a pickup begins the piece."""

@@ -23,7 +23,7 @@ Decided: TypeAlias = Literal["breaths", "cues", "lips", "poses", "gestures", "ru
 
 SEED: Final = (0, 2**63 - 1)
 AUTOMATIC: Final = "auto"
-"""None as a text."""
+"""Text that stands for no value, as chosen automatically."""
 NONE: Final = "none"
 """No names, as a text."""
 
@@ -273,5 +273,5 @@ def parameters_deciding(parameters: PlayerParameters, kind: Decided) -> PlayerPa
 
 
 def deciding_values(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:
-    """The values of those parameters that decide any of this: equal ones give the same."""
+    """The values of the parameters that decide a result; equal values give the same result."""
     return tuple(getattr(parameters, name) for kind in kinds for name in _DECIDING[kind])

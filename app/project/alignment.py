@@ -21,11 +21,11 @@ from app.score.model import Note
 SAME_QUARTERS = 1 / 16
 """Onsets this close are one: another resolution rounds, and people nudge."""
 SWITCH_COST = 3.0
-"""Cost of another distance in time, in notes not found ..."""
+"""Cost of a change of the distance in time between two versions, in notes not found."""
 SKIP_COST, MOST_SKIP_COST = 0.05, 6.0
-"""... and of every note that it passes over, up to a most: many bars may be put in at once; ..."""
+"""Cost of every note that such a change passes over, and the most: many bars may be put in at once."""
 AGAIN_COST, MOST_AGAIN_COST = 0.5, 12.0
-"""... of every note that it finds twice, where nothing was cut before."""
+"""Cost of every note that is found twice where nothing was cut before, and the most."""
 GAP_COST = 0.7
 """Cost of a note that has no partner; two are a little dearer than a changed pitch or a moved onset, cheaper than both.
 """

@@ -15,7 +15,7 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import ROOT, InstrumentMap
 
 LIPS_AHEAD_M = 0.12
-"""The lips are so far before the middle of the body."""
+"""Distance of the lips before the middle of the body."""
 
 _FOOTPRINTS: IdentityCache[Footprint] = IdentityCache(128)
 

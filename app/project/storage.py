@@ -34,7 +34,7 @@ from instrument_maps.library import all_maps
 
 SUFFIX: Final = ".suisou"
 BACKUP: Final = ".bak"
-"""Put behind the file's name: what it held before it was last saved."""
+"""Suffix of the backup: the file as it was before it was last saved."""
 
 AUTOSAVE: Final = ".autosave"
 """Put behind the file's name: the work on it that is not saved yet."""

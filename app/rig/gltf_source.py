@@ -132,7 +132,7 @@ def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], we
 
 
 def _digest(primitive: GltfPrimitive) -> bytes:
-    """The same for primitives with the same vertices, and no others."""
+    """A digest that only primitives with the same vertices share."""
     digest = hashlib.blake2b(str(primitive.joint_indices.shape).encode(), digest_size=16)
     digest.update(primitive.positions.tobytes())
     digest.update(primitive.joint_indices.tobytes())

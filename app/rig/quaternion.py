@@ -371,7 +371,7 @@ def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -
 
 
 def mixed(near: FloatArray, far: FloatArray, share: FloatArray) -> FloatArray:
-    """Rotations between near (share 0) and far ones (share 1), the shorter way."""
+    """Interpolate rotations from the first (share 0) to the second (share 1), the shorter way."""
     sign = np.where(dot(near, far) < 0.0, -1.0, 1.0)[..., None]
     mixed: FloatArray = near * (1.0 - share) + far * (sign * share)
     mixed /= np.sqrt(dot(mixed, mixed))[..., None]

@@ -82,7 +82,7 @@ class Skin:
 
 @dataclass(frozen=True, eq=False)
 class Patch(Skin):
-    """The same with normals (V, 3)."""
+    """Prepared vertices as of `Skin`, with normals (V, 3)."""
 
     normals: FloatArray
 

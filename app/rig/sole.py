@@ -15,7 +15,7 @@ SIDES: Final[tuple[Side, Side]] = ("left", "right")
 TIP_PART: Final = 0.4
 """The tip of the foot is beyond the joint of the toes by this part of the way from the ankle to the toes."""
 FOOT_PART: Final = 1.6
-"""The joint of the toes is ahead of the ankle by so much of the ankle's height, where a skeleton has none."""
+"""Distance of the toes' joint ahead of the ankle, as a share of the ankle's height, for skeletons without one."""
 
 
 def foot_tip_m(skeleton: Skeleton, side: Side) -> FloatArray:

@@ -111,7 +111,7 @@ class Following:
         return float(self._there().mean()) if len(self.ticks) else 0.0
 
     def later(self, seconds: float) -> Following:
-        """The same in a recording that begins earlier by an offset."""
+        """The result in a recording that begins earlier by an offset."""
         added = tuple(UnmatchedSpan(span.start + seconds, span.end + seconds) for span in self.added)
         return replace(self, recording_s=self.recording_s + seconds, added=added)
 

@@ -21,7 +21,7 @@ _LEAST_NOTES: Final = 8
 TIGHTNESS: Final = 60.0
 """Cost of a beat that is longer or shorter than the others; the usual 100 is for bands that keep time."""
 _SMOOTHED: Final = 32
-"""The envelope is smoothed by a Gaussian that is so much narrower than a beat (Ellis)."""
+"""Width of the Gaussian that smooths the envelope, as a fraction of a beat (Ellis)."""
 _SLOWEST_US, _FASTEST_US = 2_000_000.0, 200_000.0
 
 

@@ -26,7 +26,7 @@ class ChannelNotes(msgspec.Struct):
     numbers: list[int] = []
 
     def where(self, kept: list[bool]) -> ChannelNotes:
-        """Some of the notes; the same object if that is all of them."""
+        """The notes that a mask selects; the object itself if it selects all."""
         if all(kept):
             return self
         return ChannelNotes(*(list(compress(column, kept)) for column in msgspec.structs.astuple(self)))

@@ -31,9 +31,9 @@ _UNISON_SHARE: Final = 0.9
 _FEW: Final = 8
 """More channels than these may rotate with channel 10 among them: no drum kit takes its turn so."""
 _LEGATO_SHARE: Final = 0.5
-"""Share of the shorter one that two notes of a line overlap at most..."""
+"""Largest share of the shorter note by which two notes of one line overlap."""
 _LEGATO_NOTES: Final = 0.9
-"""... in such a share of the notes at least."""
+"""Share of the notes that must keep to `_LEGATO_SHARE` in a line."""
 
 _Points = dict[int, float]
 _Span = tuple[int, int, int]

@@ -26,18 +26,19 @@ SILENT_SHARE: Final = 0.4
 """Hysteresis: a note whose breath stays below this share of `Cleaning.ghost_loudness` is inaudible, however long it
 is; above the whole of it it is audible, however short."""
 _FLICKER_VELOCITY: Final = 10
-"""No note that is meant is sent so softly ..."""
+"""Velocity up to which a note cannot have been meant; see `_ALIVE_S` for louder ones."""
 _ALIVE_S: Final = 3.0
-"""... and where the breath is not audible for so long before and after a note that is sent louder, it is not sent."""
+"""Seconds around a note without audible breath from which a louder note cannot have been meant either."""
 _TOUCHING_S: Final = 0.012
 """Notes this near to one another are legato."""
 _OCTAVES: Final = (12, 24)
 _OCTAVE_SLIP_S: Final = 0.13
-"""A slip of the octave keys is no longer ..."""
+"""Longest slip of the octave keys, in seconds; see `_BESIDE_SLIP`."""
 _BESIDE_SLIP: Final = 1.8
-"""... and the notes beside it are longer by this factor: notes of about one length are a figure."""
+"""Factor by which the notes before and after a slip are longer: notes of about one length are a figure."""
 _PULSE_NOTES: Final = 8
-"""The usual time from note to note is that of so many before and after; fewer than three have none."""
+"""Notes before and after a note over which the usual time between onsets is taken; with fewer than three there is
+none."""
 _PULSES: Final = (0.25, 0.5, 1.0, 2.0, 3.0, 4.0)
 """Parts and multiples of it that notes are apart."""
 _ON_TIME: Final = 0.1
@@ -54,10 +55,10 @@ _STROKES, _STEADY = 3, 0.15
 """Least number of strokes of one pitch in equal steps, and the share within which they are equal, to be struck on
 purpose."""
 _DETACHED: Final = 0.5
-"""Share of the changes of pitch within a breath that have a gap, from which the player detaches notes without it, ...
-"""
+"""Share of the changes of pitch within a breath that have a gap, from which the player detaches notes without
+breath; see `_LEAST_CHANGES`."""
 _LEAST_CHANGES: Final = 4
-"""... if there are so many of them."""
+"""Changes of pitch that `_DETACHED` needs to apply."""
 _AROUND_S: Final = (0.15, 0.02)
 """From so long before a moment until so long before it is just before; after it in the same way."""
 _TRILL_S, _TRILL_SEMITONES, _TRILL_NOTES = 0.16, 4, 5

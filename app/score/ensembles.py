@@ -25,15 +25,15 @@ from instrument_maps.name_words import words_of
 _LEAST_SHARE: Final = 0.98
 """Least share of a part's notes that its instrument's range holds."""
 _MOST_AWAY: Final = 8.0
-"""Semitones between a part's median and the usual one, on average, beyond which the lines are something else..."""
+"""Mean distance in semitones of the parts' medians from the usual ones beyond which it is another ensemble."""
 _MOST_AWAY_NAMED: Final = 14.0
-"""... and where the title names the ensemble."""
+"""The limit `_MOST_AWAY` where the title names the ensemble."""
 _FEW_SHARE: Final = 0.02
 """Share of the lowest and the highest notes that say nothing about a compass."""
 _AROUND: Final = 11
-"""A part moves so many semitones up and down about its usual median, within what is easy for the instrument."""
+"""Semitones that a part moves about its usual median, within what is easy for the instrument."""
 _END: Final = 0.5
-"""A semitone at an end of the compass counts as so many of the median, and again beyond what is easy."""
+"""Weight of a semitone at an end of the compass against one of the median, and again beyond what is easy."""
 _LEGATO_SHARE: Final = 0.5
 """Share of a note that may sound into the next one of a line."""
 _LINE_SHARE: Final = 0.95

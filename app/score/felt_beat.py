@@ -23,7 +23,7 @@ FASTEST_BPM = 208.0
 FASTEST_IN_THREE_BPM = 160.0
 """Faster beats of a bar of three are taken all three at a time."""
 STEADY_BARS = 9
-"""The tempo is the median over so many bars, so that a ritardando or a fermata does not change how one counts."""
+"""Bars whose median is the tempo, so that a ritardando or a fermata does not change how one counts."""
 
 
 def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeats:

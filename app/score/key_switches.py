@@ -84,7 +84,7 @@ def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool
 
 
 def _kept(channel: TrackChannel, kept: BoolArray) -> TrackChannel:
-    """Some notes of a stream."""
+    """Keep some notes of a stream."""
     places = np.flatnonzero(kept).tolist()
     columns = ("onset_ticks", "end_ticks", "pitches", "velocities", "numbers")
     return msgspec.structs.replace(

@@ -30,13 +30,13 @@ LEAST_NOTES: Final = 24
 LEAST_ON_GRID: Final = 0.5
 """Mean resultant length 0..1 of onsets around the sixteenths below which quarters say nothing about the notes."""
 TRIPLE_LEAST: Final = 0.85
-"""Probability that bars are in three from which on a metre is assumed ..."""
+"""Least probability that bars are in three for a metre to be assumed; see `BAR_LINES_LEAST`."""
 BAR_LINES_LEAST: Final = 0.5
-"""... and that its bar lines are bar lines."""
+"""Least probability that the bar lines found are bar lines."""
 LAGS: Final = (6, 8, 12, 16, 18, 24, 32, 36, 48)
-"""Cells after which a bar may repeat, ..."""
+"""Numbers of cells after which a bar may repeat."""
 USUAL_LAGS: Final = (6, 8, 10, 12, 14, 16, 18, 20, 22, 24)
-"""... and those that show how much repeats anyway."""
+"""Numbers of cells that show how much a piece repeats anyway."""
 
 
 _CONTRASTS: Final = (

@@ -32,9 +32,9 @@ _HAND: Final = re.compile(
     r"gestopft|gest\.?|stopped|hand[- ]?stopped|bouch[ée]|chiuso|chius[ae]|ゲシュトップ|ストップ奏法", re.IGNORECASE
 )
 STOPPED_SIGN: Final = "+"
-"""This sign stops only the notes that begin with it..."""
+"""Sign of a stopped note: it applies to the notes that begin with it."""
 OPEN_SIGN: Final = "o"
-"""... and this one, where a score has it, ends what is stopped."""
+"""Sign that ends stopping, where a score has it."""
 _OFF: Final = re.compile(
     r"(?:.*\b)?(?:senza|without|no|ohne|sans|sem|sin|remove|take off|via|ôtez|enlevez)\s+"
     rf"(?:(?:the|la|le|les|il)\s+)?{_MUTE}.*"

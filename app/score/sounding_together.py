@@ -20,12 +20,13 @@ _LEGATO_SHARE: Final = 0.25
 _LEGATO_MOST_S: Final = 0.200
 _LEGATO_MOST_SHARE: Final = 0.5
 CHORD_S: Final = 0.045
-"""Notes struck together by two players or two fingers begin so near to one another: in trios the differences between
-onsets have standard deviations of 30 to 50 ms (Rasch 1979, Acustica 43, 121-131)."""
+"""Largest difference between the onsets of notes struck together by two players or two fingers: in trios these
+differences have standard deviations of 30 to 50 ms (Rasch 1979, Acustica 43, 121-131)."""
 SEVERAL: Final = 4
-"""Notes in a row that must sound together with others before another player is there..."""
+"""Notes in a row that must sound together with others before another player is assumed; see `SUSTAINED_S`."""
 SUSTAINED_S: Final = 0.4
-"""... and for so long altogether: two quarters of a fast march, where an accident of the fingers lasts a tenth."""
+"""Seconds for which such notes must sound together in all: two quarters of a fast march; an accident of the fingers
+lasts a tenth."""
 _SEVERAL_DOUBLED: Final = 8
 """The same for octaves and unisons: editions give a bass an octave to choose from for a cadence."""
 _MUCH: Final = 0.25
@@ -49,7 +50,7 @@ class VoiceSpans(NamedTuple):
         return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
 
     def of(self, kept: BoolArray | IndexArray) -> VoiceSpans:
-        """Those of some notes."""
+        """The spans of some notes."""
         return VoiceSpans(self.onsets[kept], self.ends[kept], self.releases[kept])
 
 

@@ -30,7 +30,7 @@ _FAMILY: Final = "wind_controllers"
 _BREATHS: Final[tuple[CurveKind, ...]] = ("breath", "expression", "aftertouch", "volume")
 """Kinds of curve that may carry the breath, the likeliest first."""
 _SENT_PER_S: Final = 5.0
-"""A breath that is blown changes so often while notes sound."""
+"""Changes per second of a breath controller that is blown, while notes sound."""
 _AUDIBLE, _SILENT = 0.15, 0.06
 _TOGETHER_S, _TOGETHER_SHARE = 0.15, 0.03
 """Longest overlap, and share of notes that exceed it, of a single line."""
@@ -39,7 +39,7 @@ _GRID: Final = 12
 _ON_GRID: Final = 0.5
 """Share of notes on a step of the grid below which they were played."""
 _REST_S, _FALLS = 0.15, 0.8
-"""In so many of the rests of this length the breath falls below what can be heard."""
+"""Length of a rest, and the share of such rests in which a breath that is blown falls below what can be heard."""
 _LEAST_NOTES: Final = 4
 
 

@@ -27,9 +27,9 @@ _MOST_TEXTS: Final = 200
 _MOST_BYTES: Final = 120
 _MOST_NAMES: Final = 64
 _KNOWN: Final = 8.0
-"""Worth of a name of the vocabulary, in nats as all costs..."""
+"""Worth of a name of the vocabulary, in nats as all costs."""
 _KNOWN_BY_ONE: Final = 2.0
-"""... and one of a single character, which may be chance."""
+"""Worth of a name of a single character, which may be chance."""
 _OWN_ENCODING: Final = 9.0
 """Cost of an encoding that is not the file's."""
 _UNREADABLE: Final = 25.0

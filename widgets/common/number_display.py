@@ -74,7 +74,7 @@ class NumberDisplay(QWidget):
 
     @property
     def value(self) -> float:
-        """The value shown; of several different ones, that of the first."""
+        """The displayed value; the first of several different ones."""
         return self._value
 
     @property

@@ -122,7 +122,7 @@ class NumberSlider(NumberDisplay):
         self.update()
 
     def set_step(self, step: float) -> None:
-        """Step so far by keys and wheel, and in a drag without a range to fill."""
+        """Set the step of keys and wheel, and of a drag where there is no range to fill."""
         self._step = step
 
     # Changing it

@@ -46,7 +46,7 @@ PICTURE_PX: Final = QSize(250, 340)
 _LEAST_WORDS_PX: Final = 72
 _LEAST_LIST_PX: Final = 230
 _SOON_MS: Final = 60
-"""A drag asks for many pictures: the next is drawn when it rests so long, or moves on slowly."""
+"""Milliseconds after which the next picture of a drag is drawn, if the mouse rests or moves slowly."""
 
 
 class CharacterDialog(Retranslated, QDialog):

@@ -18,7 +18,7 @@ from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
 
 SHOW_MS = 40
-"""The list is shown anew at most so often, however much comes in."""
+"""Least milliseconds between two updates of the list, however much comes in."""
 _FULL = 1000
 
 

@@ -19,7 +19,7 @@ from widgets.common.plain import Label
 
 SIZE_PX: Final = 200
 WAITS_MS: Final = 120
-"""A face that changes is drawn when it has not changed for so long: the player in the viewport follows at once."""
+"""Milliseconds without a change after which a face is drawn again; the player in the viewport follows immediately."""
 
 
 class FacePicture(Label):

@@ -13,9 +13,9 @@ from app.plan.model import PlayerPlan
 from app.project.model import Project
 
 AT_ONCE_NOTES = 3000
-"""Most notes that are planned immediately, since the user hardly notices ..."""
+"""Number of notes up to which a change is planned immediately, since that takes no noticeable time; see `AT_ONCE_S`."""
 AT_ONCE_S = 0.1
-"""... unless they turn out to cost more of the processor than this."""
+"""Processor seconds from which planning is no longer done immediately."""
 
 
 class Generated(QObject):

@@ -11,9 +11,9 @@ from widgets.timeline.lane_header import GUTTER_PX
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 PAGE_AT = 0.94
-"""While playing, the page turns when the playhead is so far across it ..."""
+"""Share of the width at which the playhead turns the page while playing; see `PAGE_TO`."""
 PAGE_TO = 0.06
-"""... and then stands here."""
+"""Share of the width at which the playhead stands after the page was turned."""
 
 
 class Playhead(QWidget):

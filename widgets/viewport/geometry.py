@@ -24,7 +24,7 @@ BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
 INSTRUMENT_CELLS_M = (0.0, 0.0035, 0.011)
 PLAIN_FACTOR, PLAIN_LEAST_M = 1.4, 0.08
-"""Cloth and hair may be so many times coarser than skin; what is thinner than this (eyes) may not."""
+"""Factor by which cloth and hair may be coarser than skin, and the thickness below which a mesh (eyes) may not."""
 THIN_SHARES = (0.0, 0.1, 0.34)
 """Coarsest size of thin things (brows, eyes) by level, as a share of their smallest side."""
 LEVELS = len(BODY_CELLS_M)

@@ -59,8 +59,8 @@ FRAME_MS = 16
 WAIT_MS = 90
 """Between two looks whether a pose that is not there yet has been made."""
 REST = 4.0
-"""While players still appear one by one, nothing is drawn for so many times as long as the last picture took: each one
-delays the players that follow."""
+"""Pause between pictures while players still appear one by one, as a multiple of the time the last picture took:
+each picture delays the players that follow."""
 SETTLED_S = 4.0
 """After an edit poses may still change for this long."""
 LEAST_SIZE = QSize(160, 120)

@@ -29,12 +29,12 @@ from widgets.viewport.shape_model import Geometry
 from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
 
 FINE_PX_PER_M = 620.0
-"""Above this a player is drawn from all vertices ..."""
+"""Size on screen above which a player is drawn from all vertices."""
 COARSE_PX_PER_M = 120.0
-"""... and below this from the fewest, with all others."""
+"""Size on screen below which a player is drawn from the fewest vertices, together with all others."""
 MOST_NEAR = 12
 HASTY_FACTOR = 1.7
-"""Pictures that are made in haste have the detail of ones so many times smaller."""
+"""Factor by which pictures made in haste are treated as smaller when their level of detail is chosen."""
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
 """Parts of the names of renderers that have no card."""
 GL_MULTISAMPLE = 0x809D

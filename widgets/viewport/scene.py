@@ -33,7 +33,7 @@ from widgets.viewport.shapes import Shapes
 FEW = 12
 """Performers whose figures are loaded at once; of more the one in front is first."""
 FRONT_MS = 3000
-"""The others' figures are loaded once the one in front moves, or after this time."""
+"""Milliseconds after which the others' figures are loaded even if the player in front does not move yet."""
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
 """Height of the podium's name above the conductor's place."""

@@ -107,7 +107,7 @@ class Solid:
 
     @property
     def edges(self) -> Any:
-        """Its edges, each once."""
+        """The solid's edges, each once."""
         if self._edges is None:
             self._edges = gloo.IndexBuffer(edges(self.geometry))
         return self._edges

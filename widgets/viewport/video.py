@@ -186,7 +186,7 @@ class VideoStrip(Retranslated, QWidget):
         self.refresh()
 
     def refresh(self, change: Change | None = None) -> None:
-        """Show what is so now."""
+        """Show the current state."""
         video, state = self._session.project.video, self._session.video
         self.setVisible(video is not None and state.placement != "hidden")
         if video is None:

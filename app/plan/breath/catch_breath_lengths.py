@@ -18,13 +18,14 @@ from app.plan.music.piece import EPSILON, LineTimes, gaps_s
 CATCH_MIN_S = 0.2
 """A shorter gasp is no breath: a litre at 5 to 8 litres a second, the most that healthy adults breathe in with."""
 CATCH_MAX_S = 0.4
-"""A catch breath lasts at most so long, ..."""
+"""Longest catch breath in seconds; see `UNHURRIED_SHARE`."""
 UNHURRIED_SHARE = 1.0 / 3.0
-"""... or as long as a full breath, where that takes at most this part of the note before it."""
+"""A catch breath may be as long as a full breath where that takes at most this share of the note before it."""
 CATCH_NOTE_SHARE = 0.5
-"""A catch breath takes at most this part of the note before it ..."""
+"""Largest share of the note before it that a catch breath takes; see `LEAST_SOUNDING_S`."""
 LEAST_SOUNDING_S = 1.0 / 24.0
-"""... unless that would be no breath: then as much as one needs, but for the shortest staccato."""
+"""Where `CATCH_NOTE_SHARE` would leave no time for a breath, it takes what it needs, except this time of the note
+before, which still sounds."""
 LEAST_PLAYED_S = 0.01
 """Least part of a note that may be left if it was played shorter than it is written."""
 MOST_DROPPED = 2
@@ -55,8 +56,8 @@ class Room:
         return np.where(self.length_s > 0.0, self.length_s, self.drop_s)
 
     def with_marks(self, marked: Sequence[int], times: LineTimes) -> Room:
-        """The same where a breath before some notes is in the score: as long as the note before allows, however short
-        that is, and no note around is left out for another breath.
+        """The room where breath marks of the score stand before some notes: as long as the note before allows, however
+        short that is, and no note around is left out for another breath.
 
         Parameters
         ----------
@@ -139,7 +140,7 @@ def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntA
 
 
 def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
-    """(N - notes - 1,): how long a breath that so many notes are left out for usually is, and may be at most."""
+    """(N - notes - 1,): the usual and the longest duration of a breath for which a number of notes is left out."""
     span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes] + gaps_s(times)[1:-notes]
     before_s = times.duration_s[: -notes - 1]
     share_s = CATCH_NOTE_SHARE * before_s

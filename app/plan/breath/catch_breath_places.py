@@ -15,7 +15,7 @@ from app.plan.breath.rests_for_breath import LEAST_PLAYED_S
 from app.plan.music.piece import EPSILON
 
 LEAST_COST = 0.2
-"""A breath costs so much at least before the air is used up that asks for one at a phrase's end."""
+"""Least cost of a breath before the air is used up; it keeps breaths to the ends of phrases."""
 ONE_MORE = 1.5
 """Times that air a stretch takes at least in which a breath is taken for a phrase's end: some of it comes after."""
 EARLY_COST = 0.25
@@ -26,7 +26,7 @@ GASP_COST = 100.0
 """Breathing in again after less than `LEAST_PLAYED_S` of playing: only for want of air."""
 TOO_LONG_COST = 1000.0
 BREAKING_COST = 150.0
-"""Places that cost so much break what a score says: other ways of breathing before them are compared too."""
+"""Cost from which a place breaks what a score says: other ways of breathing before it are compared too."""
 AIR_STEPS = 32
 """Amounts of air that are told apart then."""
 DROPPED_COST = 30.0

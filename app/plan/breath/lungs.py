@@ -21,9 +21,11 @@ PIANO, FORTE = 0.39, 0.77
 """Loudness of the dynamics a map's `Air` names: velocities 49 and 98 of 127."""
 
 PHRASE_S = 8.0
-"""The air of a note follows the dynamic mark nearest to the mean loudness so far before and after."""
+"""Seconds before and after a note over which loudness is averaged; its air follows the dynamic mark nearest to the
+mean."""
 STALE_S = 12.0
-"""However little air an instrument takes, usual lungs want fresh air after so long (an oboist breathes out first)."""
+"""Seconds after which lungs of usual size want fresh air even on an instrument that takes little (an oboist breathes
+out first)."""
 
 CIRCULAR_SHARE = 0.4
 """Part of the air that stays in the lungs of a player who breathes in through the nose."""

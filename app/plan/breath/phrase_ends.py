@@ -22,31 +22,35 @@ from app.plan.music.written_marks import WrittenMarks
 
 # Learned: log odds of a phrase's end, each where ...
 LONG_NOTE: Final = 0.8
-"""... the note before is twice as long as the notes around; four times as long counts twice, and no more."""
+"""Log odds of a phrase's end after a note twice as long as the notes around; four times as long counts twice, and no
+more."""
 SHORTER: Final = 0.55
-"""... the note is half as long as the one before, likewise."""
+"""Log odds of a phrase's end before a note half as long as the one before; a quarter counts twice, and no more."""
 LONGER: Final = -0.7
-"""... it is twice as long, likewise."""
+"""Log odds of a phrase's end before a note twice as long as the one before; four times as long counts twice, and no
+more."""
 AMONG_RUNNING: Final = -0.35
-"""... the one before is a running note (`RUNNING`)."""
+"""Log odds of a phrase's end after a running note (`RUNNING`)."""
 FALL: Final = -0.35
-"""... the place is weaker than the one of the note before, for every level between them, unless notes run."""
+"""Log odds of a phrase's end at a metrically weaker place than that of the note before, for every level between
+them, unless notes run."""
 BAR: Final = 0.25
-"""... a bar begins."""
+"""Log odds of a phrase's end where a bar begins."""
 LEAP: Final = 1.05
-"""... the line leaps a fourth or more."""
+"""Log odds of a phrase's end where the line leaps a fourth or more."""
 REPEATED: Final = 1.7
-"""... the note is repeated."""
+"""Log odds of a phrase's end between two equal notes."""
 RISING: Final = 0.2
-"""... the line rises."""
+"""Log odds of a phrase's end where the line rises."""
 LIKE_ENTRIES: Final = 1.75
-"""... in the bar (in half a bar, where there is one) the line comes in after rests; in part where it often does not."""
+"""Log odds of a phrase's end at the place in the bar (in half a bar, where there is one) at which the line comes in
+after rests; a part of it where it often does not."""
 AGAIN: Final = 1.75
-"""... what came after a rest comes again; less, the more often it does."""
+"""Log odds of a phrase's end where what came after a rest comes again; less, the more often it does."""
 TWO_BARS: Final = 1.55
-"""... the line last came in two bars ago, or a multiple of it; ..."""
+"""Log odds of a phrase's end two bars, or a multiple of that, after the line last came in."""
 FOUR_BARS: Final = 0.7
-"""... four bars: so much more."""
+"""Added to `TWO_BARS` after four bars or a multiple of that."""
 
 # What songs do not show.
 PLACE_COST: Final = 5.15
@@ -62,7 +66,7 @@ BEFORE_UPBEAT: Final = 0.8
 AFTER_UPBEAT: Final = -2.5
 """In running notes, before a stronger place, for every level between them, unless the note before is long."""
 AFTER_ENTRY: Final = -80.0
-"""The same where the upbeat itself comes in after a rest: rather two notes are left out elsewhere."""
+"""The weight `AFTER_UPBEAT` where the upbeat itself comes in after a rest: rather two notes are left out elsewhere."""
 BEFORE_TAIL: Final = -40.0
 """Between a dotted note and its short one off the beat: rather a note is left out elsewhere."""
 IN_STACCATO: Final = -40.0

@@ -38,7 +38,7 @@ SHORT_PLAYED_S: Final = (5.0, 3.5)
 LEAST_PLAYED_S: Final = 1.0
 """Playing before any breath in a rest shorter than `ALWAYS_S`, however small the lungs are."""
 SHORT_LEAST_PLAYED_S: Final = 1.5
-"""The same for rests shorter than `MIDDLE_S`."""
+"""Least playing time since the last breath from which a rest shorter than `MIDDLE_S` is used for one."""
 
 
 class RestNeeds(NamedTuple):

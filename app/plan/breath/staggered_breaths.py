@@ -43,7 +43,7 @@ LED_TO_SHARE = 0.4
 FROM_EDGES_S = 1.0
 """No one breathes so soon after a held note begins, or before it ends, unless the lungs are too small for that."""
 LEAST_STEP_S = 2 * FULL_BREATH_S
-"""However small the lungs are, breaths within a note are so far apart: half of it sounds."""
+"""Least seconds between breaths within one note, however small the lungs are: half of the note sounds."""
 TRIED = 17
 """Times that are compared for the breaths in a note."""
 COMPARED = 8

@@ -120,7 +120,7 @@ def channel_limits(channel: str, instrument: InstrumentMap, parameters: PlayerPa
 
 
 def least_s(channel: str, change: float) -> float:
-    """In how little time a body goes so far, at the least."""
+    """The least time in which a body covers a distance."""
     unit = CHANNELS[channel].unit
     if unit == "weight":
         return LEAST_MORPH_S

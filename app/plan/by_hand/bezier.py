@@ -14,7 +14,7 @@ from app.arrays import FloatArray
 from app.plan.events_by_hand import CurveSegment
 
 HALVINGS: Final = 40
-"""After so many the place on a segment is known to the last bits that matter."""
+"""Bisection steps after which the place on a segment is exact to the last bits that matter."""
 THIRD, EVEN = 1.0 / 3.0, 1e-9
 COLUMNS: Final = 9
 """Columns of a row: the fields of `CurveSegment`, in its order."""
@@ -38,7 +38,7 @@ def sampled(segments: Sequence[CurveSegment], times_s: FloatArray) -> FloatArray
 
 
 def sampled_rows(table: FloatArray, times_s: FloatArray) -> FloatArray:
-    """The same from a table of segments that touch one another."""
+    """Sample curves given as a table of segments that touch one another."""
     result = np.zeros(len(times_s))
     if not len(table):
         return result

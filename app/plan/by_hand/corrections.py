@@ -165,7 +165,7 @@ class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """The other expression, if it is replaced."""
+        """The id of the expression that replaces the generated one, if any."""
         return super().named if self.expression is None else ("expression", self.expression)
 
 
@@ -242,8 +242,8 @@ class Vary(Own, frozen=True, tag="vary"):
 
 
 class PlayStyle(Own, frozen=True, tag="play_style"):
-    """Play these bars in another style. ``name`` distinguishes them; it comes and goes within the region, in so many
-    ticks."""
+    """Play these bars in another style. ``name`` distinguishes such regions; the style fades in and out within the
+    region, each over a number of ticks."""
 
     event_kind: ClassVar[str] = "style"
     style: str

@@ -21,9 +21,9 @@ TRUNK_SHARES = {"spine": 0.40, "chest": 0.35, "upperChest": 0.25}
 NECK_SHARES = {"neck": 0.45, "head": 0.55}
 
 BELL_UP = {"bell": 0.30, "neck": 0.45, "trunk": 0.25}
-"""A bell that goes up or down takes head and trunk along ..."""
+"""Shares of a rise of the bell that bell, neck, trunk and so on take; they add up to the whole angle."""
 BELL_LEFT = {"bell": 0.4, "neck": 0.4, "trunk": 0.2}
-"""... and one that goes to a side too; the shares make the whole angle."""
+"""Shares of a turn of the bell to a side that bell, neck, trunk and so on take; they add up to the whole angle."""
 
 BELL_ROOM = 0.36
 """Share of a carriage's range up and down that the animator may use beside the melody: the more an instrument turns

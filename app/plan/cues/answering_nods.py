@@ -14,7 +14,7 @@ from app.score.model import Note
 
 SOONEST_S: Final = 0.02
 LATEST_S: Final = 0.06
-"""Followers nod so much later than the leader, each by a time of their own."""
+"""Largest delay of a follower's nod behind the leader's; each follower has a delay of its own."""
 SMALLEST: Final = 0.3
 LARGEST: Final = 0.55
 """Size of their nods beside the leader's."""

@@ -14,7 +14,8 @@ from app.plan.music.spans import Spans
 
 COMMON_REST_S = 1.5
 COMMON_REST_BEATS, COMMON_REST_LEAST_S = 2.0, 0.75
-"""A rest of all players needs a new start if it lasts so many seconds, or so many beats that are not too quick."""
+"""Length from which a rest of all players needs a cue: a number of beats that are not too quick, or a number of
+seconds."""
 PAUSE_BARS, PAUSE_MOST_S = (1.0, 2.0), 4.0
 """A silence of all for a whole bar is a general pause; one that is longer in either way is a rest that is counted."""
 EXACT = 1e-6
@@ -26,14 +27,15 @@ HELD_SILENCE_BEATS = 0.5
 LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
 """Length of a common note beyond which no one counts: players need a cue even where they go on without any silence."""
 STEADY_TEMPO, STEADY_BEATS = 1.1, 4
-"""A new tempo holds for so many beats, within this factor; one that goes on changing is followed, not given."""
+"""A new tempo gets a cue if it keeps within this factor for this number of beats; a tempo that goes on changing is
+followed."""
 SLOWED_TEMPO = 1.5
 """After no more than `STEADY_BEATS` beats that were longer by this factor the tempo from before is given again."""
 
 LONG_REST_S, LONG_REST_BARS = 8.0, 4
-"""After a rest of either length a player is brought in ..."""
+"""Length of a rest, in seconds or in bars, after which a single player is brought in; see `LONG_REST_LEAST_S`."""
 LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
-"""... which is at least so long in both."""
+"""Least length that a rest must have in both units to count for `LONG_REST_S`."""
 ON_BEAT = 0.12
 """Distance from a beat, in beats, within which a note is on it: no one plays more exactly."""
 

@@ -21,9 +21,9 @@ from metadata.gestures import GazeTrack
 
 EYES_RAD: Final = math.radians(35.0)
 PLAYING_HEAD: Final = 0.3
-"""Share of a look that the head turns while the instrument is at the lips ..."""
+"""Share of a look that the head turns while the instrument is at the lips; the eyes do the rest."""
 FREE_HEAD: Final = 0.65
-"""... and one that has not."""
+"""Share of a look that the head turns while the instrument is not at the lips."""
 MOST_RAD: Final = 1.1
 """No one looks further aside for it."""
 MOST_UP_RAD: Final = 0.35
@@ -34,13 +34,13 @@ OWN_HANDS_M: Final = 0.45
 NEAREST_M: Final = 0.5
 """Least distance between two players."""
 TO_GIVER_S: Final = (0.25, 0.6)
-"""Range of the time before the cue begins at which players look at its giver ..."""
+"""Range of the time before a cue begins at which players look at its giver; see `STAYS_S`."""
 STAYS_S: Final = (0.05, 0.35)
-"""... and so long after the entry."""
+"""Range of the time after the entry for which players go on looking at the giver of a cue."""
 TO_TAKERS_S: Final = (1.0, 1.6)
-"""Range of the time before the cue at which its giver looks at the others ..."""
+"""Range of the time before a cue at which its giver looks at the others; see `LOOK_S`."""
 LOOK_S: Final = (0.6, 0.95)
-"""... for this time."""
+"""Range of the length of the look that a giver of a cue has for the others."""
 LEAST_S: Final = 0.5
 """A shorter glance is none."""
 SIDE_RAD: Final = (0.5, 1.0)

@@ -28,17 +28,17 @@ PHRASE_CHANCE: Final = 0.5
 PHRASE_S: Final = (0.55, 0.2)
 PHRASE_REST_S: Final = 0.3
 BAR_EVERY_S: Final = 7.0
-"""About so often a player looks up before a bar line."""
+"""Mean seconds between a player's looks up before bar lines."""
 NEAR_S: Final = 2.0
 """A bar line further from what is played is none to look up at; in long rests other looks are planned."""
 LONGEST_BAR_S: Final = 8.0
 BAR_S: Final = (0.5, 0.18)
 QUICK_S: Final = 0.2
-"""From onset to onset: who has so much to read does not look up."""
+"""Seconds from onset to onset below which a player, busy reading, does not look up."""
 LEAST_APART_S: Final = 1.4
 LONGEST_S: Final = 3.5
 PAGE_S: Final = 0.7
-"""No one looks up longer, but into the last note: the page is read for so long in between."""
+"""Seconds for which the page is read between two looks up."""
 
 
 def looks_up(

@@ -25,13 +25,14 @@ from instrument_maps.fingering_label import written_choice
 from instrument_maps.model import Control, Fingering, InstrumentMap
 
 OUT_OF_PLACE_COST = 6.0
-"""... and so much more than its rank elsewhere."""
+"""Cost, beside its rank, of a fingering with a purpose (`IN_PLACE_COST`) outside that purpose."""
 BESIDE_COST = -0.5
-"""A fingering that keeps a lever turned (tag "beside") costs this next to a note whose first choice turns it, ..."""
+"""Cost of a fingering that keeps a lever turned (tag "beside") next to a note whose first choice turns it; see
+`BESIDE_S`."""
 BESIDE_S = 0.5
-"""... unless so long a silence is between them."""
+"""Silence between the two notes from which `BESIDE_COST` no longer applies."""
 RARE_TRILL_COST = 18.0
-"""... and so much more in a trill, which saves motion with every step."""
+"""Further cost of a rare fingering in a trill, where it would save motion with every step."""
 QUICK_S = 0.15
 """A note is fast that lasts no longer than this, from the one before or to the next."""
 LOUD, SOFT = 0.75, 0.35
@@ -42,8 +43,8 @@ per second, alternating fingers about twice that."""
 TRILL_COST = 3.0
 """A trill repeats its motion, so it tires: hurry counts this much more."""
 LIP_TRILL_WEIGHT, LEVER_TRILL_WEIGHT = 1.1, 0.75
-"""A step of a trill that nothing but the lips makes counts as so many moves; one that turns a thumb's lever as so many
-more, for the lever is slow."""
+"""Moves that a step of a trill counts as if the lips alone make it, and further moves if it turns a thumb's lever,
+which is slow."""
 MOVE_COST = 0.15
 """Each finger that moves in a hurried step, where keys may be left down: it decides between what is else alike."""
 GLISSANDO_COST = 6.0
@@ -51,7 +52,7 @@ GLISSANDO_COST = 6.0
 LIFTED_S = 0.12
 """In a silence this long a finger is free: it goes from key to key for nothing."""
 KEY_TO_KEY_MOVES = 4
-"""Such a way counts as so many moves more when passages are compared."""
+"""Further moves that a finger's way from one key to another counts as when passages are compared."""
 EASY_STEP_S, HURRIED_STEP_S = 0.5, 0.12
 """Steps in which an awkward change costs nothing, and all; in proportion between."""
 ROLL_COST = 0.8
@@ -61,15 +62,15 @@ TOGETHER_COST = 0.9
 TURN_COST = 0.6
 """A hand turns to work a key with the side of a finger while others of its fingers move."""
 BREAK_COST, BREAK_FINGERS = 0.25, 3
-"""Each finger beyond so many that moves as the line crosses into another register."""
+"""Cost of each moving finger beyond this number where the line crosses into another register."""
 SLIDE_EASY = 0.7
 """A slide that needs at most this part of the time it has costs nothing."""
 SLIDE_COST = 3.0
 """Cost of using all the time there is, above `SLIDE_EASY`."""
 SLIDE_LATE = 1.8
-"""Cost of not arriving in time, ..."""
+"""Cost of a slide that does not arrive in time; see `SLIDE_LATE_RATE`."""
 SLIDE_LATE_RATE = 3.0
-"""... and for each time more that it would need."""
+"""Further cost of a late slide for each multiple of the available time that it would need."""
 SLIDE_MAX_SPEED_M_S = 2.5
 """Speed of a trombonist's arm in fast passages, for maps that do not say."""
 SLIDE_METRE_COST = 1.0

@@ -22,12 +22,12 @@ FULLY_AUDIBLE_S = 0.25
 FORKED_COST = 0.5
 """A forked fingering sounds covered, beside its rank."""
 IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
-"""A fingering that is meant for trills, fast passages, chromatic runs, attacks, loud or soft notes costs this there,
-whatever its rank, ..."""
+"""Costs of fingerings meant for trills, fast passages, chromatic runs, attacks, loud or soft notes, there and
+whatever their rank; see `OUT_OF_PLACE_COST` for elsewhere."""
 HELD_COST = 0.1
 """A key left down that the note does not need (tag "held") costs this, whatever its rank."""
 RARE_COST = 10.0
-"""A fingering that players know and hardly ever take (tag "rare") costs this beside its rank, ..."""
+"""Cost, beside its rank, of a fingering that players have heard of and hardly ever take (tag "rare")."""
 
 
 @dataclass(frozen=True)

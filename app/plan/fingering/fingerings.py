@@ -159,7 +159,8 @@ def _controls(
 
 @lru_cache(maxsize=1024)
 def _reason(rule: str, label: str, instead: tuple[str, int] | None = None) -> Message:
-    """Equal ones are kept once; ``instead`` of which first choice, and in how little time."""
+    """Return the reason of a fingering as one shared object for equal ones; ``instead`` of which first choice, and
+    in how little time."""
     more: dict[str, Argument] = {} if instead is None else {"first": instead[0], "time_ms": instead[1]}
     return Message(rule, {"label": label, **more})
 

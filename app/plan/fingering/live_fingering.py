@@ -38,7 +38,7 @@ class NextFingering:
         self._controls = pitch_controls(instrument)
 
     def fingering(self, pitch: int, column: int) -> Fingering:
-        """One of the fingerings of a concert pitch within the range."""
+        """Choose a fingering of a concert pitch within the range."""
         return self._table.choices[pitch - self._low][column]
 
     def column(self, before: Sequence[Fingered], pitch: int, onset_s: float, loudness: float) -> int:

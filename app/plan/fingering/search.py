@@ -111,7 +111,7 @@ def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
 
 
 def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -> IntArray:
-    """The same where a cost concerns three notes: a chain of pairs of neighbouring choices."""
+    """Minimise costs that concern three notes: a chain of pairs of neighbouring choices."""
     total = local[0][:, None] + cost[0] + local[1][None, :]
     back: list[IntArray] = []
     for note in range(2, len(local)):

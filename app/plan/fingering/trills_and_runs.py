@@ -14,11 +14,11 @@ TRILL_S = 0.15
 """A trill or tremolo is at least `TRILL_NOTES` notes of at most this length that alternate between two pitches."""
 TRILL_NOTES = 4
 WIDEST_TRILL, WIDEST_TREMOLO = 2, 12
-"""Semitones; ..."""
+"""Widest interval of a trill and of a tremolo, in semitones."""
 TREMOLO_S = 0.09
-"""... what is wider than a trill counts only when it is this quick: else it is a figure of accompaniment."""
+"""Longest step in seconds of a tremolo, which is wider than a trill; slower ones are figures of accompaniment."""
 GLISSANDO_STEPS = 3
-"""A glissando is at least so many semitones in one direction, each within `TRILL_S`, without a gap."""
+"""Least number of semitones of a glissando: in one direction, each within `TRILL_S`, without a gap."""
 CHROMATIC_S = 0.3
 """Longer steps belong to no chromatic run: there is time for the full fingering."""
 TOUCHING_S = 0.01

@@ -28,18 +28,20 @@ FOOT_KINDS: Final = answered_by("feet")
 STEP_CHANCE, STEP_LEAST_S = 0.3, 12.0
 """Chance of a step at the end of a phrase, and the least time since the last one."""
 STAYS_S = 2.5
-"""A foot that is put somewhere stays at least so long."""
+"""Least seconds for which a foot stays where it was put."""
 TAP_CHANCE, TAP_OFTEN = 0.22, 1.7
-"""Chance that a player who taps as usual taps to a phrase, and the power of the amount with which others do ..."""
+"""Chance that a player with the usual amount of tapping taps to a phrase; with other amounts it goes with this power
+of the amount."""
 TAP_PHRASE_S = 3.0
-"""... if they are so long."""
+"""Shortest phrase in seconds that is tapped to."""
 TAP_S, TAP_SHARE, TAP_APART_S = 0.4, 0.6, 0.38
-"""Toes come up so long before the beat, or this share of it before; what is quicker is tapped to every other beat."""
+"""Time before the beat at which toes rise, in seconds or as a share of the beat if that is less; beats closer than
+the third value are tapped every other time."""
 HEEL_CHANCE, HEEL_WEIGHT = 0.55, 0.4
 """Chance that a shift of this weight lifts the other heel."""
 HEEL_AFTER_S, HEEL_LEAST_S, HEEL_MOST_S = 0.5, 1.4, 5.0
 CLEAR_S = 0.6
-"""A heel keeps down so long before and after a foot steps."""
+"""Seconds before and after a step during which a heel stays down."""
 
 Foot = Literal["left", "right"]
 Span = tuple[float, float]

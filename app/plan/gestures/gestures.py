@@ -37,17 +37,18 @@ SHIFT_MEAN_S = 9.0
 SHIFT_LEAST_S = 3.0
 MOST_IN_SILENCE = 12
 CONTOUR_SEMITONES = 10.0
-"""This far above or below the line's mean the bell is as high or as low as it gets."""
+"""Distance from the line's mean pitch at which the bell is as high or as low as it gets."""
 CONTOUR_STEP = 0.12
 """Smaller differences of the bell's height are one gesture."""
 VIGOUR_STEP = 1.4
 """Factor of the vigour within which loudness counts as unchanged."""
 ARCH, RELEASE, ARCH_BEATS = 0.15, 0.6, 4
-"""The bell rises so much to the climax of a phrase, and sinks at its end by that share of it; of so many beats."""
+"""Rise of the bell to the climax of a phrase, the share of it by which it sinks at the phrase's end, and the beats
+that a phrase needs for it."""
 ARCH_LOUDNESS, ARCH_DOWNBEAT = 1.0, 0.1
 """Weights of a climax besides the height of the bell: loudness above the phrase's mean, and the first beat of a bar."""
 ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
-"""The bell rises with an accent by so much for its loudness, and no more."""
+"""Rise of the bell with an accent, in proportion to its loudness, and the most."""
 
 
 def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, ...]:

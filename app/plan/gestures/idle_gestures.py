@@ -27,21 +27,21 @@ AGAIN_CHANCE: Final = 0.3
 """Instead of a further look the hands settle again."""
 LOOK_S: Final = (2.2, 3.6)
 LOOK_EVERY_S: Final = 3.5
-"""About so much time lies between two looks about ..."""
+"""Mean seconds between two looks about in a rest."""
 MOST_LOOKS: Final = 8
-"""... and no one does it more often in one rest."""
+"""Most looks about in one rest."""
 COUNT_BARS: Final = 2
 COUNT_LEAST_BEATS: Final = 3
 COUNT_CHANCE: Final = 0.65
 
 HELD_BEFORE_S: Final = 0.2
-"""The body comes to rest with the end of the last note ..."""
+"""Seconds before the end of the last note at which the body comes to rest."""
 STILL_LOWERING_S: Final = 0.5
-"""... and moves again once the instrument is on its way down."""
+"""Seconds of the instrument's way down after which the body moves again."""
 LOOK_UP_S: Final = 1.7
-"""After the last note of all the eyes go up to the audience ..."""
+"""Seconds after the last note at which the eyes go up to the audience."""
 BOW_S: Final = 3.1
-"""... and the bow begins."""
+"""Seconds after the last note at which the bow begins."""
 BOW_LASTS_S: Final = 2.5
 APART_S: Final = 0.25
 """No two bow at exactly the same time: they differ by up to this."""

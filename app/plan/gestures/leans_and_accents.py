@@ -23,28 +23,28 @@ from app.score.tempo import TempoMap
 
 LEAN_BACK, ACCENT, LOUD = Message("gesture.lean_back"), Message("gesture.accent"), Message("gesture.accent_loud")
 REST_S = 0.9
-"""A silence so long divides phrases, breath or none."""
+"""Silence in seconds that divides phrases, with or without a breath."""
 LONGEST_S = 12.0
 """Longest lean; longer phrases are leant into in parts."""
 WHOLE_S = 4.0
-"""A phrase so long is leant into as far as any; a shorter one less in proportion."""
+"""Length of a phrase from which the lean is full; a shorter phrase is leant into in proportion."""
 SHORTEST_S = 1.2
 CLIMAX_FROM, CLIMAX_TO = 0.3, 0.8
 """Range of the place of the greatest lean, in shares of a phrase."""
 HEIGHT_SEMITONES = 12.0
-"""A note so much higher counts for the climax as one that is as loud as can be beside a silent one."""
+"""Height above the other notes that counts for the climax as much as the loudest note next to a silent one."""
 LONG_SHARE = 0.15
-"""A long note counts so much."""
+"""Weight in the climax of each second of a note's length, two at most."""
 BACK_CHANCE = 0.2
 """Chance that a phrase opens up: the trunk goes back to the climax instead of forward."""
 
 ACCENT_S = 1.1
-"""An accent lasts so long at a slow tempo, at a quick one 1.6 beats."""
+"""Length of an accent's motion at a slow tempo; at a quick one it is 1.6 beats."""
 ACCENT_BEATS = 1.6
 SHORTEST_ACCENT_S = 0.6
 ON_BEAT_S = 0.03
 APART_BEATS = 1.5
-"""Accents are at least so far apart; those of notes played louder than their neighbours, a third of it."""
+"""Least distance of accents in beats; a third of it for notes played louder than their neighbours."""
 LOUDER, DOWNBEAT, LONG, LEAP = 6.0, 0.22, 0.35, 0.22
 """Weights of a note's strength: loudness above its neighbours, the first beat of a bar, length, a leap up to it."""
 STRONG = 0.66
@@ -52,7 +52,7 @@ STRONG = 0.66
 CHANCE = 0.62
 LEAST_ACCENT = 0.2
 AFTER_BREATH = 0.6
-"""Right after a breath, which the trunk shows too, an accent is short and so much smaller."""
+"""Factor on an accent right after a breath, which the trunk shows too; such an accent is also short."""
 CUED_S = 0.35
 """An entry that is cued has its nod."""
 
@@ -132,7 +132,7 @@ def leans(
 
 @lru_cache(maxsize=256)
 def _leant(length_s: float) -> Message:
-    """Equal ones are kept once."""
+    """Return a lean as one shared object for equal ones."""
     return Message("gesture.lean", {"length_s": length_s})
 
 

@@ -28,7 +28,8 @@ BEFORE_BREATH_S = 0.2
 LOW_AT_START_S = 0.3
 """Least time at rest before a player comes up for the first time."""
 APART_S = 0.45
-"""No two do it at exactly the same time: each lowers up to so much later, and is up up to so much sooner."""
+"""Largest random delay with which a player lowers the instrument, and raises it earlier: no two do it at the same
+moment."""
 HELD_S = 0.9
 """After the last note the instrument stays where it is, as long as the sound hangs in the air."""
 

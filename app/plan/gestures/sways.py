@@ -23,15 +23,15 @@ STIR_S = 10.0
 RESTING = 0.35
 """Size of the sway while not playing."""
 BLOCK = 4
-"""Swings are chosen for so many of the shortest at once."""
+"""Number of the shortest swings for which a division is chosen at a time."""
 LEAST_SIZE = 0.75
 """Each of the shortest is smaller than chosen by up to this factor, so that no two are alike."""
 FORMS: tuple[tuple[int, ...], ...] = ((4,), (2, 2), (2, 1, 1), (1, 1, 2), (1, 2, 1), (1, 1, 1, 1))
-"""Divisions of a block ..."""
+"""Divisions of a block of beats into swings."""
 CALM, LIVELY = (0.34, 0.36, 0.1, 0.1, 0.08, 0.02), (0.06, 0.34, 0.18, 0.16, 0.14, 0.12)
-"""... and how often, where it is played softly and loudly."""
+"""Frequencies of the `FORMS` where the music is soft and calm, and where it is loud."""
 SOFT, LOUD = 0.5, 1.4
-"""Vigours at which it is so."""
+"""Vigours of the music at which `CALM` and `LIVELY` apply fully."""
 
 
 @dataclass(frozen=True, eq=False)

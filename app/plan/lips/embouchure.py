@@ -91,7 +91,7 @@ def plan_embouchures(
 
 @lru_cache(maxsize=8192)
 def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> Message:
-    """Equal ones are kept once."""
+    """Return the reason of an embouchure as one shared object for equal ones."""
     return Message(reported, {"pitch": pitch, "low": low, "high": high, "loudness": loudness})
 
 

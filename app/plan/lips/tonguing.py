@@ -33,7 +33,7 @@ SMEAR_M: Final = 0.04
 SINGLE_BPM: Final = (132.0, 144.0)
 """Quarters per minute at which the single strokes of sixteenths end: between these, by player."""
 REED_FASTER: Final = 1.08
-"""Single strokes on a reed go on up to so much faster."""
+"""Factor by which single strokes on a reed may be faster than on brass."""
 REEDS: Final = frozenset({"single_reed", "double_reed"})
 LEAST_FAST_STEPS: Final = 2
 """Two quick strokes in a row (one step) are made with the tip at any speed."""
@@ -145,7 +145,7 @@ def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
 
 @lru_cache(maxsize=1024)
 def _reason(kind: str, rate: float, limit: float, by_hand: bool) -> Message:
-    """Equal ones are kept once."""
+    """Return the reason of a tongue stroke as one shared object for equal ones."""
     if kind in ("double", "triple"):
         return Message(f"tongue.{kind}", {"rate": rate, "limit": limit})
     if kind.startswith(WRITTEN) and by_hand:

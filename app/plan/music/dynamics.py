@@ -16,11 +16,11 @@ LOUDNESSES = (0.0, 0.26, 0.39, MEZZOFORTE, 0.76, 0.88, 1.0)
 VIGOURS = (0.1, 0.25, 0.5, 1.0, 1.4, 1.8, 2.0)
 """Size of motions at each dynamic, in multiples of the usual one."""
 AROUND_S = 1.0
-"""A body follows the mean so far before and after."""
+"""Seconds before and after a moment over which the loudness that a body follows is averaged."""
 HELD_S = 0.5
-"""A longer note is looked at in parts so long: a crescendo within it shows."""
+"""Length of the parts in which a longer note's loudness is examined, so that a crescendo within it shows."""
 ACCENT = 0.1
-"""A note so much louder (0..1) than those around it is accented: 13 of 127 velocities."""
+"""Difference in loudness (0..1) from the notes around that makes a note accented: 13 of 127 velocities."""
 ACCENT_NOTES = 3
 """Notes before and after a note that are around it."""
 

@@ -29,7 +29,7 @@ MEANT_SPREAD: Final = 32.0
 """From here on the velocities are dynamics: two marks apart."""
 
 MOST_OFTEN: Final = 0.3
-"""A default that so many of the notes have is the level without dynamics."""
+"""Share of the notes from which a program's default velocity is the level without dynamics."""
 MOST_SHIFT: Final = 7.0
 """Most velocities by which the middle of what is played moves towards mezzoforte: less than half a mark."""
 USUAL_RANGE: Final = (49.0, 96.0)

@@ -13,7 +13,7 @@ BRIGHT_BPM = 96.0
 BRIGHT_LOUDNESS = 0.6
 """Loudness 0..1: a little below mezzoforte."""
 THIRD_SHARE = 1.5
-"""The mode's own third sounds so much longer than the other."""
+"""Ratio of the sounding times of the mode's own third and the other third from which the mode is certain."""
 
 
 class Ending(msgspec.Struct, frozen=True):

@@ -27,9 +27,9 @@ GIVEN_MOST = 0.9
 """Bar lines are doubted where their weight is less than this; all beats of a bar have 1 on average."""
 BEST_LEAST = 1.5
 CLEAR = 1.3
-"""The beat that bars begin on instead has at least `BEST_LEAST`, and so many times the weight of any other."""
+"""Factor by which the beat that bars begin on instead must outweigh every other, and at least `BEST_LEAST`."""
 LONG_UNITS = 0.75
-"""Notes of so many beats and more begin on a beat, unless they are syncopated."""
+"""Length in beats from which notes begin on a beat unless they are syncopated."""
 LONG_NOTES = 8
 """Fewer of them show no beat."""
 OFF_BEAT_SHARE = 0.8
@@ -78,7 +78,7 @@ def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, 
 
 
 def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
-    """Return how long after the given beats the felt ones come: less than a beat, 0 unless the long notes show another.
+    """Ticks by which the felt beats come after the given ones: less than a beat, 0 unless long notes show otherwise.
 
     Parameters
     ----------

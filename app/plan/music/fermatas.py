@@ -17,9 +17,9 @@ from app.arrays import FloatArray, IntArray, rows_of
 from app.plan.music.piece import NoteTimes, Piece
 
 HELD_TEMPO: Final = 1.5
-"""Least factor by which the held beat is slower than the beats before and after it ..."""
+"""Least factor by which a held beat is slower than the beats before and after it, in a steady tempo."""
 LIVE_HELD_TEMPO: Final = 2.0
-"""... or by this one, where the tempo was played, and so never steady."""
+"""Least factor by which a held beat is slower, where the tempo was played and so is never steady."""
 LIVE_SPREAD: Final = 1.1
 """A tempo whose beats differ by this factor was played, or is changing."""
 MORE_S: Final = 0.2
@@ -34,7 +34,7 @@ LONG_BEATS: Final = 2
 """Least length of each of several in a row, in felt beats, or before a rest."""
 BEFORE_BEATS: Final = 8
 AFTER_BEATS: Final = 4
-"""The tempo before, and after, is the median of so many beats."""
+"""Beats whose median is the tempo before a fermata, and after it."""
 OTHER_TEMPO: Final = 1.15
 """A tempo that is faster or slower by this factor is another one."""
 TOGETHER_BEATS: Final = 0.12
@@ -219,7 +219,7 @@ def _is_live(beats: FloatArray) -> bool:
 
 
 def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
-    """Seconds per tick in each of so many beats from a tick on, or before it where ``count`` is negative."""
+    """Seconds per tick in each of ``count`` beats from a tick on, or before it where ``count`` is negative."""
     beat = int(piece.beat_ticks_at(np.array([tick]))[0])
     edges = tick + beat * np.arange(min(count, 0), max(count, 0) + 1, dtype=np.float64)
     lasts: FloatArray = np.diff(piece.clock.seconds(edges)) / beat

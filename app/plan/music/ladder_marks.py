@@ -27,7 +27,8 @@ from app.plan.music.velocity_ladders import (
 )
 
 STROKES: Final = 5
-"""In a line of more than four times as many notes, one that differs from so many around it is no dynamic."""
+"""Number of equal notes around a single different one that make it no dynamic, in a line of more than four times as
+many notes."""
 UNMARKED: Final = 0.95
 """This share of a part without dynamic marks has the default, or what articulations make of it."""
 RUN, HAIRPIN, SHARED, APART = 3, 6, 0.3, 4
@@ -35,8 +36,8 @@ RUN, HAIRPIN, SHARED, APART = 3, 6, 0.3, 4
 that grow or fade, or where they are so many velocities apart."""
 
 _OWN_RANGE: Final = 6.0
-"""By so much (a logarithm of likelihood) another instrument's range must explain a part better than its own; that of no
-instrument a whole piece."""
+"""Advantage (logarithm of likelihood) with which another instrument's range must explain a part to be taken instead
+of its own; that of no instrument must explain a whole piece."""
 _SET_RANGE, _SET_LEVELS, _SET_SHARE = 12.0, 3, 0.6
 """By so much a range that a score sets itself must explain it better; so many levels, and so many of their notes, must
 be its marks exactly."""
@@ -163,7 +164,7 @@ def has_no_marks(name: str, written: Sequence[tuple[IntArray, int | None]], whol
 
 
 STRESS: Final = 12
-"""An articulation that adds so much is an accent; less is staccato's."""
+"""Addition to the velocity from which an articulation is an accent; a smaller one is a staccato's."""
 _ACCENT: Final = 0.16
 """Loudness that an accent adds, 0..1: about a mark."""
 _CHANGE_COST, _FURTHER_COST = 0.8, 0.15

@@ -11,24 +11,25 @@ from app.plan.music.piece import EPSILON, TOUCHING_GATE, LineTimes, Piece, gaps_
 from app.plan.music.rests import AUDIBLE_S, SILENT_S, are_audible, are_certain
 
 WRITTEN_SHARE = 0.9
-"""Share of notes on fractions of a quarter from which they were not played into the file ..."""
+"""Share of notes on fractions of a quarter from which a file is taken as written and not played; see `PLAYED_LEAST`."""
 PLAYED_LEAST = 4
-"""... nor where fewer than this lie elsewhere."""
+"""Number of notes off those fractions below which a file is taken as written all the same."""
 DIVISIONS = ((1,), (2,), (3, 4), (6, 8), (12,))
 """Divisions of a quarter, the simplest first."""
 RARE = 4
-"""Thirds or fourths of a quarter are rare in a line that has this many times as many of the others: ..."""
+"""Thirds or fourths of a quarter count as rare in a line that has this many times as many of the others; see
+`FARTHER`."""
 FARTHER = 4.0
-"""... then they count as so much farther away."""
+"""Factor on the distance of a note from a rare fraction of a quarter."""
 NEAREST = 1.0 / 24.0
 """Quarters within which there is always a place of the finest division."""
 EARLY_OR_LATE_S = 0.045
 """Distance of a note's beginning from its place."""
 EARLY_RELEASE_S = 0.08
-"""Time by which a note ends sooner than written ..."""
+"""Seconds by which a note may end sooner than written."""
 RELEASE_SHARES = (0.1, 0.22)
-"""... or which part of the time to the next onset, if that is more: the first at least, and up to the last where the
-line's notes are usually released so early, ..."""
+"""Share of the time to the next onset by which a note may end sooner than written, if that is more than
+`EARLY_RELEASE_S`: the least, and the most, where the line's notes usually do."""
 RELEASE_GATES = (0.7, 1.02)
 """Parts of the time to the next onset that notes without a rest after them sound for."""
 EARLIEST_PERCENT = 10.0
@@ -38,13 +39,14 @@ LEAST_RELEASED = 8
 RELEASE_MARGIN = 1.2
 """A note may be released earlier than nine of ten by this factor."""
 RELEASE_NOTE_SHARE = 0.5
-"""... but no more than this part of what sounds of it, ..."""
+"""Largest share of a note's sound by which it may end sooner than written."""
 LATE_RELEASE = 0.05
-"""... and how much later, in quarters."""
+"""Quarters by which a note may end later than written."""
 SLURRED_SHARE = 0.1
 """Least share of notes that meet the next one in a line with played onsets; fewer do by chance."""
 STEADY_QUARTERS = 24
-"""The tempo of the score is the median of so many quarters before and after: a shorter ritardando is none."""
+"""Quarters before and after a place whose median is the tempo of the score there: a shorter ritardando does not
+count."""
 PLACES = 48
 """Places of a quarter that are distinguished, however finely a file counts."""
 SHORTEST_REST = 0.2

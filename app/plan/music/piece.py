@@ -235,9 +235,10 @@ def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> BoolArray:
 
 
 STACCATO_GATE = 0.6
-"""A note that lasts no longer share of the time to the next one is staccato; notation programs play it by half..."""
+"""Share of the time to the next note up to which a note is staccato; notation programs play it by half. See
+`STACCATO_QUARTERS`."""
 STACCATO_QUARTERS = 1.0
-"""... where the next one comes so soon: later, what follows is a rest."""
+"""Quarters to the next note within which `STACCATO_GATE` applies: later, a rest follows."""
 
 
 def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> BoolArray:
@@ -260,7 +261,7 @@ def note_times(
     written: WrittenMarks | None = None,
     levels: tuple[float, ...] = (),
 ) -> LineTimes:
-    """The same of notes, with the loudness and the levels that are known of them (see `MonophonicPart`).
+    """The times of some notes, with what is given of their loudness and levels (see `MonophonicPart`).
 
     Parameters
     ----------
@@ -298,7 +299,7 @@ def note_times(
 
 
 def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
-    """Loudness so many dynamics louder."""
+    """A loudness raised by a number of dynamic levels."""
     if not rows.any():
         return loudness
     return np.where(rows == 0.0, loudness, loudness_of_rows(rows_of_loudness(loudness) + rows))

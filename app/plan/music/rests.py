@@ -30,9 +30,9 @@ SAME_GATE = 0.12
 RUN_NOTES = 3
 """Number of notes in a row that show an articulation; a pair may be two notes with a rest each."""
 SLOW_S = 0.5
-"""Length of silences between which ..."""
+"""Length of the silences between notes from which a run needs `SLOW_RUN_NOTES`."""
 SLOW_RUN_NOTES = 8
-"""... more notes are needed for a run: a few may have a rest each."""
+"""Notes of a run with long silences: a few notes may have a rest each."""
 HABIT_SHARE = 0.5
 """Part of a line's notes that makes what they do its habit."""
 HABIT_NOTES = 6
@@ -112,7 +112,8 @@ def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
 
 
 def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
-    """(N-1,): whether a note stands in a run of so many, of equal steps with equal gates."""
+    """(N-1,): whether a note stands in a run of equal steps with equal gates that has at least a given number of
+    notes."""
     result = np.zeros(len(steps), dtype=bool)
     count = len(steps) - notes + 1
     if count > 0:

@@ -187,7 +187,7 @@ def _divided(joined: BoolArray, stroke: list[str]) -> tuple[BoolArray, BoolArray
 
 
 def unwritten(count: int) -> WrittenMarks:
-    """Return the marks of so many notes without any, read from sound."""
+    """Marks of a number of notes without any, as read from sound."""
     none = np.zeros(count, dtype=bool)
     names = ("",) * count
     level, swell = np.full(count, np.nan), np.zeros(count)

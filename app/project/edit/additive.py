@@ -21,7 +21,7 @@ Keys: TypeAlias = Mapping[str, Collection[int]]
 """Ticks of keys, by the name of their curve."""
 Side: TypeAlias = Literal["arrive", "leave"]
 BLEND_BEATS: Final = 1
-"""A new curve comes in and goes in so many quarters."""
+"""Quarters over which a new curve fades in and out."""
 DECIMALS: Final = 5
 
 

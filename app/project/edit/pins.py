@@ -21,7 +21,7 @@ _REACH_BEATS: Final = 8
 _STEEPEST: Final = 0.7
 """Largest share of the time between beats that is taken next to a moved one."""
 _LEAST_S: Final = 0.02
-"""Pins lie so far apart at least, in the recording."""
+"""Least distance of two pins in the recording, in seconds."""
 
 
 def recording_second(project: Project, tick: int) -> float:

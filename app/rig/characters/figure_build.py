@@ -142,7 +142,7 @@ def transforms_differ(a: FloatArray, b: FloatArray) -> bool:
 
 
 def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, FloatArray]) -> FloatArray:
-    """Rest transforms (N, 4, 4): what is bound as it was bound, the rest as it hangs from that.
+    """Rest transforms (N, 4, 4): bound joints as they were bound, the others as they hang from those.
 
     The skin is exact in that pose alone: in any other, vertices of several bones are blended twice.
 
@@ -174,7 +174,7 @@ def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, Flo
 def turned(
     nodes: NodeHierarchy, parts: Sequence[FigurePart], turn: FloatArray
 ) -> tuple[NodeHierarchy, tuple[FigurePart, ...]]:
-    """The same with the world turned by a (4, 4) matrix."""
+    """The figure with its world turned by a (4, 4) matrix."""
     return (
         replace(
             nodes,

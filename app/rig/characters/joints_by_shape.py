@@ -20,7 +20,7 @@ MIRROR_TOLERANCE: Final = 0.03
 OFF_CENTRE: Final = 0.02
 """A bone farther from the middle than this belongs to a side."""
 IN_MIDDLE: Final = 0.004
-"""The same for a bone that has a partner on the other side."""
+"""The limit for a bone that has a partner on the other side."""
 ALIKE: Final = 0.1
 """Distances that differ by less than this part are alike."""
 HIP_BESIDE: Final = 0.03
@@ -35,7 +35,7 @@ HAND_AWAY: Final = 0.15
 UPWARDS: Final = 0.3
 """A neck leads up by more than this part of its length; a jaw leads ahead."""
 HEAD_TOP: Final = 0.1
-"""A last bone that lies so far above the one before is the top of a head, not the head."""
+"""Distance above the bone before from which a last bone is the top of a head, not the head."""
 NEAR_LEGS: Final = 0.4
 """Hips lie below the height of the upper legs by less than this part of the legs' length."""
 LEG_LENGTH: Final = 0.46

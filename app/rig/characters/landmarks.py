@@ -25,8 +25,8 @@ MIDLINE_M, SOLE_M = 0.008, 0.008
 COINCIDE_M = 1e-6
 """Joints nearer to one another lie on one another."""
 PATCH_M = 0.006
-"""A place spreads so far over the skin, or little farther than its nearest vertex is from it: the mean of vertices all
-around a finger lies deep in its flesh."""
+"""Radius over the skin of a place's vertices, or little more than the distance of its nearest one: a mean over
+vertices all around a finger would lie deep in its flesh."""
 FACING = (0.7, 0.5)
 """A place's skin looks its way by this (the cosine), or by that where none does."""
 LEAST_WEIGHTS = (0.5, 0.25)

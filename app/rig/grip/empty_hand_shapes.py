@@ -26,7 +26,7 @@ SHAPES_DEG: Final[Mapping[HandShape, tuple[tuple[float, float, float], ...]]] = 
 TIP_SHARE: Final = 0.75
 """A finger's last bone beside the one before it."""
 PAD_M: Final = 0.006
-"""The skin of a fingertip is so far below its bone."""
+"""Depth of a fingertip's bone below its skin."""
 OPPOSED: Final = (0.55, 0.85)
 """The thumb bends along the fingers and towards the palm by these shares."""
 PALMAR = np.array([0.0, -1.0, 0.0])

@@ -185,14 +185,14 @@ def _posed(
 
 
 def _solved(asked: Sequence[FloatArray | ReachTarget]) -> list[FloatArray]:
-    """Poses, with those that are asked for brought there; what is the same is brought once."""
+    """Poses with the requested ones solved; equal requests are solved once."""
     requested = {id(one): one for one in asked if isinstance(one, ReachTarget)}
     found = dict(zip(requested, fingers_at_targets(list(requested.values())), strict=True))
     return [found[id(one)] if isinstance(one, ReachTarget) else one for one in asked]
 
 
 def solved_pose(asked: FloatArray | ReachTarget) -> FloatArray:
-    """One pose by itself."""
+    """Solve a single pose."""
     return _solved([asked])[0]
 
 

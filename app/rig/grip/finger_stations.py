@@ -29,7 +29,7 @@ MOST_HOVER_M = 0.020
 
 @dataclass(frozen=True)
 class Station:
-    """One place of a finger.
+    """A place of a finger, with the controls it works there.
 
     Attributes
     ----------

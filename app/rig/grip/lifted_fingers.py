@@ -19,11 +19,11 @@ from app.rig.model import Skeleton
 from metadata.skeleton_profile import SkeletonProfile
 
 CURVED_RAD = (float(np.deg2rad(26.0)), float(np.deg2rad(62.0)))
-"""Range of the bend of a waiting finger's middle joint ..."""
+"""Range of the bend of a waiting finger's middle joint."""
 OUTER_SHARE = 0.55
-"""... and the outer joint by this share of it."""
+"""Bend of a waiting finger's outer joint, as a share of the middle joint's."""
 BEYOND_RAD = (float(np.deg2rad(28.0)), float(np.deg2rad(22.0)))
-"""Beyond what touches the middle and the outer joint are bent by so much at least."""
+"""Least bend of the middle and the outer joint beyond the part that touches."""
 MOST_RAD = (float(np.deg2rad(20.0)), float(np.deg2rad(25.0)))
 """Neither bends further from how it presses."""
 KNUCKLE_RAD = (float(np.deg2rad(-30.0)), float(np.deg2rad(90.0)))

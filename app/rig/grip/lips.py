@@ -27,11 +27,11 @@ from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
 AROUND_M = 0.03
-"""The lips' edges are looked for within this distance of where the lips meet, ..."""
+"""Distance from where the lips meet within which their edges are looked for."""
 MIDDLE_M = 0.0045
-"""... at most so far off the middle of the face ..."""
+"""Largest distance of the lips' edges from the middle of the face."""
 DEPTH_M = 0.006
-"""... and no further inside the mouth than this: there are gums and teeth."""
+"""Largest depth of the lips' edges inside the mouth: farther in are gums and teeth."""
 UPPER_SHARE, LOWER_SHARE = 0.3, 0.7
 """The upper lip goes along with the jaw by less than this share, the lower lip by more."""
 SAME_M = 1e-4

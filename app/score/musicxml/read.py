@@ -35,12 +35,13 @@ from app.score.musicxml.written import Bar, Measure, Place, Time
 from app.score.track_instrument import named_by_title
 
 MOST_ITEMS: Final = 1_000_000
-"""Notes, rests and directions, as often as they are played..."""
+"""Most notes, rests and directions of a score, counted as often as they are played."""
 LEAST_ITEMS: Final = 20_000
 MOST_ITEMS_PER_BYTE: Final = 2
-"""... of a small file fewer: compressed music has half a note for each byte, and is played a few times..."""
+"""Notes, rests and directions that each byte of a small file may be played as: compressed music has half a note a
+byte, and is played a few times."""
 MOST_TIMES: Final = 16
-"""... and no more than so many times as many as are written."""
+"""Number of times that what is written may be played, on average."""
 
 
 def read_musicxml(path: Path) -> PieceContents:

@@ -96,7 +96,7 @@ class NumberField(QLineEdit):
 
 
 class TextField(NumberField):
-    """The same for a text."""
+    """A field in a lane for typing a text, as `NumberField` is for numbers."""
 
     def __init__(self, lane: Lane) -> None:
         super().__init__(lane)

@@ -14,7 +14,8 @@ from widgets.timeline.model.marks.mark_looks import LOOKS
 LINE = 0.32
 """Width of a pen."""
 FINE = 24.0
-"""Qt makes curves of lines a quarter of a pixel from them: they are made so many times as large."""
+"""Factor by which glyphs are enlarged before Qt turns their curves into lines, which it does a quarter of a pixel
+exactly."""
 Point = tuple[float, float]
 
 

@@ -176,7 +176,7 @@ class MouseGesture:
         """The drag ended here."""
 
     def click(self, mouse: LaneMouse) -> None:
-        """It was no drag."""
+        """Handle a press and release without a drag."""
 
     def cancel(self) -> None:
         """Undo the gesture's edits and end it."""

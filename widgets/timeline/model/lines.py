@@ -12,7 +12,7 @@ from app.project.snap_grid import Grid
 from app.score.model import Score
 
 LEAST_BAR_PX = 56.0
-"""Labelled bars stand at least so far apart."""
+"""Least distance between labelled bars."""
 LEAST_BEAT_PX = 14.0
 LEAST_STEP_PX = 9.0
 

@@ -34,7 +34,7 @@ class VisibleSpan(Scale, Protocol):
 
 
 class Limited(Scale, Protocol):
-    """A scale that can be scrolled so far."""
+    """A scale whose scrolling is limited."""
 
     @property
     def limits_s(self) -> tuple[float, float]: ...

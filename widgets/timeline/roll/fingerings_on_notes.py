@@ -19,7 +19,7 @@ from widgets.timeline.roll.drawn_notes import RollView, mixed
 
 LABEL_GAP_PX = 5.0
 INSIDE_PX = 15.0
-"""In rows at least so high a label stands inside its note."""
+"""Height of a row from which a label stands inside its note."""
 
 
 class Labels(LaneItem[RollView]):

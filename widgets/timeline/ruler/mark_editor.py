@@ -54,7 +54,7 @@ class MarkEditor(QLineEdit):
             self.typed.emit(kind, tick, self.text().strip())
 
     def _editing_finished(self) -> None:
-        """The focus went elsewhere: what was typed is meant."""
+        """Accept the typed text when the focus goes elsewhere."""
         if self.isVisible() and not self.hasFocus():
             self.leave(True)
 

@@ -28,9 +28,10 @@ ROUNDS = 12
 CARRIED_SHARE = 0.1
 """Skin with at least this weight on a finger's joints moves with it: webs too."""
 OPEN_M, OPEN_SPREAD_M = (0.007, 0.0045), (0.0005, 0.0001)
-"""A finger at another place keeps so far from a hole that it is to leave open; the second where it otherwise ..."""
+"""Distance that a finger at another place keeps from a hole it is to leave open; the second pair applies where it
+would otherwise come nearer than `LEAST_OPEN_M`."""
 LEAST_OPEN_M = 0.0032
-"""... comes nearer than this: the hole would not sound open."""
+"""Distance of a finger from an open hole below which the hole would not sound open."""
 
 
 class FingerOnTouches:
@@ -69,7 +70,7 @@ class FingerOnTouches:
         return angles[..., self.joints, self.kinds]
 
     def opening(self) -> FingerOnTouches:
-        """The same finger that does more to leave holes open."""
+        """The finger with more weight on leaving holes open."""
         result = copy(self)
         result.open_m, result.open_spread_m = OPEN_M[1], OPEN_SPREAD_M[1]
         return result

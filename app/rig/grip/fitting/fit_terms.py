@@ -16,10 +16,10 @@ TOUCH_M, GRIP_M, INSIDE_M = 0.002, 0.003, 0.003
 this, and no skin is deeper inside it than this."""
 
 FIT_VERSION = 15
-"""Part of the digest of stored holds (`app.rig.grip.fitting.grip_files`): raise it when a fit comes out differently
-..."""
+"""Part of the digest of stored holds (`app.rig.grip.fitting.grip_files`): raise it when a fit comes out differently."""
 PLACES_VERSION = 3
-"""... and this one when it does so only where fingers wait over what they work, or work it at several places."""
+"""Part of that digest too: raise it when only the places change at which fingers wait over what they work, or work
+it at several places."""
 
 
 def no_progress(share: float) -> None:

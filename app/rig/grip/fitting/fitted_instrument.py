@@ -34,9 +34,9 @@ What the instruments ask of our own grown-ups, about."""
 LOWERED, WORTH = (0.0, 0.5, 1.0, -0.5), 0.02
 """Shares of the way to its lowest carriage that an instrument is tried at: another than usual has to be worth it."""
 SAME = (0.95, 1.06)
-"""Hands and arms of so many times a grown-up's play a grown-up's instrument."""
+"""Sizes of hands and arms, as multiples of a grown-up's, that play a grown-up's instrument."""
 STEP = 0.01
-"""Sizes are looked at so far apart."""
+"""Step between the sizes of an instrument that are tried."""
 BENDS = 0.5
 """A finger is one of its own where its skin goes along with it by this weight."""
 

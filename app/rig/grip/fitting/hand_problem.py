@@ -33,9 +33,9 @@ LIMIT_RAD = 0.02
 LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
 """Part of the wrist's range a hold may use: the rest is for the body's motion, which moves a slide's hand most."""
 SWIVEL_RANGE_RAD = (0.2, 0.9)
-"""The elbow hangs, off the ribs: its swing from straight down to the outside ..."""
+"""Range of the elbow's swing from straight down to the outside: it hangs, clear of the ribs."""
 SWIVEL_ABOUT_RAD = 0.35
-"""... or, where the map says where it is, within so much of that."""
+"""Range of the elbow's swing around the value that a map gives."""
 ANCHOR = (0.25, 0.7, 0.5)
 """Spread of the wrist's place (in 0.1 m), its turn and the fingers (rad) from one knot of a slide to the next."""
 METRES = 0.1

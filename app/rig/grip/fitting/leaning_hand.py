@@ -32,9 +32,9 @@ from app.rig.grip.fitting.touch_targets import TouchTarget, nodes_at, touch_at
 from app.rig.grip.grip_pose import WristOffset
 
 LEAN_FROM_M = 0.0015
-"""A finger that misses its station by more than this asks the hand to give way ..."""
+"""Miss of a finger's station from which it asks the hand to give way; see `LEAN_WORTH_M`."""
 LEAN_WORTH_M = 0.0005
-"""... and it does where the finger comes nearer by this much."""
+"""Gain of the finger from which the hand does give way."""
 LEAN_SPREAD = (0.07, 0.12, 0.5)
 """Spread of wrist (in 0.1 m), its turn and fingers (rad) from home: dearer than between a slide's knots."""
 OWN_EASED, OTHERS_EASED = (1.5, 0.5), 1.5

@@ -31,9 +31,9 @@ SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """Spread of a sample's angles about the smooth path over the control."""
 MOVED_VALUES = np.linspace(0.0, 1.0, 17)
-"""Values of a control that a finger stays on, or that carries its hand, at which it is solved ..."""
+"""Values at which a control is solved that a finger stays on, or that carries its hand."""
 HOVER_VALUES = np.linspace(0.0, 1.0, 9)
-"""... and of one that it waits over; keys go a short way."""
+"""Values at which a control is solved that a finger waits over; keys go a short way."""
 STILL_VALUES = np.zeros(1)
 
 

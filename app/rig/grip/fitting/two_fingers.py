@@ -21,9 +21,9 @@ from app.rig.grip.grip_pose import FingerTable, HandHold, WristOffset, wrist_giv
 Place: TypeAlias = tuple[str, int]
 
 MISSED_M = 0.0015
-"""Miss of one of the two fingers, or of one at home, beyond which the wrist is solved again ..."""
+"""Miss of one of the two fingers, or of one at home, beyond which the wrist is solved again; see `WORTH_M`."""
 WORTH_M = 0.0005
-"""... and kept where they come nearer by this much."""
+"""Gain from which the new wrist is kept."""
 PLACE_M, HOME_M, WHOLE_M = 0.0004, 0.0006, 0.001
 """Exactness with which the two fingers, the others at home, and palm and web keep their places."""
 MOVED_M, TURNED_RAD = 0.006, 0.10

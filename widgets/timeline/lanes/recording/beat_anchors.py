@@ -26,7 +26,7 @@ from widgets.timeline.plot.drawing import shade
 
 _DECIMALS = 3
 _STEP_S, _FINE_STEP_S = 0.01, 0.001
-"""An arrow moves the chosen beat so far; with Shift finely."""
+"""Seconds by which an arrow key moves the chosen beat, without and with Shift."""
 _HALF_PX = {True: 5.0, False: 3.5}
 """Half the width of a handle: of a bar line, of a beat."""
 _CLAIMED = frozenset(

@@ -22,11 +22,11 @@ from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import Plane
 
 REACH_PX: Final = 7.0
-"""A key, a handle or a blend is hit within this distance ..."""
+"""Distance within which a key, a handle or a blend is hit."""
 LINE_REACH_PX: Final = 5.0
-"""... and a curve within this one."""
+"""Distance within which a curve is hit."""
 JOINS_BARS: Final = 1
-"""A key that is added no more than so many bars beside a curve becomes one of its keys."""
+"""Bars from a curve's end within which a new key becomes one of the curve's."""
 LEAST_RANGE: Final = {"deg": 12.0, "m": 0.03, "weight": 1.0}
 """Least distance from 0 that a lane shows, by unit."""
 AIR: Final = 1.25
@@ -63,7 +63,8 @@ class Hit(NamedTuple):
 
 
 BEYOND_STEP_S, BEYOND_SHARE = 0.01, 0.01
-"""A curve is looked at so often; less of a channel's range than this beyond it is not worth a mark."""
+"""Step in seconds at which a curve is examined for values out of range, and the share of the range below which an
+excess is not marked."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -234,7 +235,7 @@ def chosen_keys(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> t
 
 
 def still_there(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> frozenset[KeyRef]:
-    """Those of the selected keys that there are."""
+    """The selected keys that still exist."""
     known = {KeyRef(shown.curve.name, key.tick) for shown in curves for key in shown.curve.keys}
     return frozenset(selected) & known
 

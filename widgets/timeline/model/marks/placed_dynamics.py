@@ -24,7 +24,7 @@ LEAST_MARK_PX = 4.0
 """Least room for each mark; with less, none is drawn."""
 EDGE_PX = 6.0
 BEHIND_PX = 80.0
-"""Letters that stand so far before the plot may reach into it."""
+"""Distance before the plot from which letters may still reach into it."""
 
 
 class TimedMarks:

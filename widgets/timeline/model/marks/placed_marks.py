@@ -20,10 +20,10 @@ LEAST_GLYPH_PX, LEAST_SLUR_PX = 5.0, 12.0
 LEAST_UNIT_PX, MOST_UNIT_PX = 3.8, 5.5
 UNITS_A_ROW = 0.42
 BEHIND_PX = 240.0
-"""Marks of notes so far before the plot may reach into it."""
+"""Distance before the plot from which marks of notes may still reach into it."""
 GAP_PX = 2.0
 INSET, MOST_INSET_PX = 0.3, 8.0
-"""From the outer ends of its notes a slur stands in so far: of their width."""
+"""Distance of a slur's ends from the outer ends of its notes: a share of the notes' width, and the most."""
 WARNING_PX = 9.0
 """Height of a warning on a note, which marks stand above."""
 STEEPNESS = 0.18
@@ -32,13 +32,13 @@ LEAST_LIFT_PX, USUAL_LIFT_PX, MOST_LIFT_PX = 4.0, 13.0, 40.0
 STEEP_PX = 24.0
 """A slur that would cross the height of its first or last note by more begins or ends at that note's other corner."""
 TURNS = 4
-"""After so many, hardly anything is left in the way of a slur."""
+"""Iterations after which hardly anything is left in the way of a slur."""
 BELOW_COSTS_PX = 10.0
 """A slur is below its notes where above it would have to be higher by more than this."""
 END_PX = 7.0
-"""An end of a slur is caught so far from it."""
+"""Distance within which an end of a slur is caught."""
 NEAR_PX = 4.0
-"""A slur is caught so far above or below it."""
+"""Distance above or below a slur within which it is caught."""
 
 _T: Final = np.linspace(0.0, 1.0, 65)
 _ALONG: Final = 3 * (1 - _T) ** 2 * _T * STEEPNESS + 3 * (1 - _T) * _T**2 * (1 - STEEPNESS) + _T**3

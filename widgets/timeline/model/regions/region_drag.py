@@ -171,7 +171,7 @@ class RegionDrag(MouseGesture):
         self._apply(edit_of_events(lane.session, name, self._keys), edit, preview)
 
     def _change_amount(self, region: Region, mouse: LaneMouse) -> None:
-        """All selected change by the same."""
+        """Change the amounts of all selected regions by the same difference."""
         height = max(self._lane.row_box(region.row)[1] - 2.0, 1.0)
         change = (self.at.y_px - mouse.y_px) / height * (2.0 if region.signed else 1.0)
         if mouse.shift:

@@ -21,7 +21,7 @@ from widgets.timeline.model.roll.shown_notes import RollModel, RollSession
 
 End: TypeAlias = Literal["tail", "head"]
 HEAD_PX: Final = 9.0
-"""Before its note: so long is the head that is taken hold of."""
+"""Length before its note of the head by which an entry is dragged."""
 REACH_PX: Final = 6.0
 """Reach of the tail, and of the middle of the head."""
 NOTE_REACH_PX: Final = 36.0

@@ -21,7 +21,7 @@ HANDLE_PX: Final = 11.0
 """Height of the strip in which they are taken hold of, at the lower edge."""
 _SLACK_PX: Final = 6.0
 _LEAST_BEAT_PX: Final = 24.0
-"""Beats can be taken hold of where they lie so far apart."""
+"""Distance between beats from which they can be grabbed."""
 _FINE: Final = 0.1
 """Factor with Shift from the mouse's way to that of a beat."""
 _DECIMALS: Final = 4
