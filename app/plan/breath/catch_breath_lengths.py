@@ -24,8 +24,7 @@ UNHURRIED_SHARE = 1.0 / 3.0
 CATCH_NOTE_SHARE = 0.5
 """Largest share of the note before it that a catch breath takes; see `LEAST_SOUNDING_S`."""
 LEAST_SOUNDING_S = 1.0 / 24.0
-"""Where `CATCH_NOTE_SHARE` would leave no time for a breath, it takes what it needs, except this time of the note
-before, which still sounds."""
+"""Seconds of the note before that still sound where `CATCH_NOTE_SHARE` would leave no time for a breath."""
 LEAST_PLAYED_S = 0.01
 """Least part of a note that may be left if it was played shorter than it is written."""
 MOST_DROPPED = 2
