@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from character_cloth import grid_faces, smoothstep
+from character_mouth import PATCHES_LEFT, WET, mouth_patches
 from character_surface import Surface, modelled, triangulate
 from character_textures import Texture, jpeg, noise, to_linear, to_srgb
 
@@ -16,57 +17,61 @@ if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
     from character_source import Source
 
-EYE_PX = 512
+IRIS_PX, WET_PX = 256, 512
 IRIS_M, PUPIL_M = 0.0059, 0.0019
 """Radii: irises are 11.7 mm wide, whoever's they are (Rüfer, Schröder, Erb 2005)."""
 BULGE_M = 0.0011
 SEEN_RAD = float(np.radians(80.0))
-"""Angle from the axis of gaze at which the picture ends."""
+"""Angle from the axis of gaze at which the picture of the white ends."""
+WHITE_SHARE, WHITE_MIDDLE = 0.36, 0.375
+"""Radius and middle (both axes) of the white in the picture of what is wet."""
 IRIS_SHARE = 0.42
-"""Share of the picture's radius that the iris takes."""
+"""Share of the white's radius that the iris takes."""
+IRIS_MEAN_LINEAR = 0.35
+"""Mean of the grey iris: a colour of eyes divided by it tints them."""
 SEGMENTS, BACK_RAD = 32, float(np.radians(140.0))
+AROUND = np.stack([f(2 * np.pi * np.arange(SEGMENTS) / SEGMENTS) for f in (np.cos, np.sin)], axis=1)
 VEIN_COUNT = 26
 
 
 def eyeballs(source: Source, fit: SkeletonFit) -> Surface:
-    """Two eyeballs that turn with their joints; texture coordinates run outwards from the middle of the pupil."""
-    points, weights, triangles, uvs = [], [], [], []
+    """Two eyeballs that turn with their joints; both materials' coordinates run outwards from the axis of gaze."""
+    points, weights, uvs = [], [], []
+    triangles: dict[str, list[np.ndarray]] = {"iris": [], WET: []}
     start = 0
     for side, letter in (("left", "l"), ("right", "r")):
         joint = fit.index(side + "Eye")
         centre = fit.world_from_joint_rest[joint, :3, 3]
         helper = source.vertices[np.unique(source.groups[f"helper-{letter}-eye"].vertices)]
-        radius = float(np.ptp(helper[:, 0]) / 2)
+        radius = float(np.linalg.norm(helper - centre, axis=1).mean())
         iris = float(np.arcsin(IRIS_M / radius))
-        polar = np.concatenate(
-            [np.linspace(0.0, iris, 7), [iris * 1.07, iris * 1.2], np.linspace(iris * 1.4, SEEN_RAD, 6), [BACK_RAD]]
-        )
-        out = BULGE_M * np.maximum(0.0, 1 - (polar / (iris * 1.12)) ** 2)
-        angles = 2 * np.pi * np.arange(SEGMENTS) / SEGMENTS
-        around = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        ring = np.concatenate(
-            [
-                np.concatenate([np.sin(p) * around, np.full((SEGMENTS, 1), np.cos(p))], axis=1) * (radius + o)
-                for p, o in zip(polar, out, strict=True)
-            ]
-        )
-        share = np.interp(polar, [0.0, iris, SEEN_RAD], [0.0, IRIS_SHARE, 1.0])
-        points.append(centre + ring)
-        uvs.append(
-            0.5 + 0.498 * (share[:, None, None] * around).reshape(-1, 2) * [1.0 if side == "left" else -1.0, 1.0]
-        )
-        rows = np.zeros((len(ring), len(fit.names)))
-        rows[:, joint] = 1.0
-        weights.append(rows)
-        triangles.append(start + triangulate(grid_faces(len(polar), SEGMENTS, closed=True)[:, ::-1], points[-1]))
-        start += len(ring)
-    return modelled(
-        "eyes",
-        np.concatenate(points),
-        np.concatenate(weights),
-        {"eyes": np.concatenate(triangles)},
-        uvs=np.concatenate(uvs),
-    )
+        inner = np.linspace(0.0, iris, 7)
+        outer = np.concatenate([[iris, iris * 1.07, iris * 1.2], np.linspace(iris * 1.4, SEEN_RAD, 6), [BACK_RAD]])
+        shares = (inner / iris * 0.49, np.interp(outer, [iris, SEEN_RAD], [IRIS_SHARE, 1.0]) * WHITE_SHARE)
+        for polar, share, middle, material in zip((inner, outer), shares, (0.5, WHITE_MIDDLE), triangles, strict=True):
+            ball = centre + _rings(polar, radius + BULGE_M * np.maximum(0.0, 1 - (polar / (iris * 1.12)) ** 2))
+            points.append(ball)
+            # The same picture, mirrored, for the right eye.
+            turned = AROUND * [1.0 if side == "left" else -1.0, 1.0]
+            uvs.append(middle + (share[:, None, None] * turned).reshape(-1, 2))
+            faces = grid_faces(len(polar), SEGMENTS, closed=True)[:, ::-1]
+            triangles[material].append(start + triangulate(faces, ball))
+            rows = np.zeros((len(ball), len(fit.names)))
+            rows[:, joint] = 1.0
+            weights.append(rows)
+            start += len(ball)
+    faces = {name: np.concatenate(parts) for name, parts in triangles.items()}
+    return modelled("eyes", np.concatenate(points), np.concatenate(weights), faces, uvs=np.concatenate(uvs))
+
+
+def _rings(polar: np.ndarray, distance: np.ndarray) -> np.ndarray:
+    """(R * SEGMENTS, 3) points of rings about the axis of gaze."""
+    ahead = np.ones((SEGMENTS, 1))
+    rings = [
+        np.concatenate([np.sin(angle) * AROUND, np.cos(angle) * ahead], axis=1) * far
+        for angle, far in zip(polar, distance, strict=True)
+    ]
+    return np.concatenate(rings)
 
 
 def _veins(angle: np.ndarray, share: np.ndarray) -> np.ndarray:
@@ -85,31 +90,40 @@ def _veins(angle: np.ndarray, share: np.ndarray) -> np.ndarray:
     return found
 
 
-def eye_colour(name: str, iris_linear: tuple[float, float, float], pupil_m: float = PUPIL_M) -> Texture:
-    """The base colour of an eye: pupil, iris of radial fibres, dark limbus, and a white that reddens outwards."""
-    axis = (np.arange(EYE_PX) + 0.5) / EYE_PX * 2 - 1
-    x, y = np.meshgrid(axis, -axis)
-    share, angle = np.hypot(x, y), np.arctan2(y, x)
-    inside = np.clip(share / IRIS_SHARE, 0.0, 1.0)
+def _polar(size: int, middle: float, radius: float) -> tuple[np.ndarray, np.ndarray]:
+    """Distance from the middle of a picture in shares of a radius, and angle, per pixel."""
+    axis = (np.arange(size) + 0.5) / size
+    x, y = np.meshgrid(axis - middle, (1 - axis) - middle)
+    return np.hypot(x, y) / radius, np.arctan2(y, x)
+
+
+def iris_colour(name: str, pupil_m: float = PUPIL_M) -> Texture:
+    """A grey iris, warmer about the pupil: radial fibres, dark limbus, black pupil."""
+    share, angle = _polar(IRIS_PX, 0.5, 0.49)
+    inside = np.clip(share, 0.0, 1.0)
     # Fibres: noise drawn out along the radius, wound around once so that it closes.
-    turn = angle / (2 * np.pi) % 1.0
-    wound = noise(512, 2.5, 24, 22)[(inside * 40).astype(int), (turn * 512).astype(int) % 512]
-    coarse = noise(512, 6, 60, 23)[(inside * 60).astype(int), (turn * 512).astype(int) % 512]
-    pupil = pupil_m / IRIS_M
-    ring = np.exp(-(((inside - 0.52 - 0.03 * coarse) / 0.11) ** 2))
-    value = 0.78 + 0.22 * wound + 0.14 * coarse
-    value = value * (0.75 + 0.45 * smoothstep(inside, 0.35, 0.9)) * (1 - 0.82 * smoothstep(inside, 0.84, 1.0))
-    iris = np.asarray(iris_linear) * np.clip(value, 0.1, 2.0)[..., None]
-    warm = np.asarray(iris_linear) * [1.5, 1.15, 0.6] + [0.02, 0.008, 0.0]
-    iris = iris * (1 - 0.45 * ring[..., None]) + 0.45 * ring[..., None] * warm * np.clip(value, 0.1, 2)[..., None]
-    iris *= smoothstep(inside, pupil - 0.03, pupil + 0.05)[..., None]
+    turn = (angle / (2 * np.pi) % 1.0 * 512).astype(int) % 512
+    wound = noise(512, 2.5, 24, 22)[(inside * 10).astype(int), turn]
+    coarse = noise(512, 6, 60, 23)[(inside * 24).astype(int), turn]
+    value = np.clip(0.78 + 0.22 * wound + 0.14 * coarse, 0.1, 2.0) * (0.75 + 0.45 * smoothstep(inside, 0.35, 0.9))
+    body = (inside > pupil_m / IRIS_M + 0.05) & (inside < 0.84)
+    grey = np.repeat((value / value[body].mean() * IRIS_MEAN_LINEAR)[..., None], 3, axis=2)
+    ring = 0.5 * np.exp(-(((inside - 0.52 - 0.03 * coarse) / 0.11) ** 2))[..., None]
+    grey *= 1 + ring * np.array([0.7, 0.25, -0.3])
+    grey *= (1 - 0.9 * smoothstep(inside, 0.72, 0.97))[..., None]
+    return jpeg(name, to_srgb(grey * smoothstep(inside, pupil_m / IRIS_M - 0.03, pupil_m / IRIS_M + 0.05)[..., None]))
+
+
+def wet_colour(name: str) -> Texture:
+    """The white of the eyes, which reddens outwards and darkens towards the limbus, beside the patches of the mouth."""
+    share, angle = _polar(WET_PX, WHITE_MIDDLE, WHITE_SHARE)
     outer = np.clip((share - IRIS_SHARE) / (1 - IRIS_SHARE), 0.0, 1.0)
-    white = to_linear(np.array([0.86, 0.83, 0.80])) * (1 + 0.02 * noise(EYE_PX, 8, 80, 24)[..., None])
-    redden = 0.10 + 0.55 * smoothstep(outer, 0.15, 0.9)
+    white = to_linear(np.array([0.88, 0.855, 0.83])) * (1 + 0.02 * noise(WET_PX, 8, 80, 24)[..., None])
+    redden = 0.08 + 0.50 * smoothstep(outer, 0.15, 0.9)
     white = white * (1 - redden[..., None] * np.array([0.10, 0.34, 0.36]))
     white = white * (1 - 0.55 * _veins(angle, share)[..., None] * np.array([0.25, 0.9, 0.9]))
-    edge = smoothstep(share, IRIS_SHARE * 0.96, IRIS_SHARE * 1.09)[..., None]
-    # The limbus: sclera turns bluish grey before the iris begins.
-    rim = np.exp(-(((share - IRIS_SHARE * 1.05) / 0.035) ** 2))[..., None]
-    white = white * (1 - 0.35 * rim * np.array([1.0, 0.92, 0.85]))
-    return jpeg(name, to_srgb(iris * (1 - edge) + white * edge))
+    # The limbus: the white turns bluish grey, then dark, before the iris begins.
+    rim = np.exp(-(np.maximum(share - IRIS_SHARE, 0.0) / 0.055))[..., None]
+    white = white * (1 - 0.93 * rim**1.5 * np.array([1.0, 0.97, 0.94]))
+    right = (np.arange(WET_PX) + 0.5 >= PATCHES_LEFT * WET_PX)[None, :, None]
+    return jpeg(name, to_srgb(np.where(right, mouth_patches(WET_PX), white)))

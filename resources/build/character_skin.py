@@ -19,6 +19,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 SKIN_PX, ORM_PX, PORES_PX = 1024, 512, 256
+SKIN_MEAN_LINEAR = 0.70
 PORE_TILES = 22.0
 """Tiles of pores across the texture: one covers 2 cm of face."""
 MARGIN_PX = 6
@@ -116,26 +117,21 @@ def read_picture(path: Path) -> np.ndarray:
     return np.asarray(image.convert("RGBA" if "A" in image.getbands() else "RGB"), dtype=np.float64) / 255.0
 
 
-def skin_colour(
-    name: str,
-    painted: np.ndarray,
-    layout: Layout,
-    masks: dict[str, np.ndarray],
-    mean_linear: tuple[float, float, float],
-) -> Texture:
-    """The base colour: a painted skin, brought to a mean over the face, with blotches, redness and pores.
+def skin_colour(name: str, painted: np.ndarray, layout: Layout, masks: dict[str, np.ndarray]) -> Texture:
+    """The base colour: a painted skin with blotches, redness and pores, its face SKIN_MEAN_LINEAR on average.
+
+    A colour of skin divided by that mean tints it.
 
     Parameters
     ----------
     painted : (H, W, 3) one of MakeHuman's skins over hm08's coordinates.
     masks : the base mesh's masks ("lips", "fingernails") over hm08's coordinates.
-    mean_linear : the mean linear colour of forehead, nose and cheeks.
     """
     colour = to_linear(np.clip(layout.picture(painted), 0.0, 1.0))
     face = _face_masks(layout)
     middle = face["cheeks"] + 0.5 * face["forehead"]
     mean = (colour * middle[..., None]).sum(axis=(0, 1)) / middle.sum()
-    colour *= np.asarray(mean_linear) / mean
+    colour *= SKIN_MEAN_LINEAR / mean
     lips = np.clip(layout.picture(masks["lips"]), 0.0, 1.0)
     nails = np.clip(layout.picture(masks["fingernails"]), 0.0, 1.0)
     skin = 1.0 - np.clip(lips + nails, 0.0, 1.0)
@@ -145,13 +141,10 @@ def skin_colour(
     pores = np.maximum(0.0, noise(SKIN_PX, 1.2, 3.5, 5))
     freckles = np.maximum(0.0, noise(SKIN_PX, 2.5, 6, 6) - 2.2)
     colour *= 1.0 - skin[..., None] * (0.035 * pores[..., None] + 0.10 * freckles[..., None] * np.array([0.6, 1, 1.2]))
-    # Lips have fine lines across; they and the nails are a little paler at their middle.
+    # Lips have fine lines across; nails are paler.
     colour *= 1.0 + lips[..., None] * 0.05 * noise(SKIN_PX, 1.2, 5, 7)[..., None]
-    colour = colour * (1 - 0.35 * nails[..., None]) + 0.35 * nails[..., None] * np.asarray(mean_linear) * [
-        1.2,
-        1.0,
-        0.95,
-    ]
+    pale = SKIN_MEAN_LINEAR * np.array([1.2, 1.0, 0.95])
+    colour = colour * (1 - 0.35 * nails[..., None]) + 0.35 * nails[..., None] * pale
     return jpeg(name, spread(to_srgb(colour), layout.inside))
 
 

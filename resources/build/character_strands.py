@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 HAIR_PX = 1024
 STRAND_STEPS, STRAND_STEP_PX = 14, 1.5
-MIDDLE_GREY_LINEAR = 0.32
+STRANDS_MEAN_LINEAR = 0.32
 """Mean of the grey strands: a colour of hair divided by it tints them, up to fair hair."""
 ALPHA_CUTOFF = 0.4
 LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
@@ -91,7 +91,7 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     grey = spread(grey, solid) / (smooth + 1e-3) ** 0.75
     fine = strands(directions(grey / grey[solid].mean(), 4.0), 31)
     grey = grey / grey[solid].mean() * (1 + 0.38 * fine)
-    grey = np.clip(grey / grey[solid].mean() * MIDDLE_GREY_LINEAR, 0.02, 0.95)
+    grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
     alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)
     shade = _steps(to_srgb(spread(grey, solid)), GREYS)
@@ -112,7 +112,7 @@ def _brow_picture(painted: np.ndarray) -> np.ndarray:
     """Single grey hairs: what is painted solid is thinned and shaded along its strokes."""
     alpha = np.clip(painted[..., 3], 0, 1)
     fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5), 32)
-    grey = to_srgb(np.clip(MIDDLE_GREY_LINEAR * (1 + 0.35 * fine), 0.05, 0.9))
+    grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * (1 + 0.35 * fine), 0.05, 0.9))
     return np.stack([grey, grey, grey, np.clip(alpha * (0.95 + 0.32 * fine), 0, 1)], axis=-1)
 
 

@@ -86,7 +86,7 @@ def test_parts_of_the_skin_get_new_places_of_their_own(build_module: Module) -> 
     assert dressed.triangles["skin"].tolist() == [[0, 1, 2], [0, 2, 3]]
 
 
-def test_lips_shine_and_the_face_has_the_colour_asked_for(build_module: Module) -> None:
+def test_lips_shine_and_the_face_is_as_bright_as_its_tint_takes(build_module: Module) -> None:
     skin, textures = build_module("character_skin"), build_module("character_textures")
     uvs, faces = _squares([(0.84, 0.48)], 0.15)
     layout = skin.skin_layout(uvs, faces)
@@ -94,51 +94,64 @@ def test_lips_shine_and_the_face_has_the_colour_asked_for(build_module: Module) 
     lips[:, 57:59] = 1.0
     masks = {"lips": lips, "fingernails": np.zeros((64, 64)), "inside-mouth": np.zeros((64, 64))}
     painted = np.full((64, 64, 3), (0.8, 0.6, 0.5))
-    colour = _pixels(skin.skin_colour("skin", painted, layout, masks, (0.5, 0.3, 0.2)).content)
-    assert np.allclose(textures.to_linear(colour)[layout.inside].mean(axis=0), (0.5, 0.3, 0.2), rtol=0.12)
+    colour = _pixels(skin.skin_colour("skin", painted, layout, masks).content)
+    assert np.allclose(textures.to_linear(colour)[layout.inside].mean(axis=0), skin.SKIN_MEAN_LINEAR, rtol=0.12)
     rough = _pixels(skin.skin_roughness("orm", layout, masks).content)[..., 1]
     mouth = layout.picture(lips)[::2, ::2] > 0.9
     assert rough[mouth].mean() < 0.42
     assert rough[(layout.picture(lips)[::2, ::2] < 0.05) & layout.inside[::2, ::2]].mean() > 0.5
 
 
-def test_eyes_have_a_pupil_an_iris_of_the_colour_asked_for_and_a_cornea(build_module: Module) -> None:
+def test_eyes_have_a_pupil_an_iris_for_any_colour_and_a_white(build_module: Module) -> None:
+    eyes, textures = build_module("character_eyes"), build_module("character_textures")
+    iris, wet = (
+        textures.to_linear(_pixels(made(name).content))
+        for made, name in ((eyes.iris_colour, "i"), (eyes.wet_colour, "w"))
+    )
+
+    def ring(picture: np.ndarray, middle: float, radius: float) -> np.ndarray:
+        angle = np.linspace(0, 2 * np.pi, 60)
+        rows, columns = ((1 - middle - radius * np.sin(angle)), middle + radius * np.cos(angle))
+        return picture[(rows * len(picture)).astype(int), (columns * len(picture)).astype(int)].mean(axis=0)
+
+    assert ring(iris, 0.5, 0.06).max() < 0.02
+    middle = ring(iris, 0.5, 0.38)
+    assert np.ptp(middle) < 0.08, "grey"
+    assert middle.mean() == pytest.approx(eyes.IRIS_MEAN_LINEAR, rel=0.4)
+    assert ring(iris, 0.5, 0.485).max() < 0.1, "the limbus is dark"
+    assert ring(wet, eyes.WHITE_MIDDLE, eyes.WHITE_SHARE * eyes.IRIS_SHARE).max() < 0.15, "on its outer side too"
+    assert ring(wet, eyes.WHITE_MIDDLE, eyes.WHITE_SHARE * 0.65).min() > 0.5
+
+
+def test_eyeballs_have_a_cornea_and_turn_with_their_joints(build_module: Module) -> None:
     eyes = build_module("character_eyes")
-    picture = _pixels(eyes.eye_colour("eye", (0.05, 0.10, 0.30)).content)
-    middle = eyes.EYE_PX // 2
-
-    def ring(share: float) -> np.ndarray:
-        angle = np.linspace(0, 2 * np.pi, 40)
-        rows, columns = (middle + share * middle * turn(angle) for turn in (np.sin, np.cos))
-        return picture[rows.astype(int), columns.astype(int)].mean(axis=0)
-
-    assert ring(0.05).max() < 0.1
-    assert ring(0.3)[2] > 1.3 * ring(0.3)[0]
-    assert ring(0.55).min() > 0.6
     names, centres = ("head", "leftEye", "rightEye"), np.array([[0, 0, 0], [0.03, 0, 0], [-0.03, 0, 0]])
     frames = np.tile(np.eye(4), (3, 1, 1))
     frames[:, :3, 3] = centres
     fit = SimpleNamespace(names=names, index=names.index, world_from_joint_rest=frames)
-    balls = np.concatenate(
-        [centres[1] + 0.012 * np.array([[1, 0, 0], [-1, 0, 0]]), centres[2] + [[0.012, 0, 0], [-0.012, 0, 0]]]
-    )
+    ends = 0.012 * np.array([[1, 0, 0], [-1, 0, 0]])
     groups = {f"helper-{side}-eye": SimpleNamespace(vertices=rows) for side, rows in (("l", [0, 1]), ("r", [2, 3]))}
-    surface = eyes.eyeballs(SimpleNamespace(vertices=balls, groups=groups), fit)
+    body = SimpleNamespace(vertices=np.concatenate([centres[1] + ends, centres[2] + ends]), groups=groups)
+    surface = eyes.eyeballs(body, fit)
+    iris, white = (np.unique(surface.triangles[name]) for name in ("iris", eyes.WET))
+    assert not set(iris) & set(white)
     for joint in (1, 2):
-        own = surface.weights[:, joint] == 1.0
-        off = surface.positions[own] - centres[joint]
-        distance, share = np.linalg.norm(off, axis=1), np.linalg.norm(surface.uvs[own] - 0.5, axis=1) * 2
-        front = share < 0.01
-        assert np.allclose(distance[front], 0.012 + eyes.BULGE_M)
-        assert (off[front, 2] > 0.012).all()
-        # The iris in the picture is as large as an iris is.
-        edge = np.abs(share - eyes.IRIS_SHARE) < 0.01
+        assert {1.0, 0.0} == set(surface.weights[:, joint])
+        own = np.flatnonzero(surface.weights[:, joint])
+        off = surface.positions - centres[joint]
+        distance, outwards = np.linalg.norm(off, axis=1), np.einsum("ij,ij->i", surface.normals, off)
+        assert (outwards[own] > 0).all()
+        share = np.linalg.norm(surface.uvs - 0.5, axis=1) / 0.49
+        seen = np.intersect1d(iris, own)
+        assert np.allclose(distance[seen[share[seen] < 0.01]], 0.012 + eyes.BULGE_M)
+        edge = seen[share[seen] > 0.99]
         assert np.hypot(off[edge, 0], off[edge, 1]) == pytest.approx(eyes.IRIS_M, rel=0.05)
-        assert np.allclose(distance[share > 0.6], 0.012)
-    assert (
-        np.einsum("ij,ij->i", surface.normals, surface.positions - np.where(surface.weights[:, 1:2] > 0, *centres[1:]))
-        > 0
-    ).all()
+        # The white begins where the iris ends, in space and in its picture.
+        share = np.linalg.norm(surface.uvs - eyes.WHITE_MIDDLE, axis=1) / eyes.WHITE_SHARE
+        around = np.intersect1d(white, own)
+        edge = around[share[around] < eyes.IRIS_SHARE * 1.01]
+        assert np.hypot(off[edge, 0], off[edge, 1]) == pytest.approx(eyes.IRIS_M, rel=0.05)
+        assert np.allclose(distance[around[share[around] > 0.6]], 0.012)
 
 
 def test_strands_run_along_what_is_painted(build_module: Module) -> None:
@@ -167,7 +180,7 @@ def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) ->
     assert (pixels[:, 64:, 3] == 0).all()
     assert (pixels[40:88, 24:60, 3] > 0.8).all()
     middle = textures.to_linear(pixels[40:88, 24:60, 0]).mean()
-    assert middle == pytest.approx(strands.MIDDLE_GREY_LINEAR, rel=0.25)
+    assert middle == pytest.approx(strands.STRANDS_MEAN_LINEAR, rel=0.25)
 
 
 def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module: Module, tmp_path: Path) -> None:
@@ -196,18 +209,18 @@ def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module
 
 
 def test_teeth_gums_and_tongue_have_patches_of_their_own(build_module: Module) -> None:
-    mouth, surface = build_module("character_mouth"), build_module("character_surface")
-    picture = _pixels(mouth.mouth_colour("mouth").content)
+    mouth, surface, textures = (build_module(f"character_{name}") for name in ("mouth", "surface", "textures"))
+    picture = textures.to_srgb(mouth.mouth_patches(128))
     points = np.random.default_rng(6).normal(0, 1, (9, 3))
     triangles = {name: np.array([[3 * row, 3 * row + 1, 3 * row + 2]]) for row, name in enumerate(mouth.PATCHES)}
-    inside = mouth.with_mouth_material(surface.modelled("mouth", points, np.ones((9, 1)), triangles))
-    assert list(inside.triangles) == ["mouth"]
-    columns = (inside.uvs[:, 0] * mouth.MOUTH_PX).astype(int)
-    rows = np.clip(((1 - inside.uvs[:, 1]) * mouth.MOUTH_PX).astype(int), 0, mouth.MOUTH_PX - 1)
-    colours = picture[rows, columns]
-    assert (colours[:3, 1] > 0.7).all(), "teeth are pale"
-    assert (colours[3:, 1] < 0.55).all()
-    assert (colours[3:, 0] > 0.55).all(), "gums and tongue are red"
+    inside = mouth.with_wet_material(surface.modelled("mouth", points, np.ones((9, 1)), triangles))
+    assert list(inside.triangles) == [mouth.WET]
+    assert (inside.uvs[:, 0] > mouth.PATCHES_LEFT).all()
+    colours = picture[((1 - inside.uvs[:, 1]) * 128).astype(int), (inside.uvs[:, 0] * 128).astype(int)]
+    teeth = np.repeat([name == "teeth" for name in mouth.PATCHES], 3)
+    assert (colours[teeth, 1] > 0.7).all(), "teeth are pale"
+    assert (colours[~teeth, 1] < 0.55).all()
+    assert (colours[~teeth, 0] > 0.55).all(), "gums and tongue are red"
 
 
 def test_a_file_holds_each_picture_once_with_tiles_and_cut_alpha(build_module: Module, tmp_path: Path) -> None:
