@@ -18,7 +18,7 @@ from metadata.library import bundled_gestures, metadata_library
 ROOT = Path(__file__).parents[3]
 SHOWN = 40
 """Characters of a wrong path that are shown."""
-GUIDES = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
+GUIDES = (ROOT / "README.md", ROOT / "README_ja.md", *sorted((ROOT / "docs").glob("*.md")))
 
 
 @cache
