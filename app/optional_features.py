@@ -33,7 +33,7 @@ class SubCommand:
 
 @dataclass(frozen=True)
 class Feature:
-    """One row.
+    """A feature that can be left out of the program: the modules of its actions, lanes, sections and commands.
 
     Attributes
     ----------

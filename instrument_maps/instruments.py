@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """One instrument.
+    """An instrument of the table: its ids, names and section.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def japanese(self) -> str:
-        """Its Japanese name for people."""
+        """Japanese name of the instrument, as shown to people."""
         return next((name for name in self.names if any(map(is_wide, name))), self.names[0])
 
 

@@ -389,7 +389,8 @@ class InstrumentMap(MapTable, frozen=True):
         return tuple(fingering for fingering in self.fingerings if fingering.written_pitch == written)
 
     def offered_for(self, concert_pitch: int, shown: str) -> tuple[Fingering, ...]:
-        """Those of a concert pitch that a user may choose: obsolete ones only where one has the label ``shown``."""
+        """Fingerings of a concert pitch that a user may choose; obsolete ones are left out unless one has the label
+        ``shown``."""
         every = self.fingerings_for(concert_pitch)
         return tuple(item for item in every if not item.is_obsolete or item.label == shown)
 

@@ -75,7 +75,7 @@ class OutputSink:
         return max(round((BUFFER_S - self._queue.waiting_s()) * RATE_HZ), 0)
 
     def write(self, block: Block) -> None:
-        """Play this next."""
+        """Queue samples behind those already written."""
         if self._resampler is not None:
             block = self._resampler.resample_chunk(np.ascontiguousarray(block))
         self._queue.put(block)

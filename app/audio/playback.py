@@ -120,7 +120,7 @@ class Playback(QObject):
 
     @property
     def is_playing(self) -> bool:
-        """True if it plays."""
+        """True while the performance plays."""
         return self._sink is not None
 
     @property

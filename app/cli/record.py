@@ -50,7 +50,7 @@ _bars = bounded_number(0, 16, "quantity.bars", int)
 
 
 class RecordError(AppError):
-    """Nothing could be recorded."""
+    """Error of a recording that could not be made."""
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:

@@ -40,7 +40,7 @@ def say_json(value: Any) -> None:
 
 
 def count(number: int, *, is_last: bool) -> None:
-    """Print a number of a count-in beside the ones before, with the terminal's bell."""
+    """Print a number of a count-in behind the ones before, with the terminal's bell."""
     bell = "\a" if sys.stdout.isatty() else ""
     print(f"{bell}{number}", end="\n" if is_last else " ", flush=True)
 

@@ -30,7 +30,7 @@ UNREACHED_M = 0.005
 """A hand may stay this far from its grip before the user sees it."""
 
 NEARLY_ALL = 99
-"""Percentile of a distance that is reported beside its maximum."""
+"""Percentile of a distance that reports give next to its maximum."""
 
 
 def reported_least_m(distances_m: FloatArray) -> float:

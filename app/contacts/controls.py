@@ -42,7 +42,7 @@ def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> 
 
 
 class NoteFrames:
-    """Some frames and the notes that sound in them.
+    """Frames of sounding notes, with the notes that sound in them.
 
     Parameters
     ----------

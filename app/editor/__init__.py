@@ -2,6 +2,6 @@
 
 State that panels and commands share (`session` and its parts: selection, listening, recording, streaming, live players,
 what the viewport shows), and the services that keep it up with the project: files and settings, plans and motion,
-sound, recorder, streamer, the user's own libraries, slow work beside the window. Of Qt only signals, timers and
+sound, recorder, streamer, the user's own libraries, slow work in the background. Of Qt only signals, timers and
 watchers (``PySide6.QtCore``).
 """

@@ -527,7 +527,7 @@ class Files(QObject):
         self.autosave.written(writing, written)
 
     def write_soon(self) -> None:
-        """Write unsaved work down now, beside the window."""
+        """Write unsaved work down now, in the background."""
         writing = self._taken()
         if writing is not None:
             self._write(writing)
@@ -589,7 +589,7 @@ class Files(QObject):
             self.warn_once(error.message)
 
     def find_recoverable(self, found: Callable[[tuple[Recoverable, ...]], None]) -> None:
-        """Look for what editors that are gone left behind, beside the window."""
+        """Look for what editors that are gone left behind, in the background."""
         if self.autosave is None:
             found(())
             return

@@ -1,4 +1,4 @@
-"""Plans and motion kept up with the document: after every edit, beside the window, the newest first.
+"""Plans and motion kept up with the document: after every edit, in the background, the newest first.
 
 What an edit touches is planned at once where that takes no time, else by a thread that yields to the window; the same
 thread makes the motion, what is looked at first.

@@ -41,7 +41,7 @@ class LivePlayer(QObject):
         self._rest.timeout.connect(self._rested)
 
     def report(self, time_s: float, raw: str, mapping: ControllerMapping) -> None:
-        """Something was played.
+        """Take in what was played on the controller.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Pictures of a video beside the window: those around the playhead are read ahead by a thread and kept."""
+"""Pictures of a video in the background: those around the playhead are read ahead by a thread and kept."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ class PlanWorker(Generic[T]):
             self._dropped.set()
 
     def wake(self) -> None:
-        """Something else is requested."""
+        """Interrupt the wait: another request has come."""
         with self._changed:
             self._requests += 1
             self._changed.notify()

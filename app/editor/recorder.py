@@ -278,7 +278,7 @@ class Recorder(QObject):
                 self._finished(Path(os.fsdecode(reported.path)))
 
     def _refused(self, reason: Message) -> None:
-        """Something cannot be done: the device be had, or something beside it."""
+        """Report something that the recorder's process could not do, such as opening the device."""
         state = self._state
         if reason.id == "capture.port_not_here":
             # It is waited for; a window that opens without it need not warn.
@@ -517,7 +517,7 @@ class Recorder(QObject):
         self._adopted.clear()
 
     def _project_opened(self) -> None:
-        """Takes that a crash tore off are brought in, beside the others; nothing else changes."""
+        """Add takes that a crash cut off to the opened project; nothing else changes."""
         if self._state.running:
             self.stop()
         # What was played for another project waits beside that one's file until it is opened again.

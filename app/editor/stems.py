@@ -191,7 +191,7 @@ class Stems(QObject):
         self._tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key=self._key)
 
     def _look(self) -> None:
-        """Take what is there."""
+        """Take over windows of sound that have been rendered."""
         job = self._job
         if job is None:
             return

@@ -1,4 +1,4 @@
-"""Slow work beside the window: in threads, with progress, stopped on request, its errors reported.
+"""Slow work in the background: in threads, with progress, stopped on request, its errors reported.
 
 A thread never lets go of anything last: what its work knew may be of the window, and an object of Qt that dies in a
 thread not its own takes the program with it. The window's thread waits for the thread's end before it lets go.
@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 class Tasks(Protocol):
-    """Runs work beside the window; shows its name and progress in the status line, where it can be cancelled."""
+    """Runs work in the background; shows its name and progress in the status line, where it can be cancelled."""
 
     def run(
         self,

@@ -1,4 +1,4 @@
-"""The reference video at the playhead: pictures are read beside the window, its place is found by its sound."""
+"""The reference video at the playhead: pictures are read in the background, its place is found by its sound."""
 
 from __future__ import annotations
 

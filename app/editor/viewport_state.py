@@ -28,7 +28,7 @@ class ViewportCamera(Protocol):
 
 
 class ViewportState(State):
-    """The chosen view and what is drawn beside the players.
+    """The chosen view, and what is drawn in addition to the players.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class ViewportState(State):
         return self._view
 
     def set_view(self, view: View) -> None:
-        """Look so."""
+        """Choose a view."""
         self._view = view
         self.viewed.emit()
         self.changed.emit()
@@ -86,7 +86,7 @@ class ViewportState(State):
         return what in self._shown
 
     def show(self, what: Shown, shown: bool) -> None:
-        """Draw it, or not."""
+        """Show or hide one of the things drawn in addition to the players."""
         after = self._shown | {what} if shown else self._shown - {what}
         if after != self._shown:
             self._shown = after

@@ -211,7 +211,7 @@ def _question(answer: Answer) -> Question:
 
 
 def _questions(key: EvaluationKey, answers: Sequence[Answer]) -> Iterator[Question]:
-    """Those that anyone was asked, in the order of the tables."""
+    """Questions that were put to any viewer, in the order of the tables."""
     asked = {_question(answer) for answer in answers}
     for presentation, aspect, scale in itertools.product(PRESENTATIONS, key.aspects, SCALES):
         question = Question(presentation, aspect, scale)

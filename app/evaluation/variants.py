@@ -30,7 +30,7 @@ class LateFingers(Performance):
         return {player_id: _late(plan) for player_id, plan in super().plans.items()}
 
     def plan(self, player: Player) -> PlayerPlan:
-        """One player's plan."""
+        """The plan of a player in this variant."""
         return self.plans[player.id]
 
 

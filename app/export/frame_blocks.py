@@ -96,7 +96,7 @@ class Walk:
 
     @property
     def traces(self) -> Traces:
-        """Return where everything was."""
+        """Places of the traced points in all frames read."""
         marks_m = {name: self._marks_m[row].T for row, name in enumerate(self._middles.names)}
         nodes = {name: self._placed[row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
         return Traces(marks_m, nodes)

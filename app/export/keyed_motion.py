@@ -184,7 +184,7 @@ class KeyedMotion:
                 self._drawn_m[row] = curved_values(self.places_m[row][None], kept[row, None])[0]
 
     def drawn(self, frames: AnyIntArray, by_angles: bool) -> KeyedPoses:
-        """Motion at some frames as it was drawn; see `shown`."""
+        """Motion at some frames as the drawn cubics have it; parameters as of `shown`."""
         turned = self._drawn[by_angles][:, frames]
         if by_angles:
             turned = curve_rotations(self._turning, turned)

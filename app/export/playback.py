@@ -81,7 +81,7 @@ class ScenePlayback:
 
 
 class Surface:
-    """Some vertices of a mesh, ready to be deformed.
+    """Vertices of a mesh, prepared for being deformed.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class Surface:
 
 
 class PlaybackBones:
-    """Some bones of a playback with all their ancestors.
+    """Bones of a playback, with all their ancestors.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ class Keys:
     curved: bool = False
 
     def beside(self, other: Keys) -> Keys:
-        """These keys, and behind those of the bones those of other bones, which move no morphs."""
+        """Return these keys followed by the keys of further bones, which move no morphs."""
         pose = None if self.pose is None or other.pose is None else np.union1d(self.pose, other.pose)
         return replace(self, bones=self.bones + other.bones, pose=pose)
 

@@ -61,7 +61,7 @@ Posed: TypeAlias = Callable[[str, float, Pose], Pose]
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
-    """Some frames of one player; joints that do not move in it are kept once.
+    """Consecutive frames of one player's motion; joints that do not move in them are stored once.
 
     ``values`` (F, M + C) are morphs, then controls.
     """

@@ -379,7 +379,7 @@ class Performance:
         return player_id in self._plans
 
     def plan(self, player: Player) -> PlayerPlan:
-        """One player's plan."""
+        """Return the plan of a player."""
         known = self._plans.get(player.id)
         return self.plans[player.id] if known is None else known
 

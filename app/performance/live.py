@@ -378,7 +378,7 @@ class LiveMotion:
 
     @property
     def broken(self) -> dict[str, tuple[Problem, ...]]:
-        """By player the contacts that the motion breaks, as far as it was made; another dict where anything is new."""
+        """Contacts that the motion breaks, by player, as far as it was made; a new dict whenever anything is new."""
         return self._broken
 
     @contextmanager

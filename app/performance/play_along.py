@@ -41,7 +41,7 @@ ONE_FRAME = Fraction(1)
 
 
 class PlayAlong:
-    """One player, played now.
+    """Pose of a single player who is played live by a controller.
 
     Times are seconds of any clock that runs on (``time.perf_counter_ns() / 1e9``); one that lies before what was
     reported or asked last counts as that. Values out of their range are taken for its end.
@@ -118,7 +118,7 @@ class PlayAlong:
             self._sound(now_s, before, self._held[before], attacked=False)
 
     def all_off(self, time_s: float) -> None:
-        """Nothing is played any more: the controller was taken away, or asks for silence."""
+        """End all notes: the controller was taken away, or sent "all notes off"."""
         now_s = self._time(time_s)
         self._held.clear()
         self._received.end_all()

@@ -261,8 +261,8 @@ def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
 
 
 def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
-    """Events without those of rules where the animator put one of the same kind: what is placed by hand wins. The very
-    same tuple where nothing is left out."""
+    """Drop the events of rules where the animator placed one of the same kind: what is placed by hand wins. The same
+    tuple is returned if nothing is dropped."""
     placed = [event for event in events if event.corrected and not EventId.parse(event.id).is_by_rule]
     by_kind: dict[str, list[tuple[float, float]]] = {}
     for event in placed:

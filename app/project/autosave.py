@@ -155,7 +155,7 @@ class Writing:
         return self._written(self.presence.own_path, warning)
 
     def _usual(self) -> Path | None:
-        """The place beside the project's file, where it is this editor's to use."""
+        """The usual place of unsaved work, next to the project's file, if this editor may use it."""
         document, presence = self.document, self.presence
         if document is None or not self.asks_usual or is_open_elsewhere(document, presence.folder, presence.token):
             return None
@@ -312,7 +312,7 @@ class Autosave:
             self._changed_s = now_s
 
     def written(self, writing: Writing, written: AutosaveResult) -> None:
-        """It was made. Raises FileError where the note of it cannot be written."""
+        """Note that unsaved work was written. Raises FileError where the note cannot be written."""
         path = written.path
         if path is None:
             return

@@ -133,7 +133,7 @@ def _plain_faults(place: str, value: Any) -> Iterator[Fault]:
 
 
 def curve_faults(curve: AdditiveCurve, place: str) -> Iterator[Fault]:
-    """Faults of one curve."""
+    """Yield the faults of an additive curve."""
     channel = CHANNELS.get(curve.channel)
     if channel is None:
         yield f"{place}.channel", f"there is no channel {shortened(curve.channel, 40)!r}; possible: {_POSSIBLE}"

@@ -195,7 +195,7 @@ def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) 
 
 
 def _left_out(project: Project, channels: Sequence[TrackChannel], silent: Sequence[int]) -> Iterator[int]:
-    """Those of the channels that no part was read from which the project knows as unplayed."""
+    """Channels without a part that the project lists as unplayed."""
     unplayed = list(project.score.unplayed)
     for index in silent:
         name, count = stream_name(channels[index]), len(channels[index].pitches)

@@ -43,7 +43,7 @@ def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
 
 
 def moved_ignored(ignored: IgnoredProblem, place: Callable[[int], int]) -> IgnoredProblem:
-    """The same problem after its music was moved: ``place`` maps former ticks to ticks."""
+    """An ignored problem after its music was moved: ``place`` maps former ticks to ticks."""
     return ignored if ignored.note_id else msgspec.structs.replace(ignored, tick=place(ignored.tick))
 
 

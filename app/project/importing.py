@@ -19,7 +19,7 @@ from instrument_maps.model import InstrumentMap
 
 
 class ImportRow(msgspec.Struct, frozen=True):
-    """Some tracks and who plays them.
+    """Tracks of a file and the players who play them.
 
     Attributes
     ----------

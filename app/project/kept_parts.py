@@ -85,7 +85,7 @@ def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction
 
 
 def _as_here(former: Part, part: Part, place: Callable[[int], int], scale: Fraction) -> Part:
-    """A part as it was, found where the file has it now."""
+    """A part of the project with its ticks mapped to where the file has it now."""
     here = moved_part(former, former.id, place, scale)
     return msgspec.structs.replace(here, track=part.track, channel=part.channel, voice=part.voice)
 

@@ -40,7 +40,7 @@ _NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure",
 
 
 class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Metadata of one player."""
+    """Parameters and corrections of a player, as a metadata file of the piece has them."""
 
     parameters: dict[str, Any] = {}
     corrections: tuple[Correction, ...] = ()

@@ -37,7 +37,7 @@ _NAME: Final = "name"
 
 
 class Preset(msgspec.Struct, frozen=True):
-    """Some of a player's parameters under a name."""
+    """A named set of parameters of a player."""
 
     name: str
     parameters: dict[str, Any]

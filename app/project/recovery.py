@@ -209,7 +209,7 @@ def _document(path: Path, folder: Path, token: str, facts: Autosaved | None) -> 
 def _item(
     path: Path, document: Path | None, token: str, facts: Autosaved | None, project: Project
 ) -> Recoverable | None:
-    """None where the project's file holds the same."""
+    """Recoverable unsaved work; None where the project's file holds the same."""
     written_s, missing, changed = path.stat().st_mtime, False, False
     if document is not None:
         try:

@@ -102,7 +102,7 @@ class Presence:
         self._on_disk = self.note
 
     def leave(self) -> None:
-        """Nothing is left to recover: take every trace away."""
+        """Remove every trace of this editor: nothing is left to recover."""
         stream = self._stream
         if stream is None or stream.closed:
             return

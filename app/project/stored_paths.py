@@ -44,7 +44,8 @@ def full_path(path: str, folder: Path) -> str:
 
 
 def stored_choreography(choreography: str, folder: Path) -> str:
-    """Nothing and the name of a bundled one stay what they are."""
+    """The stored form of a choreography's path; empty values and names of bundled choreographies are stored
+    unchanged."""
     return stored_path(choreography, folder) if choreography and not is_bundled_name(choreography) else choreography
 
 

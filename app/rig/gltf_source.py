@@ -42,7 +42,7 @@ class GltfSource:
 
     @cached_property
     def materials(self) -> tuple[Material, ...]:
-        """Its materials with those of their textures that can be read."""
+        """The file's materials, with those of their textures that can be read."""
         return scene_materials(self.gltf, own=self.gltf.generator == OURS)
 
 

@@ -17,7 +17,7 @@ from app.rig.skeleton import JointTransforms
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """Some vertices, prepared for deforming: linear blend skinning after the morph targets.
+    """Vertices prepared for deforming: linear blend skinning after the morph targets.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Skin:
         return blend
 
     def part(self, rows: AnyIntArray) -> Skin:
-        """Some of the vertices alone."""
+        """The prepared data of some of the vertices."""
         weights = self.weights[rows]
         used = np.flatnonzero(weights.any(axis=0))
         morphs = {name: deltas[rows] for name, deltas in self.morphs.items() if deltas[rows].any()}

@@ -84,7 +84,7 @@ class Cleaned:
 
     @property
     def kept(self) -> list[int]:
-        """The notes that stay."""
+        """The notes that were not left out."""
         return [index for index, fault in enumerate(self.faults) if not fault]
 
 

@@ -62,7 +62,7 @@ class MapChoice(msgspec.Struct, frozen=True):
 
     @property
     def usual_range(self) -> tuple[int, int]:
-        """Its range without pedal tones and altissimo."""
+        """Range of the map's instrument without pedal tones and altissimo."""
         return (self.concert_low, self.concert_high) if self.usual is None else self.usual
 
     def outside(self, pitches: Sequence[int], written: bool = False, usual: bool = False) -> int:

@@ -53,14 +53,14 @@ _COMPOUND_CONTRASTS: Final = (
     (0.15, -1.65, 1.09, 5.15, 1.30, -1.44, -0.21, -2.20, -1.01, -1.94, 0.29),
     (-0.64, 0.87, 2.26, -2.55, 1.46, -0.52, 1.03, 0.96, -0.94, -0.27, -0.22),
 )
-"""The same, added where the metre is compound or counts in eighths."""
+"""Weights added to those of simple metres where the metre is compound or counts in eighths."""
 _SHORT_CONTRASTS: Final = (
     (-3.38, 2.10, -1.97, 16.17, 0.23, -0.26, -2.31, 0.01, -1.93, 0.23, -1.42),
     (-1.29, 0.03, 0.16, 13.24, 1.45, -1.20, 2.63, 1.11, -0.36, 1.17, -2.89),
     (0.00, 0.00, 0.00, 0.00, 0.00, 0.00, 0.00, 0.00, 0.00, 0.00, 0.00),
     (-0.72, 1.32, 0.23, -11.35, 0.38, 0.97, 1.63, -0.61, 0.90, -0.98, 1.38),
 )
-"""The same, added in bars of two quarters and less."""
+"""Weights added for bars of two quarters and less."""
 _PLACES: Final = ((10.29, 7.33, 16.22, 17.78, -0.34, -0.22, -4.38, -1.43, -0.88, 0.66, -1.09, 2.23, 0.07, -0.30),)
 """A column each: what repeats after a bar, two bars, half a bar and two beats; the file begins at a bar line, at a
 beat, between eighths; the first note at a bar line, the last one there, or at a beat; sixteenths after the bar line;

@@ -268,7 +268,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def felt_metre_map(self) -> MetreMap:
-        """The same with the beat that is felt at the tempo of each bar."""
+        """The metre map with the beat that is felt at the tempo of each bar."""
         felt = felt_beats(self.tempo_map, self.metre_map, self.bar_starts)
         return msgspec.structs.replace(self.metre_map, felt=felt)
 

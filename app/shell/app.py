@@ -123,7 +123,7 @@ class Program(QObject):
         recorder: Callable[[Session, Files, Settings, EditorSound], Recorder] | None = None,
     ) -> None:
         super().__init__()
-        # The user's own are read beside the window, which may take as long as it likes.
+        # The user's own are read in the background, which may take as long as it likes.
         begin()
         begin_characters()
         begin_metadata()
@@ -175,7 +175,7 @@ class Program(QObject):
         apply_theme(self._application, self.session.tokens)
 
     def end(self) -> None:
-        """Stop everything that works beside the window."""
+        """Stop everything that works in the background."""
         self.editor.video.close()
         self.recorder.close()
         self.editor.streamer.close()

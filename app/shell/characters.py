@@ -61,7 +61,7 @@ def ask_for_character(editor: Editor) -> None:
 
 
 def bring_character(editor: Editor, path: Path) -> None:
-    """Read a character's file beside the window, then ask what is what in it."""
+    """Read a character's file in the background, then ask what is what in it."""
     session = editor.session
 
     def done(figure: Figure) -> None:

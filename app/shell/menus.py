@@ -45,7 +45,7 @@ class Menu(Retranslated, QMenu):
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Set its title."""
+        """Set the menu's title in the language of the editor."""
         self.setTitle(tr(self._text_id))
 
     # Qt overrides

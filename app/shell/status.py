@@ -159,7 +159,7 @@ class StatusLine(Retranslated, QStatusBar):
     # Notices
 
     def report(self, message: Message, severity: Severity) -> None:
-        """Say something."""
+        """Show a message for a while."""
         # A drag to where nothing can go says so with every move of the mouse.
         if not self._log or self._log[-1] != (message, severity):
             self._log.append((message, severity))

@@ -53,7 +53,7 @@ LEAST_SIZE: Final = QSize(960, 600)
 NARROW_PX: Final = 1060
 """In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
 DOCKED: Final = ("players", "inspector", "timeline", "recording")
-"""Panels beside the viewport."""
+"""Panels docked around the viewport."""
 
 
 class Window(Retranslated, QMainWindow):
@@ -258,7 +258,7 @@ class Window(Retranslated, QMainWindow):
         return self._full is not None
 
     def set_full_screen(self, on: bool) -> None:
-        """The viewport alone on the whole screen, or as it was before."""
+        """Show the viewport alone on the whole screen, or the window as it was before."""
         if on == self.is_full_screen:
             return
         if on:
@@ -358,7 +358,7 @@ class Window(Retranslated, QMainWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Open it."""
+        """Open the dropped file."""
         path = dropped_file(event)
         if path is not None:
             event.acceptProposedAction()

@@ -191,7 +191,7 @@ class Workspaces(QObject):
         return self._settings.workspace if self._settings.workspace in _BY_ID else WORKSPACES[0].id
 
     def choose(self, workspace_id: str) -> None:
-        """Keep how everything stands, and show another workspace as it was left."""
+        """Remember the current layout, and show another workspace as it was left."""
         if workspace_id == self.current:
             return
         self.keep()
@@ -214,7 +214,7 @@ class Workspaces(QObject):
             dock.hide()
 
     def keep(self) -> None:
-        """Remember how everything stands."""
+        """Remember the current layout."""
         if self._shown:
             layout = base64.b64encode(self._window.saveState(LAYOUT_VERSION).data()).decode()
             states = {name: panel.save_state() for name, panel in self._panels.items()}

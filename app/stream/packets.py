@@ -20,7 +20,7 @@ from app.arrays import AnyFloatArray, IndexArray
 MOST_BYTES: Final = 1400
 """Largest bundle: an Ethernet packet, with room for tunnels."""
 _BUNDLE_HEAD: Final = 16
-"""Its mark and its time."""
+"""Bytes of an OSC bundle's head: its mark and its time."""
 _LENGTH: Final = 4
 """Before each message."""
 _WORD: Final = 4

@@ -13,7 +13,7 @@ from typing import Final, TypeAlias
 from app.errors import AppError
 
 LOOPBACK: Final = "127.0.0.1"
-"""This computer."""
+"""Address of this computer."""
 LEAST_PORT, MOST_PORT = 1024, 65535
 TO_MANY: Final = "stream.to_many"
 
@@ -21,7 +21,7 @@ SocketAddress: TypeAlias = tuple[str, int] | tuple[str, int, int, int]
 
 
 class StreamError(AppError):
-    """Nothing can be sent there."""
+    """Error: nothing can be sent to the address."""
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ SCREEN = ("xvfb-run", "-a", "-s", "-screen 0 3840x2160x24")
 
 @dataclass(frozen=True)
 class Step:
-    """Something that is made.
+    """A step of the build: the files that it makes, and the commands for it.
 
     Attributes
     ----------

@@ -98,7 +98,7 @@ def tapered(line: Array, knots: Sequence[tuple[float, float]]) -> Array:
 
 
 def inside_out(shape: Shape) -> Shape:
-    """The same skin seen from within, without bodies."""
+    """A tube's surface seen from within, without collision bodies."""
     return Shape(shape.points, -shape.normals, shape.uvs, shape.faces[:, ::-1], ())
 
 

@@ -38,7 +38,7 @@ BEHIND = -0.004
 TOP, END, BOW = 0.050, 0.912, 0.997
 """Place where second and third joint begin, where all end, and the lowest point of the wide bow."""
 PIN = Pin(tube=(-0.156, 0.032), tip=0.036, most_m=0.170, tip_profile=((0.012, 0.0048), (0.0, 0.0016)), kept_m=0.014)
-"""Its tube goes through the wide bow and up between second joint and bell joint."""
+"""Places of the endpin, whose tube goes through the wide bow and up between second joint and bell joint."""
 
 REED = DoubleReed(
     tip_m=0.011, blade=0.036, width=0.0180, gap=0.0020, throat=0.0050, thread=0.016, staple=0.004, staple_radius=0.0040,

@@ -63,7 +63,7 @@ def write(model: Model, path: Path) -> None:
 
 
 def merged(shapes: list[Shape]) -> Shape:
-    """Several shapes as one."""
+    """Merge several shapes into one."""
     offsets = np.cumsum([0, *(len(shape.points) for shape in shapes)])
     return Shape(
         np.vstack([shape.points for shape in shapes]),

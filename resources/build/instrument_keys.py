@@ -59,7 +59,7 @@ class Wall:
     profile: Sequence[tuple[float, float]]
 
     def radius(self, along: float) -> float:
-        """The outer radius there."""
+        """Outer radius of the body at a place along it."""
         places, radii = zip(*self.profile, strict=True)
         return float(np.interp(along, places, radii))
 
@@ -156,7 +156,7 @@ class Rod:
 
     @property
     def axis(self) -> Array:
-        """Its direction."""
+        """Direction of the rod."""
         return unit(self.b - self.a)
 
     def nearest(self, point: ArrayLike) -> Array:
@@ -206,7 +206,7 @@ class Touch:
     ahead: Array
 
     def moved(self, along_normal_m: float) -> Touch:
-        """Its touch point higher or lower; the shapes stay."""
+        """The touch with its touch point higher or lower and unchanged shapes."""
         return replace(self, point=self.point + along_normal_m * self.normal)
 
 
@@ -427,7 +427,7 @@ class RingOn:
 
     @property
     def seat(self) -> Array:
-        """Its middle when it is down."""
+        """Middle of the ring when it is pressed."""
         return self.wall.point(self.along, self.angle_deg, self.rim_m - self.thick * 0.6)
 
     def pieces(self, lift_m: float, material: str = METAL) -> Pieces:

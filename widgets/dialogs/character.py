@@ -1,7 +1,7 @@
 """Bring your own character: which bone is which joint, which morphs make a face, and what will not be played.
 
 What is shown follows from `DraftHistory.now` and the figure alone; every change goes through `CharacterDialog.change`
-and can be undone. Pictures are drawn beside the window, the newest only.
+and can be undone. Pictures are drawn in the background, the newest only.
 """
 
 from __future__ import annotations
@@ -237,7 +237,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._changed()
 
     def redo(self) -> None:
-        """Make it again."""
+        """Make the change again that was undone last."""
         self._steps.redo()
         self._changed()
 

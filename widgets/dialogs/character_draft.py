@@ -52,7 +52,7 @@ class CharacterDraft:
         return replace(self, joints=joints if bone is None else {**joints, joint: bone})
 
     def with_face(self, face: str, parts: Mapping[str, float] | None) -> CharacterDraft:
-        """Other morphs for a face; empty: none; None: as it is found by itself."""
+        """The draft with other morphs for a shape of the face; empty for none, None for those found automatically."""
         morphs = {name: own for name, own in self.morphs.items() if name != face}
         return replace(self, morphs=morphs if parts is None else {**morphs, face: dict(parts)})
 
@@ -149,7 +149,7 @@ class DraftHistory:
             self._gesture, self._of_gesture = None, False
 
     def redo(self) -> None:
-        """Do it again."""
+        """Make the change again that was undone last."""
         if self._undone:
             self._done.append(self._undone.pop())
             self._gesture, self._of_gesture = None, False

@@ -98,7 +98,7 @@ class CharactersDialog(Retranslated, QDialog):
             button.setEnabled(bool(self.chosen))
 
     def _draw(self) -> None:
-        """Open every character beside the window, and draw it."""
+        """Open every character in the background, and draw it."""
         ids, ratio = tuple(character_library().own), self.devicePixelRatioF()
         if not ids and not character_library().problems:
             self._wrong.hide()

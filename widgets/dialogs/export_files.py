@@ -272,7 +272,7 @@ class ExportDialog(WorkingDialog):
     # Doing it
 
     def start(self) -> None:
-        """Write the files, beside the window."""
+        """Write the files, in the background."""
         if self._running or not self._start.isEnabled():
             return
         self._show.hide()

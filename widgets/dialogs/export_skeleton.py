@@ -44,7 +44,7 @@ _CHOICES: Final[dict[SkeletonChoice, str]] = {
 
 
 class SkeletonChooser(Retranslated, QWidget):
-    """A choice of skeleton and an optional file of the asset; says beside the window's work what differs.
+    """A choice of skeleton and an optional file of the asset; says in the background what differs.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """The import of a MIDI file: which of its tracks are played, by how many, on what and as whom.
 
-What comes of the choices is worked out beside the window: a file can ask for minutes of it.
+What comes of the choices is worked out in the background: a file can ask for minutes of it.
 """
 
 from __future__ import annotations

@@ -169,7 +169,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show()
 
     def choose(self, id: str) -> None:
-        """Show this instrument."""
+        """Show the map of an instrument."""
         self._fill_list(id)
 
     @property

@@ -112,7 +112,7 @@ class LatencyDialog(Retranslated, QDialog):
 
     @property
     def is_measuring(self) -> bool:
-        """True while it clicks."""
+        """True while the clicks of a measurement sound."""
         return self._running
 
     def sounding_s(self) -> float:

@@ -38,7 +38,7 @@ Film = Callable[[int, int, tuple[float, float], View | CameraBookmark | None, bo
 """Width, height, span in seconds, view (None: as the viewport shows it now) or bookmark to what draws the pictures in
 order."""
 Sound = Callable[[float, float, int], SingleArray]
-"""Start, end in seconds and samples per second to (N, 2) samples of the sound; runs beside the window."""
+"""Start, end in seconds and samples per second to (N, 2) samples of the sound; runs in the background."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
 _WHOLE, _LOOP, _SELECTION = "whole_piece", "loop", "selection"

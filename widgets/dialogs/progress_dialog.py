@@ -1,4 +1,4 @@
-"""Dialogs that work beside the window, show how far they are, and cancel before they close."""
+"""Dialogs that work in the background, show how far they are, and cancel before they close."""
 
 from __future__ import annotations
 

@@ -199,7 +199,7 @@ class ReimportDialog(Retranslated, QDialog):
         self._enable()
 
     def _enable(self) -> None:
-        """Nothing is to be agreed to where nothing changes."""
+        """Enable the button only where the re-import changes something."""
         some = bool(self._changes.changed - self._changes.kept)
         self._buttons.ok.setEnabled(some or bool(self.removed) or self.taken.project is not self._before)
 

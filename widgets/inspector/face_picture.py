@@ -23,7 +23,7 @@ WAITS_MS: Final = 120
 
 
 class FacePicture(Label):
-    """Draws a face beside the window whenever its weights change."""
+    """Draws a face in the background whenever its weights change."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent=parent)

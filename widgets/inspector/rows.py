@@ -49,7 +49,7 @@ class LineModel(QAbstractListModel):
         self.lines: tuple[ListRow, ...] = ()
 
     def show_lines(self, lines: Sequence[ListRow]) -> None:
-        """Show these."""
+        """Show texts, each as a line."""
         new = tuple(lines)
         if new == self.lines:
             return

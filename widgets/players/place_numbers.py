@@ -34,5 +34,5 @@ def shown_number(place: StagePosition, name: str) -> float:
 
 
 def with_number(place: StagePosition, name: str, shown: float) -> StagePosition:
-    """The place with a field as it was shown."""
+    """The place with one of its numbers set to a displayed value."""
     return msgspec.structs.replace(place, **{name: math.radians(shown) if name == "turn_rad" else shown})

@@ -140,7 +140,7 @@ class PlayerDelegate(RowDelegate):
         painter.drawEllipse(QRectF(box).center(), 5.5, 5.5)
 
     def _paint_button(self, painter: QPainter, box: QRect, letter: str, on: bool | None, colour: str) -> None:
-        """None: on for some of a section."""
+        """Paint a mute or solo button: on, off, or (None) on for some players of a section."""
         tokens = self._session.tokens
         painter.setBrush(QColor(colour) if on else Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor(tokens.line_strong if on is False else colour), 1.0))

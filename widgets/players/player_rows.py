@@ -112,7 +112,7 @@ class PlayerModel(QAbstractListModel):
         return tuple(row for row in self._rows if isinstance(row, PlayerRow))
 
     def show_rows(self, rows: Sequence[Row]) -> None:
-        """Show these."""
+        """Show rows of sections and players."""
         if [row.id for row in rows] != [row.id for row in self._rows]:
             self.beginResetModel()
             self._rows = tuple(rows)

@@ -128,7 +128,7 @@ class Lane(Retranslated, QWidget):
         """Show what is there of the player in front, where that is another."""
 
     def performance_changed(self) -> None:
-        """New plans are there."""
+        """Take over the new plans of a performance."""
         self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
@@ -403,7 +403,7 @@ class Lane(Retranslated, QWidget):
     # Qt overrides
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Unfold it: beside its title there is nothing else that could be meant."""
+        """Unfold a folded lane."""
         if self._folded and event.button() == Qt.MouseButton.LeftButton:
             self._toggle_fold()
         else:

@@ -193,7 +193,7 @@ class LaneStack(QScrollArea):
             lane.setFixedHeight(heights[lane.id])
 
     def _arrange_if_idle(self) -> None:
-        """Nothing moves under a mouse that drags."""
+        """Arrange the lanes unless the mouse is dragging."""
         if not self._players.dragging and not any(lane.dragging for lane in self._order):
             self.arrange()
 

@@ -72,7 +72,7 @@ class Eye:
         self.camera, self._flight, self._framed = camera, None, None
 
     def fly(self, camera: Camera, now_s: float) -> None:
-        """Look from there soon."""
+        """Move the camera to another view within a short time."""
         self._flight, self._framed = (self.camera, camera, now_s), None
 
     def advance(self, now_s: float) -> bool:

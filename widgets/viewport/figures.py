@@ -1,4 +1,4 @@
-"""The stage of a project: loaded beside the window, put into poses, and distinguished from the one before."""
+"""The stage of a project: loaded in the background, put into poses, and distinguished from the one before."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
 
 
 def moved(project: Project, loaded: DrawableFigures) -> DrawableFigures:
-    """The same figures at the places of another value of the project, in the poses they had."""
+    """The figures in their poses, at the places of another value of the project."""
     players: dict[str, Player] = {player.id: player for player in project.players}
     dancers: dict[str, Dancer] = {dancer.id: dancer for dancer in project.dancers}
     members = [

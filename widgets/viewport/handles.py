@@ -216,7 +216,7 @@ def with_correction(project: Project, player_id: str, before: PoseCorrection, af
 
 
 def without_corrections(project: Project, player_id: str, corrections: Sequence[Correction]) -> Project:
-    """The project without these."""
+    """The project without some pose corrections."""
     return edit.take_back(project, player_id, corrections)
 
 

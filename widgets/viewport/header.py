@@ -39,7 +39,7 @@ _SHOWN: Final[dict[Shown, tuple[str, str]]] = {
     "contacts": ("header.contact_points_and_their_distances", "contacts"),
     "wireframe": ("header.wireframe", "wireframe"),
 }
-"""Texts, by their ids, and pictures of what is drawn beside the players."""
+"""Ids of texts, and icons, of what is drawn in addition to the players."""
 FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
 _BETWEEN: Final = " · "
@@ -125,7 +125,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._folded.hide()
 
     def _add_shown(self) -> dict[Shown, QAction]:
-        """The menu of what is drawn beside the players."""
+        """Add the menu of what is drawn in addition to the players."""
         menu = named(QMenu(self), "viewport_show_menu")
         self._show.setMenu(menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)

@@ -74,7 +74,7 @@ class PoseTool:
         return self._drag.after if self._drag is not None else None
 
     def corrected(self, targets: Sequence[PoseTarget]) -> frozenset[PoseTarget]:
-        """Those of the targets that are held by hand here."""
+        """The targets that are posed by hand at the playhead."""
         player_id = self._player_id()
         if player_id is None:
             return frozenset()

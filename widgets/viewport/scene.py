@@ -96,7 +96,7 @@ class ViewportScene(QObject):
             self.staged.emit()
 
     def load(self) -> None:
-        """Bring the stage to the project's players; what is not there yet is loaded beside the window."""
+        """Bring the stage to the project's players; what is not there yet is loaded in the background."""
         self._others.stop()
         project, before = self._session.project, self._loaded
         if before is not None and same_figures(before.key, cast_key(project)):

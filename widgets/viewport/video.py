@@ -44,7 +44,7 @@ def fitted(ratio: float, width: float, height: float) -> QRectF:
 
 
 class VideoView(Retranslated, QWidget):
-    """The video's picture of now; what keeps it from being shown, where that is so.
+    """The video's picture at the playhead, or the reason why none is shown.
 
     Parameters
     ----------

@@ -156,7 +156,7 @@ class FbxLayerCurves:
         return self._at[known]
 
     def _keys(self, row: SingleArray) -> PackedArray:
-        """Keys of one channel.
+        """Add the keys of one channel's curve.
 
         One that rests is compressed to nothing; the noise of a moving one is not worth the time.
         """

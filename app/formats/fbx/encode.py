@@ -52,7 +52,7 @@ Property: TypeAlias = (
 
 
 class Element(msgspec.Struct, frozen=True, eq=False):
-    """One record.
+    """A record of an FBX file: a name, properties and nested records.
 
     Attributes
     ----------

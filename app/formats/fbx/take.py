@@ -41,7 +41,7 @@ class FbxCurve(NamedTuple):
         return self.slopes is None and bool((self.values == self.values[0]).all())
 
     def at(self, frames: int) -> FloatArray:
-        """Its values at all frames: lines or cubics between the keys, at rest before and after them."""
+        """Values of the curve at all frames: lines or cubics between the keys, constant before and after them."""
         if len(self.frames) == frames:
             return self.values.astype(np.float64)
         if self.slopes is not None:

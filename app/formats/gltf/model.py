@@ -162,7 +162,7 @@ class GltfChannel:
 
 @dataclass(frozen=True, eq=False)
 class GltfAnimation:
-    """Channels that belong together.
+    """An animation of a glTF file: its channels.
 
     Attributes
     ----------

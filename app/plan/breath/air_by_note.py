@@ -55,7 +55,7 @@ class AirStock(NamedTuple):
 
 
 def air_stock(breather: Breather, score: BreathScore, given: GivenBreaths, spare: dict[int, BreathEvent]) -> AirStock:
-    """The air there is."""
+    """Air that each note uses and that each breath before a note can draw, for the search for breaths."""
     times, lung_s = breather.times, score.lung_s
     used, steady_used, refill = air_taken(breather, score, given, spare)
     length_s = catch_lengths_s(score.steady, times, score.rests.sounding_tick)

@@ -11,7 +11,7 @@ from app.plan.event_id import EventId
 
 
 class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="correction"):
-    """Something changed by hand.
+    """Base of corrections: a change made by hand.
 
     Attributes
     ----------

@@ -17,7 +17,7 @@ LATEST_S: Final = 0.06
 """Largest delay of a follower's nod behind the leader's; each follower has a delay of its own."""
 SMALLEST: Final = 0.3
 LARGEST: Final = 0.55
-"""Size of their nods beside the leader's."""
+"""Size of followers' nods relative to the leader's."""
 UNDER_CONDUCTOR: Final = 0.6
 """Size of the nods of players who follow a baton."""
 

@@ -236,7 +236,7 @@ def _cue(
 def _cue_by_hand(
     player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, takers: tuple[str, ...]
 ) -> CueEvent:
-    """A cue whose preparatory beat lasts as many beats of the score as it was given."""
+    """A cue set by hand, whose preparatory beat lasts the given number of beats of the score."""
     seconds, beat = piece.clock.seconds, beat_ticks(piece, tick) * beats
     start_tick = tick - LEAD_BEATS * beat
     end_s, peak_s = seconds(float(tick)), seconds(tick - beat)

@@ -22,7 +22,7 @@ _SIDE = re.compile(r"\.(index|middle|ring|little)\.(side|pad_proximal)")
 """The parts of a finger other than its tip; a thumb lies aside by nature."""
 
 LEVER_COST = 0.5
-"""A thumb that has a lever of its own moves beside the fingers."""
+"""Cost of a thumb that moves its own lever while fingers move."""
 FINGER_WEIGHT = {"thumb": 1.25, "little": 1.25, "ring": 1.1}
 """Weights of the slower fingers' moves in a hurry; the others' are 1."""
 CONTRARY_COST = 0.5

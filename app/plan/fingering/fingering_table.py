@@ -20,7 +20,7 @@ what a listener notices in a melody."""
 FULLY_AUDIBLE_S = 0.25
 """The intonation of shorter notes is less audible; their cost falls in proportion."""
 FORKED_COST = 0.5
-"""A forked fingering sounds covered, beside its rank."""
+"""Cost of a forked fingering, which sounds covered, on top of its rank."""
 IN_PLACE_COST = {"trill": 0.5, "fast": 0.5, "forte": 0.5, "piano": 0.5, "chromatic": -0.5, "attack": -4.0}
 """Costs of fingerings meant for trills, fast passages, chromatic runs, attacks, loud or soft notes, there and
 whatever their rank; see `OUT_OF_PLACE_COST` for elsewhere."""

@@ -22,7 +22,7 @@ LEAST_NOTES = 24
 BASS_WEIGHT = 2.0
 """Weight of the lowest line; the others have 1."""
 LAST_WEIGHT = 0.1
-"""Weight of the last note of a line beside all the others: pieces end on a strong beat."""
+"""Weight of the last note of a line relative to all the others: pieces end on a strong beat."""
 GIVEN_MOST = 0.9
 """Bar lines are doubted where their weight is less than this; all beats of a bar have 1 on average."""
 BEST_LEAST = 1.5

@@ -27,7 +27,7 @@ MORE_S: Final = 0.2
 ONE_TEMPO: Final = 1.05
 """One voice may move in it: beats within this factor are held by one tempo."""
 STANDS_OUT: Final = 1.25
-"""It is slower by this factor than the beat before: the last beat of a ritardando is not held."""
+"""Least factor by which a held beat is slower than the beat before: the last beat of a ritardando is not held."""
 MOST_IN_A_ROW: Final = 4
 """More long notes in a slow tempo are a slow passage."""
 LONG_BEATS: Final = 2
@@ -36,7 +36,7 @@ BEFORE_BEATS: Final = 8
 AFTER_BEATS: Final = 4
 """Beats whose median is the tempo before a fermata, and after it."""
 OTHER_TEMPO: Final = 1.15
-"""A tempo that is faster or slower by this factor is another one."""
+"""Factor from which a tempo counts as a different one."""
 TOGETHER_BEATS: Final = 0.12
 """Onsets nearer to one another are one: no one plays more exactly."""
 ROUNDING: Final = 1e-3

@@ -170,7 +170,8 @@ _ACCENT: Final = 0.16
 _CHANGE_COST, _FURTHER_COST = 0.8, 0.15
 """Cost of a change of level, and of each mark more that it goes."""
 _NEAR_COST, _OFF_COST, _STEP_COST, _MOST_COST = 0.6, 1.2, 0.6, 3.0
-"""Cost of a note whose velocity is beside the step, or off it (more for every mark away, at most so much)."""
+"""Costs of a note whose velocity is next to its dynamic's step, or off it, for every further dynamic away, and the
+most."""
 _ARTICULATION_COST, _ADDED_COST = 0.25, 0.03
 """Cost of a note that an articulation makes louder, and of each velocity that this adds."""
 _MARK_COST = _CHANGE_COST

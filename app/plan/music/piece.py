@@ -188,7 +188,7 @@ class LineTimes(NoteTimes):
 
     @cached_property
     def rhythm(self) -> NoteTimes:
-        """Return when it plays."""
+        """Onsets and ends of the line's notes."""
         return NoteTimes(self.onset_tick, self.played_end_tick, self.onset_s, self.played_end_s)
 
     @cached_property
@@ -353,7 +353,7 @@ class Seeds(msgspec.Struct, frozen=True):
     def chances_at(
         self, purpose: str, ticks: IntArray, places: IntArray | None = None, ends: IntArray | None = None
     ) -> FloatArray:
-        """The same at many places, (N,) float64.
+        """Random numbers (N,) for many places at once, as of `chance_at`.
 
         Parameters
         ----------

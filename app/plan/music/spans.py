@@ -21,6 +21,6 @@ class Spans:
         return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
 
     def meet(self, start_s: float, end_s: float) -> bool:
-        """Return whether one overlaps."""
+        """Return whether any of the spans overlaps the given one."""
         begun = bisect_left(self._starts_s, end_s)
         return begun > 0 and self._latest_ends_s[begun - 1] > start_s

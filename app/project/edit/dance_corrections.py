@@ -28,7 +28,7 @@ def forbid_state(project: Project, dancer_id: str, start_tick: int, end_tick: in
 
 
 def take_back(project: Project, dancer_id: str, corrections: Iterable[DanceCorrection]) -> Project:
-    """Remove these corrections."""
+    """Remove corrections of dances."""
     return _without(project, dancer_id, corrections)
 
 

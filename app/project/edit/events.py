@@ -117,7 +117,7 @@ def set_fades(
 
 
 def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str], expression: str) -> Project:
-    """Show another face there."""
+    """Replace the faces of expression events."""
     return _all_changed(project, plan, event_ids, ExpressionEvent, expression=expression)
 
 

@@ -27,7 +27,7 @@ _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 
 
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """Corrections of these events."""
+    """The corrections that made or changed these events."""
     requested = frozenset(event_ids)
     return tuple(item for item in project.corrections.get(player_id, ()) if item.about in requested)
 

@@ -172,7 +172,7 @@ def _marks_over(project: Project, player_id: str, notes: Sequence[Note], kind: s
 
 
 def _excluded(there: Collection[Mark], fresh: Sequence[Mark]) -> list[Mark]:
-    """Return the marks that cannot stand beside new ones."""
+    """The marks that cannot stand together with new ones."""
     others: dict[str, frozenset[str]] = {kind: kinds - {kind} for kinds in EXCLUDING for kind in kinds}
     places = {(other, *_place(mark)) for mark in fresh for other in others.get(mark.kind, ())}
     return [mark for mark in there if (mark.kind, *_place(mark)) in places]

@@ -163,7 +163,7 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
 
 
 def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
-    """None, one or two habits of those there are; the more players differ, the more have any."""
+    """Choose up to two of the habits by chance; the more players are to differ, the more of them get any."""
     known = sorted(HABITS.now().items)
     found = [
         known[int(chance("habit", str(number), roll, player_id) * len(known))]

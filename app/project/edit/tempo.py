@@ -177,7 +177,7 @@ def _is_same(one: Metre, other: Metre) -> bool:
 
 
 def replace_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
-    """These tempi instead, in any order, one of them at tick 0; the same project where they are as they were."""
+    """Set the tempi of the piece, in any order, one of them at tick 0; returns the same project if nothing changes."""
     before = project.score.tempo_map
     ordered = tuple(sorted(changes, key=lambda change: change.tick))
     if ordered == before.changes:

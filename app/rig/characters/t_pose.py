@@ -35,7 +35,7 @@ ALIKE: Final = float(np.cos(np.radians(8.0)))
 BACKWARDS: Final = 0.3
 """Feet point back if they reach so much farther behind the ankle than before it, of their length."""
 ASKEW_DEG: Final = 20.0
-"""A figure that stands turned by less stands as it was meant to."""
+"""Turn of a figure up to which it is taken to stand as intended."""
 UP: Final = np.array([0.0, 1.0, 0.0])
 AHEAD: Final = np.array([0.0, 0.0, 1.0])
 

@@ -24,7 +24,7 @@ SHAPES_DEG: Final[Mapping[HandShape, tuple[tuple[float, float, float], ...]]] = 
     "point": ((16.0, 22.0, 22.0), (10.0, 16.0, 8.0), (54.0, 70.0, 36.0), (60.0, 76.0, 40.0), (60.0, 74.0, 38.0)),
 }
 TIP_SHARE: Final = 0.75
-"""A finger's last bone beside the one before it."""
+"""Length of a finger's last bone relative to the one before it."""
 PAD_M: Final = 0.006
 """Depth of a fingertip's bone below its skin."""
 OPPOSED: Final = (0.55, 0.85)

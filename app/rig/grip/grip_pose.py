@@ -103,7 +103,7 @@ class StationTable:
 
 @dataclass(frozen=True)
 class FingerTable:
-    """Poses of one finger.
+    """Poses of a finger at all its stations.
 
     Attributes
     ----------

@@ -24,7 +24,7 @@ _Measure = Callable[[npt.NDArray[Any], npt.NDArray[Any]], npt.NDArray[Any]]
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
-    """Some proxies of one instrument as arrays.
+    """Collision bodies of instruments or parts of them, as arrays.
 
     Attributes
     ----------

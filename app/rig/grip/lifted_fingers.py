@@ -51,7 +51,7 @@ class _Finger:
         return self.carried_m(rotations, 0, self.beyond_m(rotations))
 
     def beyond_m(self, rotations: FloatArray) -> FloatArray:
-        """The same (S, 3) in the frame of the first joint."""
+        """Points of the finger beyond what touches (S, 3), in the frame of its first joint."""
         point = np.broadcast_to(self.tip_m, (len(rotations), 3))
         return self.carried_m(rotations, 1, self.carried_m(rotations, 2, point))
 
@@ -122,7 +122,8 @@ def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
 
 
 def _lifted(station: StationTable, finger: _Finger) -> StationTable:
-    """One station with its finger lifted from the knuckle: as curved as that goes, or half, or as it was solved."""
+    """A station with its finger lifted from the knuckle: fully curved if that fits, else half, else as it was
+    solved."""
     for amount in AMOUNTS:
         rotations = _from_knuckle(station, finger, amount)
         if rotations is not None:

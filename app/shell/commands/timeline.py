@@ -55,7 +55,7 @@ LANES: Final = (BELOW[0].id, "roll", *(kind.id for kind in BELOW[1:]))
 
 
 NUMBERED: Final = tuple(id for id in LANES if id != DynamicsLane.id)
-"""Those with a digit as shortcut: there are no more than ten."""
+"""Lanes that have a digit as shortcut, ten at most."""
 
 
 def _lane(id: str) -> Action:

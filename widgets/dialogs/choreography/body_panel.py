@@ -137,7 +137,7 @@ class BodyPanel(Retranslated, QWidget):
             self.changed.emit()
 
     def redo(self) -> None:
-        """Make it again."""
+        """Make the change again that was undone last."""
         if self._history.can_redo and self.isEnabled():
             self._history.redo()
             self.changed.emit()

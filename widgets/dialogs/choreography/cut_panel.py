@@ -40,13 +40,13 @@ class CutHistory:
         self.token = token
 
     def undo(self, now: Cuts | None) -> Cuts | None:
-        """The cuts before; there are some."""
+        """Return to the cuts before the last change; there must be one."""
         self.undone.append(now)
         self.token = None
         return self.done.pop()
 
     def redo(self, now: Cuts | None) -> Cuts | None:
-        """The cuts that were undone last; there are some."""
+        """Return to the cuts that were undone last; there must be some."""
         self.done.append(now)
         self.token = None
         return self.undone.pop()

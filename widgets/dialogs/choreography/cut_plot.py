@@ -150,7 +150,7 @@ class CutPlot(QWidget):
 
     @property
     def unfit(self) -> tuple[tuple[int, int], ...]:
-        """Spans of frames that are shaded."""
+        """Spans of frames that are shaded as not danced."""
         return self._unfit_spans
 
     @property

@@ -242,7 +242,7 @@ class LearnDialog(WorkingDialog):
             self._edited()
 
     def _read(self, row: PairRow) -> None:
-        """Read the files of a pair beside the window; what was found before is of others."""
+        """Read the files of a pair in the background; what was found before is of others."""
         self._readings += 1
         draft, number = row.draft, self._readings
         row.found, row.reading = PairContents(), 0

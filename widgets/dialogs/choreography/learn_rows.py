@@ -149,7 +149,7 @@ class PairList(ColumnList):
             self.headerItem().setTextAlignment(column, _RIGHT)
 
     def show_rows(self, rows: Sequence[PairRow], tokens: Tokens) -> None:
-        """Show these pairs."""
+        """Show pairs of motion and music, each as a row."""
         self.blockSignals(True)
         while self.topLevelItemCount() > len(rows):
             self.takeTopLevelItem(self.topLevelItemCount() - 1)

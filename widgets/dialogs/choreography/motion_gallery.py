@@ -53,7 +53,7 @@ class MotionModel(QAbstractListModel):
         self.sources = 0
 
     def show_motions(self, motions: Sequence[BasicMotion], used: Mapping[int, int], sources: int) -> None:
-        """Show these."""
+        """Show basic motions, each as an item."""
         self.beginResetModel()
         self.motions, self.used, self.sources = motions, used, sources
         self.endResetModel()

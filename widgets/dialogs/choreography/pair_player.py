@@ -79,7 +79,7 @@ class PairPlayer(Retranslated, QWidget):
 
     @property
     def is_playing(self) -> bool:
-        """True while it plays."""
+        """True while a pair of motion and music plays."""
         return self._playback.is_playing
 
     def show_pair(self, draft: PairDraft, found: PairContents) -> None:
@@ -122,7 +122,7 @@ class PairPlayer(Retranslated, QWidget):
             self._playback.play()
 
     def stop(self) -> None:
-        """Stop where it plays."""
+        """Stop playing; the position stays."""
         self._playback.stop()
 
     def close_down(self) -> None:

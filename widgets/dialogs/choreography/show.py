@@ -139,7 +139,7 @@ class ChoreographyDialog(Retranslated, QDialog):
             self._ask()
 
     def _ask(self) -> None:
-        """Find out beside the window what the selected dancer dances."""
+        """Find out in the background what the selected dancer dances."""
         dancer, performance = self._session.dancer, self._session.performance
         if dancer is None:
             self._asked = self._shown = self._error = None

@@ -94,7 +94,7 @@ class DancersSection(Retranslated, QWidget):
 
     @property
     def dancer(self) -> Dancer | None:
-        """The selected one."""
+        """The selected dancer."""
         return self._session.dancer
 
     def _tool(self, picture: str, tip_id: str, run: Callable[[], object]) -> IconButton:

@@ -229,7 +229,7 @@ class RegionLane(Lane):
             self.height_asked.emit()
 
     def regions_refreshed(self) -> None:
-        """The regions are others."""
+        """Redraw after the regions have changed."""
 
     # What happens around
 

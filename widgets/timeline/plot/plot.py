@@ -142,7 +142,7 @@ class Plot(Pictured):
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
 
     def add(self, item: LaneItem[Any]) -> None:
-        """Draw this too."""
+        """Draw another item on the plot."""
         self._items.append(item)
         self._items.sort(key=lambda each: each.z)
         self.redraw()

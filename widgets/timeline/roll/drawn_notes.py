@@ -246,7 +246,7 @@ class Lasso(LaneItem[RollView]):
         self.cut: QLineF | None = None
 
     def show(self, rect: QRectF | None, cut: QLineF | None = None) -> None:
-        """Draw this."""
+        """Draw the lasso around a rectangle."""
         if (rect, cut) != (self.rect, self.cut):
             self.rect, self.cut = rect, cut
             self.update()

@@ -113,7 +113,7 @@ class DanceLane(RowLane):
             self._rows_changed()
 
     def performance_changed(self) -> None:
-        """Find out beside the window what is danced now."""
+        """Find out in the background what is danced now."""
         performance = self.session.performance
         if performance.project.dancers and performance is not self._shown_of:
             self._shown_of = performance

@@ -145,7 +145,7 @@ class Alternates(QFrame):
         )
 
     def fill_menu(self, menu: QMenu, player_id: str, event: FingeringEvent) -> None:
-        """The same choices as entries of a menu."""
+        """Add the choices to a menu as entries."""
         instrument = self._instrument(player_id)
         for fingering in self.choices(player_id, event):
             note, words = self.note_text(fingering), fingering_words(instrument, fingering.label, language())

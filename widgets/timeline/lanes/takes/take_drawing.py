@@ -16,7 +16,7 @@ from widgets.timeline.plot.drawing import draw_lines, draw_rects, draw_text, sha
 from widgets.timeline.plot.plot import LaneItem, LaneView
 
 STRIP_PX: Final = 26.0
-"""The comp, beside the lane's title."""
+"""Height of the strip of the comp, next to the lane's title."""
 MARGIN_PX: Final = 3.0
 LEAST_NOTE_PX: Final = 2.0
 PALE: Final = 95

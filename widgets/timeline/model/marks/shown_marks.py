@@ -66,7 +66,7 @@ class ShownMarks:
         return self._list
 
     def table(self, notes: NoteTable) -> MarkTable | None:
-        """These marks sorted to the notes of the player in front; None where there are none."""
+        """The marks sorted to the notes of the player in front; None where there are none."""
         of_player = self.of_player
         if not of_player.marks:
             return None

@@ -87,7 +87,7 @@ class RegionDrag(MouseGesture):
 
     @property
     def lasso(self) -> PixelRect | None:
-        """The box that selects."""
+        """The box of a drag that selects."""
         return self._band.box
 
     @property

@@ -55,7 +55,7 @@ class TakeRow:
 
     @property
     def take_id(self) -> str:
-        """Id that edits use."""
+        """Id of the take, as edits use it."""
         return BEFORE if self.take is None else self.take.id
 
 
