@@ -118,7 +118,7 @@ def wet_colour(name: str) -> Texture:
     """The white of the eyes, which reddens outwards and darkens towards the limbus, beside the patches of the mouth."""
     share, angle = _polar(WET_PX, WHITE_MIDDLE, WHITE_SHARE)
     outer = np.clip((share - IRIS_SHARE) / (1 - IRIS_SHARE), 0.0, 1.0)
-    white = to_linear(np.array([0.88, 0.855, 0.83])) * (1 + 0.02 * noise(WET_PX, 8, 80, 24)[..., None])
+    white = to_linear(np.array([0.82, 0.79, 0.765])) * (1 + 0.02 * noise(WET_PX, 8, 80, 24)[..., None])
     redden = 0.08 + 0.50 * smoothstep(outer, 0.15, 0.9)
     white = white * (1 - redden[..., None] * np.array([0.10, 0.34, 0.36]))
     white = white * (1 - 0.55 * _veins(angle, share)[..., None] * np.array([0.25, 0.9, 0.9]))

@@ -42,12 +42,16 @@ def covered(uvs: np.ndarray, uv_faces: np.ndarray, size: int) -> np.ndarray:
     return np.asarray(canvas)
 
 
-def directions(grey: np.ndarray, reach_px: float) -> np.ndarray:
-    """(H, W, 2) unit vectors (row, column) along which a picture changes least (its structure tensor)."""
+def directions(grey: np.ndarray, reach_px: float) -> tuple[np.ndarray, np.ndarray]:
+    """(H, W, 2) unit vectors (row, column) along which a picture changes least (its structure tensor), and how clearly.
+
+    The second is (H, W), from 0, alike in all directions, to 1.
+    """
     down, right = np.gradient(gaussian_filter(grey, 1.0))
     dd, dr, rr = (gaussian_filter(product, reach_px) for product in (down * down, down * right, right * right))
     across = 0.5 * np.arctan2(2 * dr, dd - rr)
-    return np.stack([-np.sin(across), np.cos(across)], axis=-1)
+    clear = np.hypot(dd - rr, 2 * dr) / np.maximum(dd + rr, 1e-12)
+    return np.stack([-np.sin(across), np.cos(across)], axis=-1), clear
 
 
 def strands(along: np.ndarray, seed: int) -> np.ndarray:
@@ -89,8 +93,10 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     smooth = gaussian_filter(spread(grey, solid), 6)
     # Shine and shade painted over whole locks are mostly taken out; light does that.
     grey = spread(grey, solid) / (smooth + 1e-3) ** 0.75
-    fine = strands(directions(grey / grey[solid].mean(), 4.0), 31)
-    grey = grey / grey[solid].mean() * (1 + 0.38 * fine)
+    along, clear = directions(grey / grey[solid].mean(), 4.0)
+    # Where no direction is clear, strands would curl like the grain of wood.
+    fine = strands(along, 31) * np.minimum(1.0, 0.25 + 1.25 * clear)
+    grey = grey / grey[solid].mean() * (1 + 0.34 * fine)
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
     alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)
@@ -111,7 +117,7 @@ def _strip(asset: Asset) -> tuple[np.ndarray, np.ndarray]:
 def _brow_picture(painted: np.ndarray) -> np.ndarray:
     """Single grey hairs: what is painted solid is thinned and shaded along its strokes."""
     alpha = np.clip(painted[..., 3], 0, 1)
-    fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5), 32)
+    fine = strands(directions(gaussian_filter(alpha, 1.0) + 0.5 * painted[..., :3].mean(axis=-1), 2.5)[0], 32)
     grey = to_srgb(np.clip(STRANDS_MEAN_LINEAR * (1 + 0.35 * fine), 0.05, 0.9))
     return np.stack([grey, grey, grey, np.clip(alpha * (0.95 + 0.32 * fine), 0, 1)], axis=-1)
 

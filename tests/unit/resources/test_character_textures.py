@@ -159,9 +159,12 @@ def test_strands_run_along_what_is_painted(build_module: Module) -> None:
     rows, columns = np.mgrid[:96, :96]
     for turn in np.radians([0, 30, 75, 120]):
         stripes = np.sin(0.8 * (columns * np.sin(turn) + rows * np.cos(turn)))
-        along = strands.directions(stripes, 4.0)[48, 48]
+        along, clear = strands.directions(stripes, 4.0)
         expected = np.array([-np.sin(turn), np.cos(turn)])
-        assert abs(along @ expected) > 0.99
+        assert abs(along[48, 48] @ expected) > 0.99
+        assert clear[48, 48] > 0.95
+    checks = np.sin(0.8 * rows) + np.sin(0.8 * columns)
+    assert strands.directions(checks, 6.0)[1][48, 48] < 0.2
     fine = strands.strands(np.broadcast_to([0.0, 1.0], (96, 96, 2)).copy(), 5)
     assert np.abs(np.diff(fine, axis=1)).mean() < 0.4 * np.abs(np.diff(fine, axis=0)).mean()
 
