@@ -103,7 +103,7 @@ def test_lips_shine_and_the_face_is_as_bright_as_its_tint_takes(build_module: Mo
 
 
 def test_eyes_have_a_pupil_an_iris_for_any_colour_and_a_white(build_module: Module) -> None:
-    eyes, textures = build_module("character_eyes"), build_module("character_textures")
+    eyes, textures = build_module("character_eyeballs"), build_module("character_textures")
     iris, wet = (
         textures.to_linear(_pixels(made(name).content))
         for made, name in ((eyes.iris_colour, "i"), (eyes.wet_colour, "w"))
@@ -124,7 +124,7 @@ def test_eyes_have_a_pupil_an_iris_for_any_colour_and_a_white(build_module: Modu
 
 
 def test_eyeballs_have_a_cornea_and_turn_with_their_joints(build_module: Module) -> None:
-    eyes = build_module("character_eyes")
+    eyes = build_module("character_eyeballs")
     names, centres = ("head", "leftEye", "rightEye"), np.array([[0, 0, 0], [0.03, 0, 0], [-0.03, 0, 0]])
     frames = np.tile(np.eye(4), (3, 1, 1))
     frames[:, :3, 3] = centres
