@@ -194,7 +194,7 @@ class JournalWriter:
         return True
 
     def move(self, path: str) -> None:
-        """Go on in another file, which must not be there and gets everything written so far; the first one goes.
+        """Continue in another file, which must not exist and gets everything written so far; the first file is deleted.
 
         Raises
         ------

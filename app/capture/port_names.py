@@ -110,7 +110,7 @@ def _identity(full: str, index: int, system: str) -> str:
 
 
 def _identities(plain: Sequence[str]) -> list[str]:
-    """The same, each once."""
+    """Names of the ports without the system's numbers, each once."""
     seen: Counter[str] = Counter()
     found = []
     for name in plain:

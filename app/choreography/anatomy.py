@@ -27,7 +27,7 @@ MOST_TWIST_DEG: Final = 75.0
 ALIKE_DEG: Final = 40.0
 """Lines of neighbouring bones are taken for the same if the motion has them nearer than this in the mean."""
 SPINE_ALIKE_DEG: Final = 6.0
-"""The same of the spine, between two lines whose mean is seldom farther off."""
+"""Largest usual angle between two lines of the spine that count as one."""
 LEANS_DEG: Final = {"hips": -3.0, "spine": -2.0, "chest": -4.0}
 """Lean, ahead positive, of the way to the next joint of the trunk in a body that stands: the mean of rigs whose zero
 pose does (CMU, Mixamo, MakeHuman)."""
@@ -47,7 +47,7 @@ first of the angles; farther than the second no palm is held most of the time.""
 THUMB_DEG: Final = 15.0
 """Angle by which a thumb is below the plane of the palm in a T-pose."""
 SLOW_PART: Final = 3
-"""A foot stands in the slowest of so many parts of the frames,"""
+"""Share of the frames, the slowest ones, in which a foot is taken to stand."""
 FLAT_DEG: Final = 8.0
 """and flat in most of these, to this."""
 MOST_STANCES: Final = 400

@@ -15,7 +15,7 @@ SPREAD: Final = 0.09
 from their mean over poses and points of the body, in parts of the body's height (15 cm at 1.7 m). The silhouette does
 not serve: dance is a continuum, and of the CMU clips it prefers two classes, whatever they dance."""
 LEAST_MOTIONS: Final = 3
-"""But not more than one basic motion for so many motions, or there is nothing to count."""
+"""Least number of motions for each basic motion: with fewer there is nothing to count."""
 STARTS: Final = 8
 """Runs of k-means; the best result counts."""
 

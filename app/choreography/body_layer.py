@@ -50,7 +50,8 @@ FASTEST_LEAN_RAD_S: Final = 1.3
 SLOW_S: Final = 1.5
 """Width (the standard deviation) of the window whose mean is taken for the place, the facing and the bearing."""
 SMOOTH_S: Final = 0.04
-"""The same, of the window that takes the tremor out of the capture: a bell half a metre from the lips would show it."""
+"""Length of the window that removes the tremor of a capture, in seconds: a bell half a metre from the lips would
+show it."""
 USUAL: Final = 0.95
 """Share of the motion that is within ..."""
 USUAL_SHARE: Final = 0.85

@@ -27,27 +27,29 @@ from app.rig import quaternion
 WINDOW_S: Final = 0.12
 """Longest time over which a way is compared."""
 TRUNK_WINDOW_S: Final = 0.24
-"""The same of hips, trunk and head, which do not go far and back in it, where shorter times show nothing."""
+"""Length of the window for hips, trunk and head, which do not go far and back in it: shorter windows show nothing
+there."""
 MOST_WINDOWS: Final = 8
 MOST_INSIDE: Final = 8
 """Lengths of windows, and frames inside of each, where the frame rate has more of them."""
 BESIDE: Final = 1.5
 BESIDE_RAD_S: Final = 2.0
 BESIDE_M_S: Final = 0.2
-"""Inside of damage a step is so many times, and by this more, faster than the step before and the step after it."""
+"""Speed in metres per second by which, on top of the factor `BESIDE`, a step within damage is faster than the steps
+before and after it."""
 _FAR_DEG: Final = {
     "hips": 9.5, "spine": 8.0, "chest": 8.0, "head": 16.0, "UpperArm": 42.0, "LowerArm": 45.0, "Hand": 72.0,
     "UpperLeg": 34.0, "LowerLeg": 45.0, "Foot": 50.0,
 }  # fmt: skip
 """Distance from the cubic over `FAR_S` beyond which there is damage; in shorter times it is less."""
 FAR_M: Final = 0.05
-"""The same for the place of the hips."""
+"""Bound for the place of the hips, in metres."""
 FAR_S: Final = 0.1
 LEAST_PART: Final = 0.45
-"""Nothing nearer than this part of these bounds is damage, however short the time."""
+"""Share of the bounds below which nothing is damage, however short the time."""
 SUDDEN: Final = 4.0
 SUDDEN_PART: Final = 0.6
-"""Over two steps, the bounds are this part for what is so many times faster than the steps beside it."""
+"""Share of the bounds that applies over two steps that are much faster than the steps around them."""
 FASTEST_RAD_S: Final = 45.0
 """No joint of a dancer turns faster: elbows of boxers and pitchers reach 43 rad/s (G. Fleisig and others, "Kinetics of
 baseball pitching", 1995), knees of kicks 35, and the fastest clean capture 35."""
@@ -59,7 +61,7 @@ FASTEST_HEAD_RAD_S: Final = 32.0
 SPIN_S: Final = 0.125
 SPIN_RAD: Final = 2.5
 BEGINS: Final = 0.5
-"""Such a turn is taken from where it is faster than this part of these bounds."""
+"""Share of the bounds from which such a turn is taken to begin."""
 FROZEN: Final = 2
 """Steps without any motion, of a body that moves by more than `STARTS_RAD_S` before or after them, are lost frames."""
 STARTS_RAD_S: Final = 1.5
@@ -234,7 +236,7 @@ def _turns_off(rotations: FloatArray, start: IntArray, part: IntArray, length: i
 
 
 def _moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
-    """The same of places (F, 3), metres."""
+    """Deviation of places (F, 3), metres, from even motion."""
     ends = [places[start + step] for step in (-1, 0, length, length + 1)]
     slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
     off = np.zeros(len(start))

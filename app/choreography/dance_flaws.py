@@ -27,7 +27,8 @@ AROUND: Final = (-1, 2)
 NEAR_S: Final = 0.1
 """A jolt no farther from a seam than this is that of the seam."""
 TOLERANCE: Final = 2.0
-"""A dance is danced faster than captured, by up to 1.75 for a moment: it may be so much farther from even motion."""
+"""Factor by which a dance may be farther from even motion than its captures: it is danced up to 1.75 times as fast
+for a moment."""
 SLIDES_M_S: Final = 0.005
 """A standing foot whose tip goes faster than this slides."""
 
@@ -41,7 +42,7 @@ def usual_change_rad_s(clips: Sequence[MotionClip], fps: Fraction) -> float:
 
 
 def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) -> tuple[int, ...]:
-    """Those seams (frames) of a dance that show.
+    """The seams (frames) of a dance at which a jerk shows.
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
 
 
 def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:
-    """Those stands of a dance during which the foot slides over the floor."""
+    """The stands of a dance during which the foot slides over the floor."""
     tips = tips_m(clip)[..., [0, 2]]
     speeds = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * float(clip.fps)
     return tuple(

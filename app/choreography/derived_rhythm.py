@@ -38,7 +38,7 @@ TOGETHER_S: Final = 0.03
 FIFTH: Final = 7
 LEAP: Final = 5
 AROUND_BEATS: Final = 4.0
-"""A moment is compared with the moments up to so many beats before and after it."""
+"""Beats before and after a moment with which it is compared."""
 LOUDER: Final = 1.25
 FULLER: Final = 2.0
 LONGER: Final = 2.0

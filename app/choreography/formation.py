@@ -17,12 +17,12 @@ Formation = Literal["unison", "canon", "mirror", "individual"]
 FORMATIONS: Final[tuple[Formation, ...]] = get_args(Formation)
 
 CANON_BEATS: Final = 4.0
-"""In canon each dancer begins so many felt beats after the one before."""
+"""Felt beats between the starts of two dancers in canon."""
 APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror": 3.0, "individual": 3.6}
 """From dancer to dancer in the row: those who dance alike at a time do not meet however far they go, the others keep
 about `app.choreography.stitch.STAGE_M` near to their places."""
 ENDS_S: Final = 2.0
-"""All come to rest within this time after the last beat that any of them follows."""
+"""Seconds after the last followed beat within which all dancers come to rest."""
 
 
 @dataclass(frozen=True)

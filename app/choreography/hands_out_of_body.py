@@ -36,7 +36,8 @@ AHEAD_M: Final = 0.03
 SMOOTH_S: Final = 0.08
 """Standard deviation in time of how far a hand is pushed."""
 TURNS_S: Final = 0.16
-"""The same of the way it is pushed: a hand that goes through the body is not thrown from one side to the other."""
+"""Time over which the direction of the push is smoothed: a hand that goes through the body is not thrown from one
+side to the other."""
 PASSES: Final = 2
 """A hand that is pushed out of one part may come into another."""
 LEAST_M: Final = 0.002

@@ -22,7 +22,7 @@ from app.rig import quaternion
 LONGEST_S: Final = 0.125
 """Longer damage is left out: what a body does in an eighth of a second and more follows from nothing."""
 ROUNDS: Final = 2
-"""Damage that shows after so many times of mending is left out."""
+"""Rounds of mending after which damage that still shows is left out."""
 JUMP_RAD: Final = 0.5
 """A segment farther than this from where its motion led has jumped, and is not back."""
 HIPS_JUMP_RAD: Final = 0.1

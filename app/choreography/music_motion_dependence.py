@@ -22,7 +22,7 @@ from app.errors import Message
 
 LEARNED: Final = 2.0 / 3.0
 ORDERS: Final = 199
-"""Other orders of the music that are tried."""
+"""Number of permutations of the music that are tried."""
 TELLS: Final = 0.05
 """Largest share of the other orders that inform as much, for music that informs about the motion."""
 STRETCH: Final = (3, 7)

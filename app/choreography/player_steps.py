@@ -40,7 +40,7 @@ SAME_FOOT_S: Final = 0.55
 HEEL_S: Final = 0.5
 """Longest time for which a heel or toes are up."""
 LIFT_SHARE: Final = 0.75
-"""The same as a share of a beat."""
+"""Time for which a foot is lifted, as a share of a beat."""
 TOES_CHANCE: Final = 0.4
 """Chance that toes, not heels, mark a phrase's beats without steps, and that a seated player answers it with heels."""
 PHRASE_BEATS: Final = 8
@@ -69,7 +69,7 @@ class _Touchdown:
     way_m: float
 
     def other(self) -> _Touchdown:
-        """The same of the other foot."""
+        """The touchdown with the feet exchanged."""
         return _Touchdown(1 - self.foot, self.time_s, (-self.place_m[0], self.place_m[1]), self.way_m)
 
 

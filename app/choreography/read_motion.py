@@ -32,7 +32,7 @@ from app.rig.motion_file import read_motion_file
 UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45, "mm": 0.001}
 """Lengths that BVH files are written in, metres; CMU: a 0.45th of an inch (its ASF files, and BVH made of them)."""
 FARTHEST_CM: Final = 1e9
-"""No unit makes a body's way so long; larger numbers are damage."""
+"""Longest way of a body, in centimetres, whatever unit a file is in; larger numbers are damage."""
 HEIGHTS_M: Final = (1.35, 2.15)
 """A unit that makes the figure as high as this is taken; the first of `UNITS_M` that does."""
 HEIGHT_M: Final = 1.7

@@ -81,7 +81,7 @@ def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
 
 
 FAR: Final = 2.0
-"""A tempo so many times as fast or slow as a dancer's own is felt at half or double time."""
+"""Factor between a tempo and a dancer's own from which the beat is felt at half or double time."""
 
 
 def felt_at(rhythm: Rhythm, beat_s: float) -> Rhythm:

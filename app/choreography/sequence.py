@@ -33,7 +33,7 @@ from app.choreography.phrases import ReturningPlaces
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
 MOST_BEATS: Final = 4
-"""From one accent to the next there are at most so many beats."""
+"""Most beats from one accent to the next."""
 
 
 @dataclass(frozen=True)

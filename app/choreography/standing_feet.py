@@ -28,9 +28,9 @@ AHEAD: Final = (0.0, 0.0, 1.0)
 BRIDGED_S: Final = 0.06
 """A foot that leaves the floor for less has not left it."""
 LEAST_S: Final = 0.1
-"""One that stands for less is passing."""
+"""Shortest time for which a foot stands; a shorter one is passing."""
 REACHED_M: Final = 0.08
-"""One that is higher over the floor, carried up there by a join, is still coming down."""
+"""Height over the floor up to which a foot has landed; a higher one, carried up by a join, is still coming down."""
 DRIFTS_M: Final = 0.10
 """A foot whose tip is carried farther than this while it should stand takes a step instead."""
 STEP_S: Final = 0.30

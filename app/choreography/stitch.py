@@ -30,7 +30,7 @@ STEP_BACK: Final = 0.2
 MOST_STEP_M: Final = 0.08
 """Part of an excess over these that each join takes back, and how much at most."""
 LATELY_S: Final = 1.0
-"""Place is a mean of so much of the motion."""
+"""Seconds of motion whose mean is the dancer's place."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
 
 

@@ -21,7 +21,7 @@ SPEEDS: Final = (0.67, 1.5)
 at; in between its speed goes over smoothly and was up to 1.75 for a moment."""
 NEVER: Final = -1e9
 MOST_STARTS: Final = 48
-"""A segment is reached from one of so many others: those that fit best, by all but what was danced before them."""
+"""Number of segments, the best-fitting ones, from which a segment can be reached."""
 SHARES: Final = 64
 """Accuracy, as a part of the time from accent to accent, of where two segments meet."""
 NEAR_S: Final = 0.1

@@ -22,7 +22,8 @@ from app.choreography.segment_arrivals import STEPPED_S
 from app.choreography.transition_scores import SPEEDS
 
 REST_S: Final = 0.4
-"""A dance begins and ends with so much of the motion before and after it, ever slower: it comes out of standing."""
+"""Seconds of motion before and after a dance, played ever more slowly, with which it comes out of and back to
+standing."""
 MOST_S: Final = 0.6
 """No arrival is moved farther than this."""
 LOOK_BACK: Final = 6

@@ -95,11 +95,11 @@ class BodyMotion:
     looks: dict[str, FloatArray] = field(default_factory=dict)
 
     def __getitem__(self, frames: slice) -> BodyMotion:
-        """The same motion in some of its frames."""
+        """The motion in some of its frames."""
         return self._each(lambda values: values[frames])
 
     def for_frames(self, frames: int) -> BodyMotion:
-        """One frame's motion, as many times."""
+        """The motion of a single frame, repeated."""
         return self._each(lambda values: np.tile(values, frames))
 
     def _each(self, made: Callable[[FloatArray], FloatArray]) -> BodyMotion:
@@ -114,7 +114,7 @@ class BodyMotion:
 
     @classmethod
     def still(cls, posture: Posture) -> BodyMotion:
-        """One frame of the posture before any motion."""
+        """The posture before any motion, as one frame."""
         zero = np.zeros(1)
         held, left, turned = (
             {joint: np.array([np.deg2rad(angles.get(joint, 0.0))]) for joint in TRUNK}

@@ -39,7 +39,7 @@ class Dancing(Protocol):
         asked for in."""
 
     def changed_s(self, before: object) -> FloatArray:
-        """Spans (K, 2) in which this is other motion than another."""
+        """Spans (K, 2) in which the motion differs from that of another dance."""
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
         """(count, 2) in which frames the left and the right foot stand."""

@@ -392,8 +392,7 @@ class Performance:
         return instrument
 
     def lacking(self, player: Player) -> tuple[Message, ...]:
-        """Return which of instrument and character of a player there is none of, and why where a file of it is
-        damaged."""
+        """What is missing of a player, instrument or character, and why where its file is damaged."""
         found = []
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))

@@ -108,7 +108,7 @@ class LiveHands:
         return bool(self._carrying)
 
     def play(self, now_s: float, pitch: int, loudness: float) -> None:
-        """A note begins; out of the instrument's range the fingers stay as they are."""
+        """Begin a note; for one out of the instrument's range the fingers stay."""
         self.advance(now_s)
         self._silent_s = math.inf
         if not self._instrument.in_range(pitch):

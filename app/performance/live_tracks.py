@@ -132,7 +132,7 @@ class LiveTrack:
         return index in self.chunks or index in self.unproven or index in self.outdated
 
     def reaches(self, grid: FrameGrid, index: int) -> bool:
-        """Return whether a chunk lies where the motion may be shown: of an excerpt, in the middle of it."""
+        """Return whether a chunk may be shown: of a motion made from an excerpt, only its middle may."""
         if self.excerpt is None:
             return True
         (first, frames), (start_s, end_s) = grid.span(index), self.excerpt.shown_s

@@ -70,7 +70,7 @@ _Array = tuple[str, list[int], bytes]
 
 
 class _Sent(msgspec.Struct, frozen=True):
-    """A `Motion` as it is sent."""
+    """A `Motion` in the form in which a copy of the process sends it."""
 
     fps: tuple[int, int]
     first_frame_s: float

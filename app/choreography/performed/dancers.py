@@ -49,7 +49,7 @@ BLINKS_EVERY_S: Final = (1.8, 6.0)
 
 _DANCING: IdentityCache[GeneratedDance] = IdentityCache(64)
 _REMEMBERED: Final = LargeResults(2**30)
-"""Generated dances: a dozen of a quarter of an hour, or two hundred of a minute, take so many bytes."""
+"""Generated dances that are kept in memory: two hundred of a minute take as much as a dozen of a quarter of an hour."""
 _RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
 _recent_rhythms: deque[Rhythm] = deque(maxlen=4)
 _recent_rhythms_lock = Lock()
@@ -112,7 +112,8 @@ class GeneratedDance:
         return self._whole(fps).dance
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
-        """Some frames of the performance. The same frames are the same bits in every span."""
+        """Motion of some frames of the performance; the same frames are identical to the bit whichever span they are
+        asked for in."""
         whole = self._whole(fps).motion
         here = slice(first, first + count)
         return replace(
@@ -126,7 +127,8 @@ class GeneratedDance:
         )
 
     def changed_s(self, before: object) -> FloatArray:
-        """Spans (K, 2) in which this is other motion than another: one change may alter all that follows."""
+        """Spans (K, 2) in which the motion differs from that of another dance: one change may alter all that
+        follows."""
         frame = self.time_frame
         return np.zeros((0, 2)) if self is before else np.array([[frame.first_frame_s, frame.end_s]])
 

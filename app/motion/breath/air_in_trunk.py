@@ -19,7 +19,7 @@ LEAD_S = 0.03
 LONGEST_S = 14.0
 """Air lasts no longer."""
 SPENT_S = 4.0
-"""After so long most of it is gone: what a shorter phrase leaves is in proportion."""
+"""Seconds of playing after which most of the air is gone; shorter phrases leave air in proportion."""
 KEPT = 0.15
 """Share of the air that is left when the next breath is drawn."""
 FLAT = 0.12
@@ -37,7 +37,8 @@ BREATH_LEAD_S = 0.03
 RESTS_S: Final = 6.0
 """In a shorter rest no quiet breath is seen."""
 QUIET_FROM_S, QUIET_UNTIL_S = 1.8, 1.6
-"""It begins so long after the instrument goes down, and ends so long before it is up again."""
+"""Seconds after the instrument goes down at which quiet breathing begins, and before it is up again at which it
+ends."""
 QUIET_WAYS = ((1.3, 1.8), (1.6, 2.3), (0.3, 1.1), (0.6, 1.0))
 """Bounds of the seconds in, out and of the pause, and of the depth."""
 MOST_QUIET: Final = 60

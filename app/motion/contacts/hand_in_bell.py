@@ -20,13 +20,13 @@ from app.rig.model import Skeleton
 from instrument_maps.wind import Stopped
 
 STOPPING: Final = "stopping"
-"""Its share among what hands do (`app.motion.gestures.body_layers.BodyMotion.hands`)."""
+"""Name of the hand in the bell among what hands do (`app.motion.gestures.body_layers.BodyMotion.hands`)."""
 FINGERS_KEPT: Final = ("index", "middle", "ring", "little")
-"""They lie on the wall of the bell whatever the palm does."""
+"""Fingers that lie on the wall of the bell whatever the palm does."""
 CLOSES_S: Final = 0.28
 """The hand closes and opens the bell in this time."""
 READY_S: Final = 0.03
-"""It is in place so long before the first note of a passage."""
+"""Seconds before the first note of a passage at which the hand is in place."""
 
 
 def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:

@@ -23,7 +23,7 @@ Z_AXIS = np.array([0.0, 0.0, 1.0])
 AT_EASE = 0.985
 """Share of its length an arm reaches without help from the shoulder."""
 STRETCHED = 0.985
-"""The same, of an arm that is stretched for the farthest places."""
+"""Length of a stretched arm, as for the farthest places, as a share of the whole arm."""
 NEAREST = 0.33
 """A hand is kept at least this share of the arm's length away (the elbow bent by 141 degrees)."""
 EASE_M = 0.008

@@ -27,9 +27,9 @@ NEXT_RAD = float(np.deg2rad(44.0))
 FARTHEST = 2
 LEAST_M = 1e-6
 DOWN_RAD = float(np.deg2rad(10.0))
-"""The arm comes down by so much; more would bring the bells of two instruments together below the shoulder."""
+"""Angle by which the arm comes down; more would bring the bells of two instruments together below the shoulder."""
 OUT_M, LONGEST = 0.04, 0.93
-"""It goes out by so much, clear of the body, as far as the arm comes with this share of its length."""
+"""Distance by which the arm goes out, clear of the body, and the largest share of the arm's length that it may need."""
 HANGS_RAD = 1.25
 """Angle from the T-pose down to an arm that holds nothing."""
 LOOKS_RAD = {"neck": 0.16, "head": 0.2}

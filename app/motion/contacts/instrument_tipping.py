@@ -21,9 +21,9 @@ from app.rig.ik import arm
 MOST_DEG, STEP_DEG = 40, 2
 """An instrument tips no further either way from where it is played; in such steps it is tried."""
 NEARLY_RAD = float(np.deg2rad(0.25))
-"""A wrist may leave its range by so much more when the instrument tips ..."""
+"""Angle by which a wrist may leave its range further when the instrument tips."""
 RAISED_RAD = float(np.deg2rad(12.0))
-"""... and an elbow may rise by so much: no player flaps the arms for a nod."""
+"""Angle by which an elbow may rise when the instrument tips: no player flaps the arms for a nod."""
 
 
 def with_bell_room(player: PlayerBody) -> PlayerBody:

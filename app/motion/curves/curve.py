@@ -194,7 +194,7 @@ def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) 
 
 
 def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial: float = 0.0) -> Curve:
-    """The same from arrays (S,)."""
+    """The moves of a curve from arrays (S,)."""
     before = np.concatenate(([initial], values[:-1]))[: len(values)]
     kept = values != before
     start_s, end_s, before, after = start_s[kept], end_s[kept], before[kept], values[kept]

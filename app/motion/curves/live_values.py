@@ -13,7 +13,7 @@ from dataclasses import dataclass
 LEAST_MOVE_S = 1e-3
 """No move is shorter."""
 SETTLED = 5.83
-"""A critically damped spring is within 2 % of its target after so many of its time constants."""
+"""Time constants after which a critically damped spring is within 2 % of its target."""
 HURRIES = 0.6
 """A way that has to be finished or turned back from before another one takes this share of the time, and the other as
 long as it takes."""
@@ -33,7 +33,7 @@ class Reach:
 
     @classmethod
     def at_rest(cls, value: float) -> Reach:
-        """Nothing moves."""
+        """A value that does not move."""
         return cls(0.0, LEAST_MOVE_S, value, 0.0, 0.0, value)
 
     def at(self, now_s: float) -> float:

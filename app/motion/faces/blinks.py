@@ -25,9 +25,9 @@ SLOT_S: Final = 1.3
 AT_BREATH, IN_REST, IN_PHRASE = 0.8, 0.40, 0.14
 """Chances of a blink at a breath, in a rest and in a phrase."""
 BREATH_LEAD_S, BREATH_SPREAD_S = 0.06, 0.14
-"""A phrase's blink begins so long before the breath, or later."""
+"""Seconds before a breath at which a phrase's blink begins, and the range by which it may be later."""
 APART_S: Final = 1.1
-"""Others keep away from it by so much."""
+"""Seconds that other blinks keep away from a phrase's blink."""
 LAG_S = (0.004, 0.014)
 """Range of the delay of one eye; which one is the player's."""
 LEAST_SHUT = (0.90, 0.98)

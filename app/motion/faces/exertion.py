@@ -29,9 +29,9 @@ BITS: Final = 12
 ONE: Final = 1 << BITS
 """The number 1 in fixed point."""
 WORKING_S: Final = 0.10
-"""A face works as hard as the notes so far before and after, ..."""
+"""Seconds before and after a moment whose notes decide how hard a face works."""
 CONTOUR_S, AROUND_S = 0.25, 1.6
-"""... and goes with the mean of notes so near, compared with those so near."""
+"""Seconds around a moment over which notes are averaged, and the wider range with which that mean is compared."""
 CONTOUR: Final = 3.0
 """A third of the range of tension or loudness between both is a whole rise."""
 LIGHT: Final = 0.35

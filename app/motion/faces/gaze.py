@@ -28,7 +28,7 @@ __all__ = ["BLINK_DOWN_S", "BLINK_SHUT_S", "BLINK_UP_S", "ENTRY_GUARD_S", "Gaze"
 
 SACCADE_S = 0.05
 SACCADE_BASE_S, SACCADE_S_RAD = 0.035, 0.12
-"""A saccade takes the one and so much by its size."""
+"""Duration of a saccade: a base in seconds, and seconds for each radian."""
 HEAD_TURN_S = 0.45
 HEAD_LAG_S: Final = 0.18
 """Delay of the head behind its target: with the curve's own rounding it begins some 80 ms after the eyes."""
@@ -37,12 +37,12 @@ MOST_YAW_RAD, MOST_UP_RAD, MOST_DOWN_RAD = 0.5, 0.15, 0.4
 MUSIC_PITCH_RAD, MUSIC_M = 0.20, 0.65
 """The music on its stand lies about 12 degrees below the line of sight, and at this distance from the eyes."""
 LINE_RAD, SYSTEM_RAD, SYSTEMS = 0.075, 0.018, 6
-"""Half of a line's width, and how far the next one is below it, of so many on a page."""
+"""Half the width of a line of music, the angle down to the next one, and their number on a page."""
 LINE_S = (5.0, 8.0)
 """In this time a line is read."""
 FIXATION_S: Final = 0.65
 LOOK_S: Final = 1.9
-"""A look away from the music lasts at most so long."""
+"""Longest look away from the music, in seconds."""
 UP_IN_PHRASE, ABOUT_IN_REST = 0.10, 0.5
 """Chances of a look: up while playing, and about in a rest."""
 BACK_S: Final = 0.8
@@ -52,15 +52,16 @@ ASIDE_RAD: Final = 0.22
 AUDIENCE_S: Final = 0.9
 """Time after the last note at which the eyes go up to the audience."""
 CLOSE_S: Final = 0.14
-"""Fixations are at least so long."""
+"""Shortest fixation, in seconds."""
 PLAYING_SHARE, RESTING_SHARE, READING_SHARE = 0.35, 0.6, 0.25
 """Shares of the gaze's turn that the head follows."""
 HEAD_TURNS = 0.5
-"""The head makes so much of the turn that a look lets it follow (`app.motion.gestures.body_layers`)."""
+"""Share of the allowed turn that the head makes with a look (`app.motion.gestures.body_layers`)."""
 EYES_RAD: Final = 0.52
 """Eyes turn no further in the head: what is further aside comes in sight with the head."""
 PLAYING_TURN_RAD, FREE_TURN_RAD, LOW_ENOUGH = 0.2, 2.0, 0.7
-"""The head is given so much of a turn with the instrument at the lips, and more once it is nearly lowered."""
+"""Turn left to the head with the instrument at the lips, the larger one once it is nearly lowered, and how low that
+is."""
 
 
 @dataclass(frozen=True)

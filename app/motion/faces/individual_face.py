@@ -26,9 +26,9 @@ STRONGER_SIDE: Final = 0.75
 VARIES: Final = 0.012
 """Slow variation of the difference of left and right, as a share of the size."""
 RATE_VARIES_RAD: Final = 0.8
-"""By so much a vibrato comes early or late now and then: some 0.3 Hz."""
+"""Phase by which a vibrato comes early or late now and then: some 0.3 Hz."""
 MOST: Final = 2.5
-"""Noise is held within so many times its root mean square."""
+"""Limit of noise, as a multiple of its root mean square."""
 _BANDS: Final = {
     # Root mean square 1, by the frequencies it is made of.
     "lips": (0.25, 1.1),
@@ -58,7 +58,7 @@ class Wandering:
 
 @dataclass(frozen=True, eq=False)
 class OwnFace:
-    """One player's.
+    """Individual traits of a player's face.
 
     Attributes
     ----------

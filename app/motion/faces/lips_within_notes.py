@@ -23,7 +23,7 @@ SLURRED: Final = 0.35
 WHOLE_S: Final = 0.45
 """Shorter notes are attacked with less."""
 RESTED_S, RESTED = 0.5, 1.4
-"""After a rest this long, an attack is so much firmer."""
+"""Length of a rest after which an attack is firmer, and the amount."""
 EASES_S, BACK_S = 0.30, 0.16
 """In a gap the tension eases in the first and is back in the second."""
 EASED: Final = 0.7
@@ -34,7 +34,7 @@ VIBRATO_FROM_S: Final = 0.6
 VIBRATO_WHOLE_S: Final = 1.6
 """... those of this length all of it; ..."""
 VIBRATO_AFTER_S, VIBRATO_IN_S, VIBRATO_OUT_S = 0.28, 0.75, 0.12
-"""... it begins so long after the onset, fades in, and stops before the end."""
+"""Seconds after the onset at which vibrato begins, of its fade-in, and before the end at which it stops."""
 
 
 def _notes(plan: PlayerPlan) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -30,7 +30,7 @@ EASES: float = 0.5
 RECORDED_LIPS: float = 0.08
 """Share of the generated motion of lips that stays where they were recorded."""
 TIRED_WANDERS: float = 0.8
-"""Tired lips wander so much more."""
+"""Additional wandering of tired lips."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ REST_S = 1.0
 QUICK_S = 0.16
 """From one onset to the next: what is quicker is a run."""
 CARRIED_S = 1.3
-"""An instrument is on its way to or from the lips for about so long."""
+"""Seconds for which an instrument is on its way to or from the lips."""
 
 
 @dataclass(frozen=True, eq=False)

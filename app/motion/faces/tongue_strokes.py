@@ -20,15 +20,15 @@ RISES_S: Final = 0.06
 FALLS_S: Final = 0.08
 """... and on its way back after it has left them; ..."""
 SOFTLY: Final = 1.6
-"""... so much longer in a soft stroke, which has no edge."""
+"""Factor on the time of a soft stroke, which has no edge."""
 NEAR_SHARE: Final = 0.42
 """In quick strokes each takes at most this share of the step to the next one, before its contact and after it."""
 PUSHED: Final[dict[Articulation, float]] = {"staccato": 0.3, "accent": 0.7, "marcato": 1.0}
 """Strength of the breath's push in an attack."""
 PUSH_FROM_S: Final = 0.07
-"""A push begins so long before its attack ..."""
+"""Seconds before an attack at which a push begins."""
 PUSH_UNTIL_S: Final = 0.20
-"""... and is over so long after it."""
+"""Seconds after an attack at which a push is over."""
 
 
 def tip_strokes(plan: PlayerPlan) -> Envelopes:

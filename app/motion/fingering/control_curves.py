@@ -33,7 +33,7 @@ MOST_BACK_SHARE = 0.9
 _PHASES: Final = np.linspace(0.0, 0.5, 201)
 _PROGRESS: Final = minimum_jerk(_PHASES)
 _PRESSED_PHASE: Final = float(np.interp(STILL_PRESSED, _PROGRESS, _PHASES))
-"""Time, as a share of a minimum-jerk move, at which a key has come so far that it is seen."""
+"""Share of the time of a minimum-jerk move at which a key's motion becomes visible."""
 LEAST_HELD_SHARE = 0.3
 RELEASE_S = 0.12
 """A finger's way back to rest after a note, unhurried."""

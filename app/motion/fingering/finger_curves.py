@@ -26,7 +26,7 @@ TRAVEL_S = 0.17
 AHEAD_S = 0.10
 """A finger that has time is over its key this long before it goes down."""
 HOME_S = 0.9
-"""A finger that is not needed for so long goes home."""
+"""Seconds without work after which a finger goes home."""
 LEAST_TRAVEL_S = 0.05
 """Least time between two keys; in less, the finger is on its way while the one comes up and the other goes down ..."""
 STAYS_SHARE = 0.12

@@ -11,7 +11,7 @@ from metadata.model import Overlap
 
 
 class Overlapped(NamedTuple):
-    """One value as each part of the body has it at some frames, (F,) float64 each."""
+    """A value as each part of the body has it, delayed, at some frames; (F,) float64 each."""
 
     hips: FloatArray
     chest: FloatArray
@@ -20,7 +20,7 @@ class Overlapped(NamedTuple):
 
     @classmethod
     def nothing(cls, frames: int) -> Overlapped:
-        """Everything at rest."""
+        """The value of a body at rest."""
         return cls(*(np.zeros(frames) for _ in cls._fields))
 
 

@@ -34,9 +34,9 @@ forward, turn to the left and lean to the left, all three seen from the floor.""
 SINKS_M: Final = 0.014
 """Distance by which the bent knees of a dancer lower the hips, which go up and down from there by less."""
 BREATH_ROOM: Final = 0.9
-"""Hips and trunk nod so much less while the player breathes in: the breath has to be seen ..."""
+"""Reduction of the nodding of hips and trunk while the player breathes in: the breath has to be seen."""
 BREATH_TURN_ROOM: Final = 0.6
-"""... and turn and lean aside by so much less ..."""
+"""Reduction of turning and leaning aside while the player breathes in."""
 BREATH_EASE_S: Final = 0.35
 """... and it comes to that within this time, and goes back in as much."""
 LEGS_EASE_M: Final = 0.008

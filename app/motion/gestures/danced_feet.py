@@ -80,7 +80,7 @@ class _Moves(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class DancedFeet:
-    """All that the feet of a dancing player do, a row for each move, ascending by when it lands.
+    """Everything that the feet of a dancing player do: a row for each move, ascending by its landing.
 
     Attributes
     ----------
@@ -168,7 +168,7 @@ class DancedFeet:
         return rows_changed_s(mine, theirs, mine_s, theirs_s)
 
     def giving_way(self, gestures: Iterable[GestureEvent]) -> DancedFeet:
-        """These feet without what is near to corrected gestures of feet: those are the animator's."""
+        """The moves without those near corrected gestures of the feet, which are the animator's."""
         kinds = answered_by("feet")
         spans = [(event.start_s, event.end_s) for event in gestures if event.corrected and event.kind in kinds]
         if not spans or not len(self):

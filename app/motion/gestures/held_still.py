@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 COMES_S: Final = 0.35
 GOES_S: Final = 0.6
-"""A body comes to rest, and goes on, in so much."""
+"""Seconds in which a body comes to rest, and starts again."""
 HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
 """The layers that are held; breath, cue and lowering go on."""
 

@@ -19,7 +19,7 @@ BOW = (0.36, 0.56)
 LOOK_UP_S = 0.7
 """The head goes up so slowly, and comes back so."""
 COUNT_EASE = 1.0
-"""Counting begins and ends within so many beats."""
+"""Beats over which counting fades in and out."""
 MOST_BOW_RAD = float(np.deg2rad(36.0))
 """However much of it is asked for, the trunk bends no further."""
 

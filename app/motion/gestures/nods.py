@@ -17,16 +17,16 @@ from app.plan.model import CueEvent, GestureEvent
 DIP_BEATS = 0.5
 """Half width of the dip around the beat, in beats ..."""
 DIP_S, SLOW_BEATS = 0.15, 0.2
-"""... in slow tempi less: so many seconds and so much of a beat, or the drop would mark no beat."""
+"""Largest duration of a dip in slow tempi: seconds plus a share of a beat, or the drop would mark no beat."""
 AFTER = 1.9
-"""Head and instrument come up from the dip in so much more time than they dropped in: nothing heavy is back at once."""
+"""Factor on the time in which head and instrument come up from a dip: nothing heavy is back immediately."""
 LIFT_BEATS = 0.85
 """Half width of the lift before it, where there is room."""
 NOD_BEATS = 1.5
-"""A nod begins so many beats before the one it marks."""
+"""Beats before the beat that a nod marks at which it begins."""
 LIFT_LAG = 0.6547
-"""Place of the peak of a bump's side lobe of acceleration, in half widths: a lift whose centre lies so far before the
-beat adds to the dip's peak without moving it."""
+"""Distance in half widths at which the centre of a lift lies before the beat, so that it adds to the dip's peak
+without moving it: the peak of the side lobe of a bump's acceleration."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -33,7 +33,7 @@ WEIGHT_IN_CHEST = 0.2
 ACCENT_IN_HIPS = 0.35
 """Pelvis on an accent, as a share of that of a lean."""
 BREATHES_WITH_TRUNK = (0.3, 1.0)
-"""Players breathe together, but not alike: with so much of the trunk's motion each ..."""
+"""Range of the share of the trunk's motion with which players breathe: together, but not alike."""
 SHOULDERS_INSTEAD = 0.6
 """... and who has less of it by one lifts the shoulders more by this share."""
 SEATED_ROLL = 0.5
