@@ -67,7 +67,7 @@ def words_of(values: Mapping[str, float], controls: Iterable[Control]) -> str:
 
 
 def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[Control]) -> int | None:
-    """Return the place among a note's fingerings of the one that a composer wrote; None where none of them is meant.
+    """Index among a note's fingerings of the one that a composer wrote; None where none is meant.
 
     Valves may be divided by signs (``"1-2"``, ``"1+2"``); a lever that is left out is meant where no other fingering of
     the note has these valves. A slide's position may be a Roman number and have an accidental (``"b4"``).

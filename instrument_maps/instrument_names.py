@@ -30,7 +30,7 @@ _NAME_LETTERS = 4
 _MOST_SHORT_KANA = 3
 """Kana of a wind's name that is found only where its run of kana ends ("クラ", not in "スクラッチ")."""
 _MOST_KANA = 8
-"""Kana beside such a name that are looked at."""
+"""Most kana examined on each side of a short kana name, to see whether it is part of a longer word."""
 _MOST_WORDS = 64
 """Most words of a text that names a part; more is no name."""
 _MOST_MEANINGS = 2048

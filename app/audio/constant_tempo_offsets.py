@@ -87,7 +87,7 @@ def places(
 def _correlate(
     recorded: FloatArray, expected_chroma: FloatArray, energy: FloatArray, spectra: dict[int, Spectrum]
 ) -> tuple[IntArray, FloatArray]:
-    """Likeness of the two at every lag of the recording, -1..1, by how much of them overlaps."""
+    """Likeness (-1..1) of score and recording at every lag of the recording, weighted by how much of them overlaps."""
     frames, length = recorded.shape[1], expected_chroma.shape[1]
     from scipy import fft  # heavy, and only here
 

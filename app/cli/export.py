@@ -227,7 +227,7 @@ def _request(
 
 
 def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
-    """The formats, of which one has what else is asked for; raises `UsageError` where none does."""
+    """The requested formats; raises `UsageError` where none of them can do something else that was requested."""
     if arguments.unreal is not None and arguments.formats:
         raise UsageError("unreal.formats")
     formats: frozenset[Format] = frozenset(arguments.formats or USUAL_FORMATS)

@@ -328,7 +328,7 @@ def _events(
     what: str,
     *fields: str,
 ) -> list[Table]:
-    """Events with what they are, where they are in seconds and beats, some fields of them, and why."""
+    """Events as tables: id and kind, times in seconds and beats, some of their fields, and the reason."""
     return [
         span | {"reason": reason(event.reason)}
         for event, span in zip(events, _spans(events, clock, what, *fields), strict=True)

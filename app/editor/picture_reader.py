@@ -92,7 +92,7 @@ class PictureReader:
             self._failed(error)
 
     def _awaited(self) -> int | None:
-        """The number of the picture to be read next; waits until there is one. None: it is over."""
+        """Wait for the next picture to be read, and return its number; None to end."""
         with self._condition:
             while not self._closed:
                 first = max(self._sought, 0)

@@ -47,7 +47,7 @@ def view_of(problem: Problem) -> View:
 
 
 def view_of_event(event_id: str) -> View | None:
-    """The view that shows an event of a plan; None: nothing of it is seen."""
+    """The view that shows an event of a plan; None if no view does."""
     kind = EventId.parse(event_id).kind
     if kind in BREATH_KINDS:
         return "mouth" if BREATH_KINDS[kind].draws_air else _OTHER_VIEW

@@ -21,7 +21,7 @@ class Questions(Protocol):
     """Interface for asking the user; it keeps dialogs out of the editor's services."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
-        """An existing file; None: the user thought better of it."""
+        """Ask for an existing file; None if the user cancels."""
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
         """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""

@@ -33,7 +33,7 @@ def conclude(results: EvaluationResults) -> Conclusions:
 
 
 def p_text(p: float) -> str:
-    """A probability as it is reported."""
+    """A probability as text for a report."""
     return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
 
 

@@ -140,7 +140,7 @@ class Keyframes:
 
     @property
     def covered_s(self) -> tuple[float, float]:
-        """Seconds of the performance that all of them show."""
+        """Seconds of the performance that the files of all players show."""
         spans = [one.covered_s for one in self.players.values()]
         return max(first for first, _ in spans), min(last for _, last in spans)
 
@@ -205,7 +205,7 @@ def read_keyframes(
 
 
 def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
-    """The file of each player that there is one of."""
+    """The motion file in the folder for each player who has exactly one."""
     try:
         there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
     except OSError as error:

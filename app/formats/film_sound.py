@@ -59,7 +59,7 @@ class _Timing:
         self.thread.start()
 
     def report(self) -> bytes:
-        """The lines that say nothing of time."""
+        """The lines of the program's output that say nothing of time."""
         return b"".join([*self._first, *self._last])
 
     def _read(self) -> None:

@@ -115,7 +115,7 @@ class UserFolder(Generic[V, S]):
             return self.last
 
     def now(self) -> S:
-        """Return all as they were last read; the first who asks reads them."""
+        """All items as they were last read; the first call reads them."""
         return self.last if self.last is not None else self.reload()
 
     def reload(self) -> S:

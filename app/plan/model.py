@@ -107,7 +107,7 @@ class TongueEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def id(self) -> str:
-        """Made of the note's, not kept: there is one for every note."""
+        """Id made of the note's id; there is one event for every note."""
         return f"tongue:{self.note_id}"
 
 
@@ -152,7 +152,7 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def id(self) -> str:
-        """Made of the note's, not kept: there is one for every note."""
+        """Id made of the note's id; there is one event for every note."""
         return f"embouchure:{self.note_id}"
 
 

@@ -131,7 +131,7 @@ class Parameter:
         return not _is_number(value) or self.held(value) == value
 
     def held(self, value: Any) -> Any:
-        """A number within the bounds and of the right type; another value as it is."""
+        """The value brought within the parameter's bounds; unchanged if it is of another type."""
         if self.bounds is None or not _is_number(value):
             return value
         low, high = self.bounds

@@ -35,7 +35,7 @@ class IgnoredProblem(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
-    """The problem as it is kept."""
+    """The problem in the form in which a project stores that it is ignored."""
     named = [str(problem.message.arguments[name]) for name in PARTS if name in problem.message.arguments]
     tick = 0 if problem.note_id is not None else round(clock.ticks(problem.start_s))
     body_part = " ".join(named)[:200]

@@ -55,7 +55,7 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
 
 def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
-    """A row for every track, or for the regions of one, as it is imported by default."""
+    """The rows of an import by default: one for every track, or for each region of one."""
     found = suggestions(contents.channels, map_choices(maps.values()))
     rows = []
     for one in found:
@@ -265,7 +265,7 @@ def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: s
 
 
 def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
-    """A row as it is kept with the project, with the marks of its channels."""
+    """A row of the import in the form in which the project stores it, with the marks of its channels."""
     chosen = row.assignment
     return RowDecision(
         tuple(marks),

@@ -69,7 +69,7 @@ def read_curves_of(project: Project, found: FoundParts, scale: Fraction) -> dict
 
 
 def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction) -> Part:
-    """A part as it is here, where its music is in the file."""
+    """The project's part, moved to where its music is in the file."""
     notes = [_scaled(note, place, scale) for note in part.notes]
     ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
     curves = tuple(moved_curve(curve, place) for curve in part.curves)

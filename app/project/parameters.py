@@ -109,7 +109,7 @@ def is_possible(parameter: str, value: object) -> bool:
 
 
 def with_settings(parameters: PlayerParameters, settings: Iterable[ParameterSetting]) -> PlayerParameters:
-    """The parameters with those settings that are fields of them."""
+    """The parameters with the settings that name fields of them applied."""
     changes = {setting.parameter: setting.value for setting in settings if setting.parameter in PARAMETERS}
     return msgspec.structs.replace(parameters, **changes)
 

@@ -85,7 +85,8 @@ def is_acting(correction: Correction) -> bool:
 
 
 def metadata_of(project: Project) -> PieceMetadata:
-    """The metadata of a piece as it is. What one musician does is said once, of the player with the body."""
+    """The metadata of a piece in its present state. What a musician with several instruments does is given once, for
+    the player with the body."""
     players = {}
     for player in project.players:
         parameters = {}

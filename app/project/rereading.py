@@ -65,7 +65,7 @@ def read_as_decided(
     choices: Sequence[MapChoice],
     played_on: Mapping[Place, str],
 ) -> MidiReading:
-    """A file's rows as they were decided when another version of it was read.
+    """Rows of a file by the decisions that were made when another version of it was read.
 
     Parameters
     ----------

@@ -230,7 +230,7 @@ def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
 
 
 def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
-    """Key paths that were in the file and are not in what was made of it."""
+    """Key paths of a stored file that this version does not read."""
     if isinstance(raw, dict) and isinstance(known, dict):
         for key, value in raw.items():
             if key not in known:
@@ -254,7 +254,7 @@ def sayable(message: Message) -> Message:
 
 
 def _placed(message: Message) -> Message:
-    """A message of the time when positions were counted as bar and beat, with its position as it is written now."""
+    """Convert a stored message of the time when positions were counted as bar and beat to the present form."""
     arguments = message.arguments
     bar, beat = arguments.get("bar"), arguments.get("beat")
     if "place" in arguments or not isinstance(bar, int) or not isinstance(beat, int | float):

@@ -239,7 +239,7 @@ def _instead(
 
 
 def plays(choice: MapChoice, instrument: Instrument) -> bool:
-    """Return whether a map plays an instrument, or a sort of it."""
+    """Return whether a map is of an instrument or of a variety of it."""
     return any(id == instrument.id or vocabulary().is_sort(id, instrument.id) for id in choice.plays)
 
 

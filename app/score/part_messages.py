@@ -110,7 +110,7 @@ def _other_sizes(parts: Sequence[Part], found: MapCandidates, instrument: Instru
 
 
 def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:
-    """Report parts that the instrument can play only if read as they are written, and those that are."""
+    """Report parts that fit their instrument only as written pitches, and those that were imported so."""
     choices = {choice.map_id: choice for choice in maps}
     found = []
     for part in parts:

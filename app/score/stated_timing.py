@@ -23,7 +23,7 @@ UNSTATED: Final = (Metre(0, 4, 4),)
 
 
 class Assumed(msgspec.Struct, frozen=True):
-    """Metres for a file that states none: those that a project has from an earlier version of it."""
+    """Metres for a file that states none, taken from an earlier version of it."""
 
     metres: tuple[Metre, ...]
     pickup_ticks: int

@@ -60,7 +60,7 @@ def cut_stuck_notes(
 
 
 def _candidates(tracks: Sequence[TrackEvents], tempo_map: TempoMap) -> tuple[list[_Long], int, bool]:
-    """Notes that last longer than `BESIDE_S`, where the others end, and whether there are others."""
+    """Notes longer than `BESIDE_S`, the end of the other notes, and whether there are others."""
     long: list[_Long] = []
     rest_tick, others = 0, False
     for track, events in enumerate(tracks):

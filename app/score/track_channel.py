@@ -87,7 +87,7 @@ class TrackChannel(msgspec.Struct, frozen=True):
 
     @property
     def place(self) -> tuple[int, int, int]:
-        """Track, channel and instrument, as of the parts that come of it."""
+        """Track, channel and instrument, as the parts made of the channel have them."""
         return self.track, self.channel, self.change
 
     def notes(self) -> list[Note]:

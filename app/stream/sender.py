@@ -26,7 +26,7 @@ class StreamError(AppError):
 
 @dataclass(frozen=True)
 class Address:
-    """A computer that is known, and a port of it.
+    """IP address of a computer whose name was resolved, and a port of it.
 
     Attributes
     ----------

@@ -34,7 +34,7 @@ IN_THE_MIDDLE = StagePosition(0.0, 0.0, 0.0)
 
 
 class Sent:
-    """One performer as they are sent: which bones under which names, which face, which instrument.
+    """A performer in the form that is sent: bones with their names, face and instrument.
 
     Parameters
     ----------

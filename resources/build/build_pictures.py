@@ -21,7 +21,7 @@ PIECE = ROOT / "resources" / "examples" / "quartet.mid"
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture, and what it shows.
+    """A picture of the editor for a guide: its file name, and how the window is shown.
 
     Attributes
     ----------

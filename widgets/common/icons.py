@@ -68,7 +68,7 @@ def source(name: str, colour: str) -> bytes:
 
 
 def draw_grip(painter: QPainter, box: QRect, colour: str) -> None:
-    """The grip of a level splitter, in the middle of it."""
+    """Draw the grip in the middle of a level splitter."""
     renderer = QSvgRenderer(QByteArray(source("grip_level", colour)))
     place = QRectF(QPointF(), QSizeF(renderer.defaultSize()))
     place.moveCenter(QRectF(box).center())

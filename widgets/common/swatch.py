@@ -34,7 +34,7 @@ class ColourSwatch(QPushButton):
         session.theme_changed.connect(self.update)
 
     def show_colours(self, colours: tuple[str, ...]) -> None:
-        """Show these, side by side."""
+        """Show colours side by side."""
         if colours != self._colours:
             self._colours = colours
             self.update()

@@ -103,7 +103,7 @@ def player_pitch(session: Session, pitch: float, player: Player | None) -> str:
 
 
 def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -> str:
-    """A note's id as the note; an event's as its kind and its note or place; a name as it is."""
+    """Text for an anchor: a note for a note's id, kind and place for an event's id, any other name unchanged."""
     note = note_of(session.project.score, id, player.part_id if player is not None else None)
     if note is not None:
         return note_text(session, note, player)

@@ -54,7 +54,7 @@ class AutomaticNumber(QWidget):
         return None if self.check.isChecked() else self.number.value()
 
     def set_range(self, least: float, most: float) -> None:
-        """Offer only numbers from here to there; `show_value` still shows one beyond them as it is."""
+        """Offer only numbers within a range; `show_value` still shows a number outside of it."""
         self._range = least, most
 
     def show_value(self, value: float | None, found: float | None) -> None:

@@ -47,7 +47,7 @@ class CharacterDraft:
     hidden: tuple[str, ...] = ()
 
     def with_joint(self, joint: str, bone: str | None) -> CharacterDraft:
-        """Another bone for a joint; empty: none; None: as it is found by itself."""
+        """The draft with another bone for a joint; empty for none, None for the bone found automatically."""
         joints = {name: own for name, own in self.joints.items() if name != joint}
         return replace(self, joints=joints if bone is None else {**joints, joint: bone})
 
@@ -118,7 +118,7 @@ class DraftHistory:
 
     @property
     def now(self) -> CharacterDraft:
-        """The draft as it is."""
+        """The present draft."""
         return self._done[-1]
 
     @property

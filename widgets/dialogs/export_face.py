@@ -12,7 +12,8 @@ _COLUMNS = 3
 
 
 class FaceChooser(Retranslated, QWidget):
-    """Names in a list, and a box for every part of a face; as they are, all curves are written as ARKit calls them."""
+    """A list of names for the curves, and a box for every part of a face; initially all curves are written under
+    ARKit's names."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -149,7 +149,7 @@ class FaceMapPage(Retranslated, QWidget):
 
 
 class _Part(QWidget):
-    """A morph and how much of it."""
+    """A morph with its weight in a shape of the face."""
 
     def __init__(self, session: Session, morph: str, remove: Callable[[], object]) -> None:
         super().__init__()

@@ -33,7 +33,7 @@ class FingeringDraft:
 
     @property
     def table(self) -> edit.Table:
-        """The table as it is now."""
+        """The present table of fingerings."""
         return self.states[self.at]
 
     @property

@@ -277,7 +277,7 @@ class PlayblastDialog(WorkingDialog):
 
 
 def _next(pictures: queue.Queue[Pictures], stop_requested: Callable[[], bool]) -> Pictures:
-    """The next picture, as soon as it is drawn. Raises Cancelled."""
+    """Return the next picture as soon as it is drawn. Raises Cancelled."""
     while not stop_requested():
         try:
             return pictures.get(timeout=0.1)

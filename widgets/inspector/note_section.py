@@ -368,7 +368,7 @@ class NoteSection(Retranslated, QWidget):
         )
 
     def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None = None) -> None:
-        """Take corrections of the shown notes back, or only one value of them."""
+        """Remove corrections of the shown notes, or only one of their values."""
         self._edit_own(
             "edit.give_back",
             lambda project, player_id, ids: edit_events.forget(project, player_id, kind, frozenset(ids), field),

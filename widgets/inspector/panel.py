@@ -102,7 +102,7 @@ class InspectorPanel(Retranslated, QWidget):
         in_column(self._splitter, of=self, margins=0)
 
     def divide(self, lists_share: float, tab: int = 0, kept: bool = False) -> None:
-        """Give the lists a share of the height, and show one of them.
+        """Give the lists a share of the height, and bring one of them to the front.
 
         Parameters
         ----------
@@ -147,7 +147,7 @@ class InspectorPanel(Retranslated, QWidget):
         return msgspec.json.encode(state).decode()
 
     def restore_state(self, state: str) -> None:
-        """Take what `save_state` gave; anything else leaves all as it is."""
+        """Restore what `save_state` returned; any other value is ignored."""
         with suppress(FileError):
             saved = decode_json(state.encode("utf-8", "replace"), _State, "")
             self.divide(saved.lists_share, saved.tab, saved.kept)

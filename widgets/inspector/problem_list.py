@@ -229,7 +229,7 @@ class ProblemList(Retranslated, QWidget):
         return ListRow((group.performer.id, group.problems), group.performer.name, place, text, colour, tone)
 
     def _say_anew(self) -> None:
-        """Words or colours are others."""
+        """Refresh texts and colours of all rows after the language or the theme has changed."""
         self._known = {}
         self.show_problems()
 

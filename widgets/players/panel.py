@@ -189,7 +189,7 @@ class PlayersPanel(Retranslated, QWidget):
         return str(self._splitter.sizes()[0]) if self._divided else ""
 
     def restore_state(self, state: str) -> None:
-        """Take what `save_state` gave; anything else leaves all as it is."""
+        """Restore what `save_state` returned; any other value is ignored."""
         if not state or (state.isascii() and state.isdecimal() and len(state) < 6):
             self.divide(int(state) if state else None)
 

@@ -29,7 +29,7 @@ def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[s
 
 
 def shown_number(place: StagePosition, name: str) -> float:
-    """A field of a place as it is shown."""
+    """A field of a place in the unit in which it is displayed."""
     return round(math.degrees(place.turn_rad)) + 0.0 if name == "turn_rad" else float(getattr(place, name))
 
 

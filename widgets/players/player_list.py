@@ -65,7 +65,7 @@ class PlayerList(OrderedList):
         return sum(max(self.sizeHintForRow(number), 0) for number in shown) + 2 * self.frameWidth()
 
     def show_rows(self, rows: Sequence[Row]) -> None:
-        """Show these players and sections, and which of the players are selected."""
+        """Show players and sections as rows, and which players are selected."""
         section = self.rows.section_at(self.currentIndex().row())
         self._showing = True
         self.rows.show_rows(rows)

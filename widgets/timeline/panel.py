@@ -282,7 +282,7 @@ class TimelinePanel(Retranslated, QWidget):
         return lane_text(self.lane_layout.state)
 
     def restore_state(self, state: str | LaneState) -> None:
-        """Take what `save_state` gave; what does not fit this program's lanes is left as it is."""
+        """Restore what `save_state` returned; values for lanes that do not exist are ignored."""
         saved = lane_state(state) if isinstance(state, str) else state
         if saved is not None:
             self.lane_layout.set_state(saved)

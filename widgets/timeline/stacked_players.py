@@ -244,7 +244,7 @@ class StackedPlayers(Retranslated, QWidget):
         return any(lane.dragging for one in self.shown for lane in one.lanes.values())
 
     def show_kinds(self, lane_ids: Collection[str]) -> None:
-        """Show these lanes of every player."""
+        """Show lanes of the given kinds for every player."""
         kinds = tuple(id for id in STACKED_IDS if id in lane_ids)
         if kinds != self._open:
             self._open = kinds

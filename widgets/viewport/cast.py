@@ -251,7 +251,7 @@ class Stage:
                 self.bones[row, self.stand_bone, :, 3] = _moved(member.world_from_player, member.stand_m)
 
     def pose(self, poses: Mapping[str, Pose | None]) -> bool:
-        """Put everyone into their poses; whether anything is other than before."""
+        """Put everyone into their poses, and return whether anything changed."""
         fresh = False
         for row, member in enumerate(self.members):
             pose = poses.get(member.player_id)

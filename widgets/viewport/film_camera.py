@@ -65,7 +65,7 @@ class Shot:
 
 
 def times_looked_at(players: int, start_s: float, end_s: float) -> list[float]:
-    """Times at which this number of players is measured before a film is made of them."""
+    """Times at which a number of players is measured before a film of them is made."""
     if end_s <= start_s:
         return [start_s]
     count = min(max(_POSES // max(players, 1), _LEAST_TIMES), _MOST_TIMES)

@@ -45,7 +45,7 @@ def asset_name(text: str, otherwise: str) -> str:
 
 
 def _spelt(text: str) -> tuple[str, bool]:
-    """The text in ASCII, and whether nothing of it was lost."""
+    """The text in ASCII, and whether nothing was lost in it."""
     spelt: list[str] = []
     whole, double = True, False
     for character in unicodedata.normalize("NFKC", text):

@@ -220,7 +220,7 @@ def _vouch(
     content: dict[PurePosixPath, bytes],
     staying: dict[PurePosixPath, OwnFile],
 ) -> None:
-    """Write a folder's remaining files and the list of all of them, those that stay as they are among them."""
+    """Write a folder's remaining files and its manifest, which also lists files that stay unchanged."""
     place = change.new / folder
     for path, data in content.items():
         (place / path).parent.mkdir(parents=True, exist_ok=True)

@@ -127,7 +127,7 @@ def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
 
 
 def _attribute(attribute: Any, width: int, written: _Written) -> list[str] | None:
-    """Values and, by corner, which of them."""
+    """Values of a mesh attribute, and for each corner the index of its value."""
     if not _keep(attribute).exists:
         return None
     return [written.vectors(attribute.values, width), written.numbers(attribute.indices, np.int64)]

@@ -182,7 +182,7 @@ class GltfAnimation:
 
 @dataclass(frozen=True, eq=False)
 class GltfImage:
-    """An image: its file as it is, not looked at; empty where it is not in the glTF file."""
+    """An image: the bytes of its file, not decoded; empty if it is not in the glTF file."""
 
     name: str
     content: bytes

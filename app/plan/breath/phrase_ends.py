@@ -221,7 +221,7 @@ def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
 
 
 def _in_a_row(short: BoolArray) -> BoolArray:
-    """(N,): whether a note and the one before it stand in a row of at least three that are so."""
+    """(N,): whether a note and the one before it stand in a row of at least three for which ``short`` is true."""
     here = np.append(False, short[:-1] & short[1:])
     result: BoolArray = here & (np.append(here[1:], False) | np.append(False, here[:-1]))
     return result
@@ -268,7 +268,7 @@ def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray
 
 
 def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
-    """(K,): of the notes that come in after rests, the part that does so where each place stands in its bar."""
+    """(K,): share of the notes entering after rests that do so at each place's position in the bar."""
     place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
     bar = _usual_bar(bars)
     phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)

@@ -123,5 +123,5 @@ class Own(Correcting, frozen=True):
 
     @property
     def is_added(self) -> bool:
-        """Always: the generator knows nothing of it."""
+        """True: the generator makes no such event."""
         return True

@@ -30,7 +30,7 @@ class PinFingering(OfNote, frozen=True, tag="pin_fingering"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """The fingering."""
+        """Kind and label of the fingering that the correction names."""
         return "fingering", self.label
 
 
@@ -165,7 +165,7 @@ class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """The id of the expression that replaces the generated one, if any."""
+        """Kind and id of the expression that replaces the generated one, if one does."""
         return super().named if self.expression is None else ("expression", self.expression)
 
 
@@ -182,11 +182,11 @@ class AddExpression(Own, frozen=True, tag="add_expression"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """The expression."""
+        """Kind and id of the expression that the correction names."""
         return "expression", self.expression
 
     def event(self, clock: TempoMap) -> ExpressionEvent:
-        """The expression."""
+        """Kind and id of the expression that the correction names."""
         start, end = self.start_tick, self.end_tick
         start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
         shown = self.strength, self.fade_in_s, self.fade_out_s
@@ -225,7 +225,7 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Name of the corrected part."""
+        """Kind and name of the part that the correction poses."""
         return "pose", self.target
 
 
@@ -254,7 +254,7 @@ class PlayStyle(Own, frozen=True, tag="play_style"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """The style."""
+        """Kind and id of the style that the correction names."""
         return "style", self.style
 
 

@@ -63,7 +63,8 @@ def glissando_steps(times: LineTimes) -> BoolArray:
 
 
 def chromatic_notes(times: LineTimes) -> BoolArray:
-    """(N,): whether a note is reached and left by semitones within `CHROMATIC_S`, as far as it is in such a hurry.
+    """(N,): whether a note belongs to a chromatic run: reached and left by semitones, as far as its neighbours are
+    within `CHROMATIC_S`.
 
     One of these notes is the semitone below: fingerings for chromatic runs add a key to its fingering.
     """

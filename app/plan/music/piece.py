@@ -306,7 +306,7 @@ def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
 
 
 def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
-    """The notes as far as they are there: neither pitch nor velocity."""
+    """The notes without pitch and velocity: their times alone."""
     return tuple(Note(note.id, note.onset_tick, note.duration_tick, 0, 0) for note in notes)
 
 

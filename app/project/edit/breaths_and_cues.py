@@ -32,7 +32,7 @@ CATCH_S = 0.3
 
 
 def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath") -> Edited:
-    """A breath (or preparation) for the first note at or after a tick. One that is there already stays as it is.
+    """Add a breath (or preparation) for the first note at or after a tick, unless there is one already.
 
     It takes the rest before the note, at most one felt beat; where notes touch, `CATCH_S` of the note before, at most
     half of it. A preparation takes the beat before the breath.
@@ -60,7 +60,7 @@ def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind =
 
 
 def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
-    """A cue to the player's first entry at or after a tick. One that is there already stays as it is."""
+    """Add a cue to the player's first entry at or after a tick, unless there is one already."""
     notes = notes_of(project, plan.player_id)
     index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
     if index == len(notes):

@@ -97,7 +97,7 @@ class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def piece_settings(project: Project) -> PieceSettings:
-    """The settings of a piece as they are."""
+    """The current settings of a piece."""
     values = {field: getattr(project, field) for field in PieceSettings.__struct_fields__ if field != "title"}
     return PieceSettings(title=project.score.title, **values)
 
@@ -111,7 +111,7 @@ def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
 
 
 def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
-    """Set all at once; the same project where all are as they were.
+    """Set all settings of a piece together; returns the same project if none changes.
 
     Raises
     ------
@@ -224,7 +224,8 @@ def put_expression(project: Project, expression: Expression, former_name: str | 
 
 
 def remove_expression(project: Project, name: str) -> Project:
-    """Take an own expression out. Corrections that show it stay, and do nothing until there is one of its name."""
+    """Remove an expression of the user's from the piece. Corrections that show it stay, without effect until an
+    expression of that name exists again."""
     kept = tuple(item for item in project.expressions if item.name != name)
     if len(kept) == len(project.expressions):
         raise UsageError("expression.none_of_name", name=name)

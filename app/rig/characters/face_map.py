@@ -118,7 +118,7 @@ def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
 
 
 def _named(morphs: Iterable[str], known: set[str]) -> dict[str, list[str]]:
-    """The morphs of each known name, whatever the maker put before and after all of them."""
+    """The morphs of a figure for each name of a table, disregarding a prefix or suffix that all of them share."""
     keys = {morph: morph_key(morph) for morph in morphs}
     affixes: dict[tuple[str, str], set[str]] = defaultdict(set)
     for key in keys.values():

@@ -137,7 +137,7 @@ def build_figure(
 
 
 def transforms_differ(a: FloatArray, b: FloatArray) -> bool:
-    """Return whether two transforms (4, 4) are so different that they cannot be one bone's in one pose."""
+    """Return whether two transforms (4, 4) differ too much to be those of one bone in one pose."""
     return bool(np.abs(a - b).max() > AGREEMENT * max(1e-6, float(np.abs(a[:3]).max())))
 
 

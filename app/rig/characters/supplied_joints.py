@@ -56,7 +56,7 @@ UP: Final = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Joints of the character, J of them.
+    """Joints of the character and how they were matched, J of them.
 
     Attributes
     ----------

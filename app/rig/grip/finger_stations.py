@@ -131,7 +131,8 @@ def stations_of_notes(
 def kinds_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
 ) -> tuple[IndexArray, list[dict[str, frozenset[str]]]]:
-    """Notes (N,) by what they are fingered with, and the fingers at work of each kind: a line has few of them."""
+    """Sort notes (N,) into kinds by their fingering, with the fingers at work in each kind; a line has only a few
+    kinds."""
     known: dict[tuple[int, int], int] = {}
     at_work: list[dict[str, frozenset[str]]] = []
     kinds = []

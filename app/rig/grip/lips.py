@@ -174,7 +174,7 @@ def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, 
 
 
 def _mouthpiece_axes(character: Character, instrument_map: InstrumentMap, body: Body) -> tuple[FloatArray, FloatArray]:
-    """The mouthpiece's up and air axes in the head's frame, as it is usually carried."""
+    """The up and air axes of the mouthpiece in the head's frame, as the instrument is usually carried."""
     usual = usual_posture(instrument_map)
     carriage = instrument_map.hold.carriage(usual)
     posed = forward(character.skeleton, joint_rotations(character.skeleton, carrying(body, usual, carriage)))

@@ -84,7 +84,7 @@ _LEAST_TICKS: Final = 480
 
 
 def ticks_per_quarter(root: Element) -> int:
-    """The ticks per quarter in which all times of a score are whole numbers, if there are so many."""
+    """The smallest number of ticks per quarter in which all times of a score are whole, if it is not too large."""
     common = 1
     for text in {(one.text or "").strip() for one in root.iter("divisions")}:
         # Others are refused, or made whole, where they stand.

@@ -109,7 +109,7 @@ _MOST_TEXT: Final = 200
 
 
 def _require_few(measures: Sequence[Sequence[Measure]], visits: Sequence[Sequence[Time]], size: int, file: str) -> None:
-    """Refuse more than any piece has, as often as it is played."""
+    """Refuse a score with more items, counted as often as they are played, than any piece has."""
     written = played = 0
     for part in measures:
         for measure, times in zip(part, visits, strict=False):

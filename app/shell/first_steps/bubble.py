@@ -99,7 +99,7 @@ class Bubble(Retranslated, QFrame):
         self.hide()
 
     def say(self, step: str, title: str, text: str, state: str, forward: str, is_done: bool, is_first: bool) -> None:
-        """Show these texts, and take the height that they need.
+        """Show texts in the bubble, and take the height that they need.
 
         Parameters
         ----------

@@ -159,7 +159,7 @@ class CutPlot(QWidget):
         return self._selected
 
     def show_motion(self, curve_rad_s2: FloatArray, fps: Fraction, start_s: float, hits_s: FloatArray) -> None:
-        """Show another motion, all of it.
+        """Show another motion in full.
 
         Parameters
         ----------

@@ -51,7 +51,7 @@ def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callabl
 def learning(
     path: Path, rows: tuple[PairRow, ...], states: int | None, seed: int, stop: threading.Event, share: list[float]
 ) -> Callable[[Progress, StopRequested], LearnedChoreography]:
-    """Prepare the learning from pairs as they are filled in now, and the writing of what is learned.
+    """Prepare learning from the pairs in their present state, and writing what is learned.
 
     Parameters
     ----------

@@ -171,7 +171,7 @@ class TransitionGraph(QWidget):
 
 
 def _unit(way: complex) -> complex:
-    """A way of length 1; of length 0 as it is."""
+    """A vector scaled to length 1; one of length 0 stays unchanged."""
     return way / max(abs(way), 1e-9)
 
 

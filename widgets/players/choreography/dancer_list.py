@@ -43,7 +43,7 @@ class DancerList(OrderedList):
         self.selectionModel().currentChanged.connect(self._selected)
 
     def show_dancers(self, dancers: Sequence[Dancer], selected: Dancer | None) -> None:
-        """Show these, and which of them is selected."""
+        """Show dancers as rows, one of them selected."""
         self._showing = True
         shown = [str(self.rows.item(row).data(ID_ROLE)) for row in range(self.rows.rowCount())]
         if shown != [dancer.id for dancer in dancers]:

@@ -187,7 +187,7 @@ class CurvesLane(Lane):
     # What is shown
 
     def refresh(self) -> None:
-        """Show the plan and the part of the player in front, where they are others."""
+        """Show the plan and the part of the player in front, if either has changed."""
         player, project = self.session.player, self.session.project
         plan = self.session.plan
         part = project.part(player) if player is not None else None

@@ -185,7 +185,7 @@ class DynamicsLane(Lane):
     # The mouse
 
     def at(self, mouse: LaneMouse) -> tuple[Mark, Zone] | None:
-        """The mark under the mouse, and what of it."""
+        """The mark under the mouse, and which part of it."""
         for placed in reversed(self.placed()):
             zone = placed.zone_at(mouse.x_px, mouse.y_px)
             if zone is not None:

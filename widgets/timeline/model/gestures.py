@@ -55,7 +55,7 @@ class Plane(Protocol):
 
 
 def snapped(grid: Grid, score: Score, tick: float, free: bool) -> int:
-    """The nearest line of the grid; the nearest tick where the hand is free of it."""
+    """The nearest line of the grid; the nearest tick if snapping is off."""
     return round(tick) if free else grid.snap(score.metre_map, tick)
 
 

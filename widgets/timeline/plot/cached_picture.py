@@ -31,7 +31,7 @@ class Pictured(QWidget):
         raise NotImplementedError
 
     def redraw(self, *_changes: object) -> None:
-        """Something that is drawn is other now."""
+        """Discard the cached picture: something drawn on it has changed."""
         self._picture = None
         self.update()
 

@@ -261,7 +261,7 @@ class PianoRoll(Lane):
         self.zoom_pitch(ZOOM_A_NOTCH**steps, mouse.value)
 
     def choose_pitches(self, bottom: float, top: float) -> None:
-        """Show these pitches, whatever height the lane is given."""
+        """Show a range of pitches, whatever height the lane has."""
         self._pitches_chosen = True
         self._show_pitches(bottom, top)
 

@@ -52,7 +52,7 @@ def starts(problem: HandProblem, progress: Progress = no_progress) -> list[Float
 
 
 def refined_solution(problem: HandProblem, start: FloatArray) -> FloatArray:
-    """Solve a start to its end: with contacts as hard as they are, then with skin as stiff as it is."""
+    """Solve from a start to the end: first with contacts at full stiffness, then with skin at its own."""
     hard = solve(Residuals(problem, 1.0), start, 25)
     return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 

@@ -263,7 +263,7 @@ class TakeHeads(Retranslated, QWidget):
             self.update()
 
     def cancel_drag(self) -> None:
-        """Leave the lanes as they are."""
+        """End a drag without a change."""
         self._pressed = self.dropped_before = None
         self.unsetCursor()
         self.update()

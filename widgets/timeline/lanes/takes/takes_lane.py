@@ -77,7 +77,7 @@ class TakesLane(RowLane):
     # What is shown
 
     def refresh(self) -> None:
-        """Show what was recorded of the player in front, where it is other."""
+        """Show the recordings of the player in front, if they have changed."""
         if not self.model.refresh():
             if not self.rows:
                 self.update_items()

@@ -139,7 +139,7 @@ def in_line(tangents: dict[Side, Tangent]) -> bool:
 
 
 class DragBlend(EditGesture):
-    """A curve comes in earlier or later, or goes so, to the grid; Alt is free of it."""
+    """A drag that lets a curve fade in or out earlier or later, snapped to the grid unless Alt is held."""
 
     def __init__(
         self, session: Editing, origin: object, at: LaneMouse, player_id: str, name: str, key_tick: int, at_start: bool

@@ -240,7 +240,7 @@ class _Placing:
         self.outer_y = self.inner_y.copy()
 
     def placed(self, glyphs: slice, arcs: IntArray) -> PlacedMarks:
-        """The marks as they are drawn."""
+        """The marks with their places for drawing."""
         placed_arcs = self._arcs(arcs)
         return PlacedMarks(self.table, self.unit, self.room.line_px, self._glyphs(glyphs), placed_arcs)
 

@@ -167,7 +167,7 @@ class RollModel:
         self._flags.clear()
 
     def table(self, player: Player) -> NoteTable:
-        """A player's notes as arrays; kept until they are others."""
+        """A player's notes as arrays, cached until they change."""
         project = self._session.project
         part, tempo = project.part(player), project.score.tempo_map
         known = self._tables.get(part.id)

@@ -129,7 +129,7 @@ def lay_marks(
 
 
 def mark_text(score: Score, kind: str, tick: int) -> str:
-    """The tempo or the metre that holds at a tick, as it is typed."""
+    """The tempo or the metre in force at a tick, in the form in which it is typed."""
     if kind == "tempo":
         return f"{next(bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick):.6g}"
     metre = score.metre_map.metre_at(tick)

@@ -71,7 +71,7 @@ class TakesModel:
         self._sources: tuple[PlayerTakes | None, TempoMap, tuple[Metre, ...]] | None = None
 
     def refresh(self) -> bool:
-        """Look again at what was recorded of the player in front; whether it is other."""
+        """Read the recordings of the player in front again, and return whether they changed."""
         player, project = self._session.player, self._session.project
         recorded = project.takes.get(player.id) if player is not None else None
         sources = (recorded, project.score.tempo_map, project.score.metres)
