@@ -392,7 +392,7 @@ class Performance:
         return instrument
 
     def lacking(self, player: Player) -> tuple[Message, ...]:
-        """What is missing of a player, instrument or character, and why where its file is damaged."""
+        """Missing instrument or character of a player, and the reason where its file is damaged."""
         found = []
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))
