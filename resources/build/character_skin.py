@@ -39,6 +39,12 @@ ISLANDS = (
 """Head, trunk with limbs, right hand, left hand, feet, mouth, nostrils or sockets."""
 
 
+PAINTED_PALER, PALER_UNDONE = (1, 2, 3, 4, 5), 0.85
+"""Parts of `ISLANDS` that are brought near the face's colour, and how near."""
+KNEE_LINEAR = 0.80
+"""What is brighter nears white slowly instead of being cut off."""
+
+
 @dataclass(frozen=True)
 class Layout:
     """The new layout of the body's texture.
@@ -47,14 +53,19 @@ class Layout:
     ----------
     hm08, uvs : (T, 2) old and new texture coordinates of the base mesh.
     source_u, source_v : (SKIN_PX, SKIN_PX) hm08's coordinates per pixel.
-    inside : (SKIN_PX, SKIN_PX) whether a pixel belongs to the body.
+    part : (SKIN_PX, SKIN_PX) the part of `ISLANDS` that a pixel belongs to, -1 outside.
     """
 
     hm08: np.ndarray
     uvs: np.ndarray
     source_u: np.ndarray
     source_v: np.ndarray
-    inside: np.ndarray
+    part: np.ndarray
+
+    @property
+    def inside(self) -> np.ndarray:
+        """(SKIN_PX, SKIN_PX) whether a pixel belongs to the body."""
+        return self.part >= 0
 
     def picture(self, hm08: np.ndarray) -> np.ndarray:
         """A picture over hm08's coordinates in the new layout."""
@@ -76,8 +87,8 @@ def skin_layout(uvs: np.ndarray, faces: np.ndarray) -> Layout:
     centres = (np.arange(SKIN_PX) + 0.5) / SKIN_PX
     grid_u, grid_v = np.meshgrid(centres, centres[::-1])
     source_u, source_v = np.zeros_like(grid_u), np.zeros_like(grid_v)
-    inside = np.zeros(grid_u.shape, dtype=bool)
-    for spot, corner, scale in ISLANDS:
+    part = np.full(grid_u.shape, -1)
+    for number, (spot, corner, scale) in enumerate(ISLANDS):
         label = labels[used[np.linalg.norm(uvs[used] - spot, axis=1).argmin()]]
         rows = used[labels[used] == label]
         low, high = uvs[rows].min(axis=0), uvs[rows].max(axis=0)
@@ -86,14 +97,14 @@ def skin_layout(uvs: np.ndarray, faces: np.ndarray) -> Layout:
         drawing = ImageDraw.Draw(canvas)
         for face in faces[labels[faces[:, 0]] == label]:
             drawing.polygon([(u * SKIN_PX, (1 - v) * SKIN_PX) for u, v in moved[face]], fill=1, outline=1)
-        inside |= np.asarray(canvas)
+        part[np.asarray(canvas)] = number
         room = MARGIN_PX / SKIN_PX
         top = np.asarray(corner) + (high - low) * scale
         near = (grid_u > corner[0] - room) & (grid_u < top[0] + room) & (grid_v > corner[1] - room)
         near &= grid_v < top[1] + room
         source_u[near] = (grid_u[near] - corner[0]) / scale + low[0]
         source_v[near] = (grid_v[near] - corner[1]) / scale + low[1]
-    return Layout(uvs, moved, source_u, source_v, inside)
+    return Layout(uvs, moved, source_u, source_v, part)
 
 
 def _blob(layout: Layout, u: float, v: float, wide: float, high: float) -> np.ndarray:
@@ -132,6 +143,14 @@ def skin_colour(name: str, painted: np.ndarray, layout: Layout, masks: dict[str,
     middle = face["cheeks"] + 0.5 * face["forehead"]
     mean = (colour * middle[..., None]).sum(axis=(0, 1)) / middle.sum()
     colour *= SKIN_MEAN_LINEAR / mean
+    for number in PAINTED_PALER:
+        # In the paintings hands are paler and bluer than faces.
+        own = layout.part == number
+        if own.any():
+            colour[own] *= (SKIN_MEAN_LINEAR / colour[own].mean(axis=0)) ** PALER_UNDONE
+    colour = np.where(
+        colour > KNEE_LINEAR, 1 - (1 - KNEE_LINEAR) * np.exp((KNEE_LINEAR - colour) / (1 - KNEE_LINEAR)), colour
+    )
     lips = np.clip(layout.picture(masks["lips"]), 0.0, 1.0)
     nails = np.clip(layout.picture(masks["fingernails"]), 0.0, 1.0)
     skin = 1.0 - np.clip(lips + nails, 0.0, 1.0)
