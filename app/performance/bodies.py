@@ -12,7 +12,7 @@ from app.errors import FileError, MapError, Progress, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.contacts.ready_player import put_aside_transform
 from app.project.performers import Player
-from app.rig.characters.character_library import bundled_characters, character_named, character_revision
+from app.rig.characters.character_library import character_named, character_revision, our_characters
 from app.rig.grip.body_size import leg_size, sized_body, sized_model
 from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
@@ -20,6 +20,7 @@ from app.rig.grip.fitting.grip_files import bundled_path, hold_for
 from app.rig.grip.grip_pose import GripPose
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
+from app.rig.people.bundled_people import hands_id
 from instrument_maps.library import library, model_path
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -60,8 +61,10 @@ def _loaded(instrument: InstrumentMap) -> InstrumentModel:
 
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     """An instrument as a player's body plays it: its size, and what touches it; found once for each pair."""
-    if player.character_id in bundled_characters():
+    if player.character_id in our_characters():
         # Ours are adult and complete: plans are made before any character is loaded.
+        return FittedInstrument(instrument, ())
+    if character_of(player).hands_of is not None:
         return FittedInstrument(instrument, ())
     return _SUITED.step(_suited, character_of(player), instrument, body_of(player))
 
@@ -83,7 +86,13 @@ def _hold(
     progress: Progress, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
 ) -> GripPose:
     with _worked_out(character, instrument):
-        return hold_for(character, model, instrument, body, progress)
+        hands = character.hands_of
+        if hands is None:
+            return hold_for(character, model, instrument, body, progress)
+        fitted = hold_for(hands, model, instrument, _body(round(leg_size(hands.skeleton), 3)), progress)
+        from app.rig.grip.fitting.same_hands import with_own_arms  # heavy, like a fit
+
+        return with_own_arms(fitted, character, model, instrument, body)
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
@@ -118,7 +127,7 @@ def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[Non
     try:
         yield
     except (ArithmeticError, LookupError, ValueError) as error:
-        if character.id in bundled_characters() and instrument.id not in library().own:
+        if character.id in our_characters() and instrument.id not in library().own:
             raise
         detail = shortened(f"{type(error).__name__}: {error}")
         named = {"character": character.id, "instrument": instrument.id}
@@ -127,7 +136,7 @@ def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[Non
 
 def is_held(player: Player, instrument: InstrumentMap) -> bool:
     """Return whether it takes no time to say how a player holds an instrument of the library. Never slow itself."""
-    ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
+    ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
     return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
 
 
@@ -148,4 +157,4 @@ def _pair(player: Player, instrument: InstrumentMap) -> tuple[str, int, str, int
 
 @cache
 def _is_stored(character_id: str, instrument_id: str) -> bool:
-    return os.path.isfile(bundled_path(character_id, instrument_id))
+    return os.path.isfile(bundled_path(hands_id(character_id), instrument_id))

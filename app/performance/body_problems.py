@@ -12,7 +12,8 @@ from app.plan.model import FingeringEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
-from app.rig.characters.character_library import bundled_characters, character_revision
+from app.rig.characters.character_library import character_revision, our_characters
+from app.rig.people.bundled_people import not_cast_for
 from app.steps import StepRuns, StepTable
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -56,10 +57,12 @@ def body_problems(
     """
     try:
         held, lacking = suited_to(player, instrument)
+        if instrument.id in not_cast_for(player.character_id):
+            lacking = (*lacking, Message("character.not_cast", {}))
         if waiting:
             return BodyProblems((*lacking, Message("character.hold_waiting", {})))
         # Holds of our own bodies on our instruments meet all touches; what another misses is reported once it is known.
-        ours = player.character_id in bundled_characters() and bundled_maps().get(instrument.id) is instrument
+        ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
         missed = None if ours or not is_held(player, instrument) else missed_message(hold_of(player, held))
         revision = character_revision(player.character_id)
         given = {"instrument": held, "revision": revision, "fingerings": fingerings}

@@ -61,6 +61,8 @@ class Character:
         Inverse bind matrices; skinning is ``world_from_joint @ joint_from_mesh @ position``.
     own : OwnSkeleton or None
         The skeleton of the file it came from; None: the file's skeleton is this one.
+    hands_of : Character or None
+        The character whose hands these are, to the vertex; None: they are its own.
     """
 
     id: str
@@ -69,6 +71,7 @@ class Character:
     meshes: tuple[Mesh, ...]
     landmarks: dict[str, Landmark]
     own: OwnSkeleton | None = None
+    hands_of: Character | None = None
 
 
 @dataclass(frozen=True, eq=False)

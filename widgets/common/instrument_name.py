@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from app.editor.translated import tr
 from app.rig.characters.character_library import character_library
+from app.rig.people.bundled_people import bundled_people, bundled_person
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
 
@@ -29,6 +30,9 @@ def family_name(family: str) -> str:
 
 def character_name(character_id: str) -> str:
     """The name of a character: the bundled ones have one in every language, others their file's."""
+    if character_id in bundled_people():
+        name = bundled_person(character_id).name
+        return name.ja if language() == "ja" else name.en
     names = {"woman_adult": tr("character_name.woman"), "man_adult": tr("character_name.man")}
     own = character_library().own.get(character_id)
     return names.get(character_id, (own.title if own is not None else "") or character_id)

@@ -18,7 +18,7 @@ from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
 from app.project.model import Project
 from app.project.performers import Player
-from app.rig.characters.character_library import bundled_characters, characters
+from app.rig.characters.character_library import characters, our_characters
 from instrument_maps.library import library
 from metadata.acting import AMOUNTS
 from widgets.common.character_picture import portrait_of
@@ -239,7 +239,7 @@ class ParameterSections(Retranslated, QWidget):
         self._character.set_options(options)
 
     def _characters_changed(self) -> None:
-        self._portraits = {id: drawn for id, drawn in self._portraits.items() if id in bundled_characters()}
+        self._portraits = {id: drawn for id, drawn in self._portraits.items() if id in our_characters()}
         self._show_characters()
         self.show_players()
         if self._asked:

@@ -1,7 +1,8 @@
 """The characters the user can cast: the bundled ones and those of their own folder (see `app.formats.user_folder`).
 
 The user's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
-was corrected by hand: which bone is which joint, which morphs make a face.
+was corrected by hand: which bone is which joint, which morphs make a face. Or it is ``<id>.toml`` alone, with a person
+made of one of our bodies.
 """
 
 from __future__ import annotations
@@ -29,7 +30,10 @@ from app.formats.user_folder import Read, Shelf, Stamp, UserFolder, stamp_of
 from app.rig.characters.figure_build import PLAUSIBLE_M
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import SUFFIXES
+from app.rig.grip.body_size import arm_m
 from app.rig.model import Character
+from app.rig.people.bundled_people import bundled_people, bundled_person, person_arm_m, person_of
+from app.rig.people.person import Person, checked
 
 MOST_ID: Final = 60
 MOST_TITLE: Final = 200
@@ -45,7 +49,7 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
     Attributes
     ----------
     file : str
-        Name of the character's file, in the same folder.
+        Name of the character's file, in the same folder; empty with a person.
     title : str
         What the character is called; empty: by its id.
     joints : dict of str to str
@@ -56,14 +60,17 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
         Of the character; 0: as tall as in the file.
     hidden : list of str
         Meshes of the file that are not shown.
+    person : Person or None
+        Who is made of one of our bodies instead.
     """
 
-    file: str
+    file: str = ""
     title: str = ""
     joints: dict[str, str] = {}
     morphs: dict[str, dict[str, float]] = {}
     height_m: float = 0.0
     hidden: list[str] = []
+    person: Person | None = None
 
 
 @dataclass(frozen=True)
@@ -102,24 +109,32 @@ class CharacterLibrary(Shelf[CharacterSource]):
 
 @cache
 def bundled_characters() -> Mapping[str, Path]:
-    """Return the bundled characters: id and file, in the order of their ids. Looked up once."""
+    """Return the finished bodies: id and file, in the order of their ids. Looked up once."""
     folder = Path(str(files("resources"))) / "characters"
     return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.glb"))})
 
 
 @cache
+def our_characters() -> Mapping[str, Path]:
+    """Return all characters that come with the program: the finished bodies, then the people made from them."""
+    return MappingProxyType({**bundled_characters(), **bundled_people()})
+
+
+@cache
 def _bundled() -> Mapping[str, CharacterSource]:
-    return {id: CharacterSource(path) for id, path in bundled_characters().items()}
+    return {id: CharacterSource(path) for id, path in our_characters().items()}
 
 
 def _own_source(path: Path) -> Read[CharacterSource]:
     """The source of an entry. Raises FileError."""
     if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
         raise FileError("character.odd_name", file=str(path))
-    if path.stem in bundled_characters():
+    if path.stem in our_characters():
         # What is known of ours beforehand, their size and their holds, would not be true of another.
         raise FileError("character.taken", file=str(path), id=path.stem)
     entry = read_entry(path)
+    if entry.person is not None:
+        return Read(CharacterSource(path, entry, stamp_of([path])), (path,))
     file = path.parent / entry.file
     if not os.path.isfile(file):
         raise FileError("character.file_missing", file=str(path), name=entry.file)
@@ -129,7 +144,9 @@ def _own_source(path: Path) -> Read[CharacterSource]:
 def read_entry(path: Path) -> CharacterEntry:
     """Read the description of the user's own character. Raises FileError, MapError."""
     entry = shaped(read_toml(path), CharacterEntry, str(path))
-    if not _is_plain(entry.file):
+    if entry.person is not None:
+        checked(entry.person, str(path))
+    if bool(entry.file) is (entry.person is not None) or (entry.file and not _is_plain(entry.file)):
         detail = f"{shortened(entry.file)!r} must be the name of a file in this folder ({', '.join(SUFFIXES)})"
         raise MapError("table.invalid", file=str(path), place="file", detail=detail)
     if len(entry.title) > MOST_TITLE:
@@ -192,16 +209,26 @@ def character_named(id: str) -> Character:
         return character
 
 
+@cache
+def our_arm_m(id: str) -> float:
+    """Return the length of the right arm of a character of ours, upper and lower; no person is made for it."""
+    if id in bundled_people():
+        return person_arm_m(bundled_person(id), character_named)
+    return arm_m(character_named(id).skeleton, "right")
+
+
 def _opened(id: str, source: CharacterSource) -> Character:
     return _loaded(id, source.path, source.stamp, msgspec.json.encode(source.entry))
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=48)
 def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
     """A character by the stamps of its files and what is said about it."""
     said = msgspec.json.decode(entry, type=CharacterEntry | None)
     if said is None:
-        return load_character(path)
+        return person_of(id, bundled_person(id), character_named) if id in bundled_people() else load_character(path)
+    if said.person is not None:
+        return person_of(id, said.person, character_named)
     return load_character(path, id, said.joints, said.morphs, said.height_m, said.hidden)
 
 
@@ -263,12 +290,27 @@ def add_character(
         return id
 
 
+def add_person(person: Person, title: str) -> str:
+    """Keep a person of the user's own, and return its id. Raises FileError, MapError."""
+    title = shortened(" ".join(title.split()), MOST_TITLE)
+    checked(person, title)
+    folder = own_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise cannot_write(folder, error) from error
+    with LIBRARY.lock:
+        id = _free_id(title, folder)
+        write_entry(id, CharacterEntry(title=title, person=person))
+        return id
+
+
 def write_entry(id: str, entry: CharacterEntry) -> None:
     """Describe one of the user's own characters, again or for the first time, and read the folder again.
 
     Raises FileError ``file.cannot_write``.
     """
-    table = {name: value for name, value in msgspec.to_builtins(entry).items() if name == "file" or value}
+    table = {name: value for name, value in msgspec.to_builtins(entry).items() if value}
     with atomic_write(own_folder() / f"{id}.toml") as stream:
         stream.write(toml(table).encode())
     reload_characters()

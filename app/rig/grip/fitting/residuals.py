@@ -164,7 +164,7 @@ class Residuals:
         gap = np.sqrt(np.einsum("bki,bki->bk", pairs, pairs))
         parts.append((np.maximum(hand.ball_gaps_m - gap, 0.0) / (BALL_M * self.soft)).reshape(count, -1))
         parts.append(self._natural(angles))
-        parts.append(self._arm(x, place, turn))
+        parts.append(self.arm(x, place, turn))
         parts.append(self._anchored(x))
         return np.concatenate(parts, axis=1), skin
 
@@ -193,7 +193,7 @@ class Residuals:
                 parts.append((last - 0.67 * middle) / COUPLING_RAD)
         return np.stack(parts, axis=1)
 
-    def _arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
+    def arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
         """Straight wrist: how the forearm enters the hand, how far it is turned, where the elbow is."""
         problem = self.problem
         wrist = place + problem.reference_shift_m

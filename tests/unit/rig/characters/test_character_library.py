@@ -20,6 +20,7 @@ from app.rig.characters.character_library import (
     character_problems,
     character_revision,
     characters,
+    our_characters,
     read_entry,
     reload_characters,
     remove_character,
@@ -42,7 +43,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_folder_that_is_not_there_holds_no_one(folder: Path) -> None:
-    assert characters() == dict(bundled_characters())
+    assert characters() == dict(our_characters())
     assert not folder.exists()
 
 
@@ -51,7 +52,7 @@ def test_who_is_added_can_play_under_an_id_of_its_own(folder: Path) -> None:
     second = add_character(OURS, "Ms. Müller / ../..")
     assert first == "ms_m_ller"
     assert second == "ms_m_ller_2"
-    assert list(characters()) == [*bundled_characters(), first, second]
+    assert list(characters()) == [*our_characters(), first, second]
     assert sorted(path.name for path in folder.iterdir()) == [
         f"{id}{suffix}" for id in (first, second) for suffix in (".glb", ".toml")
     ]
@@ -62,7 +63,7 @@ def test_who_is_added_can_play_under_an_id_of_its_own(folder: Path) -> None:
     assert character.id == first
     assert character is character_named(first)
     remove_character(first)
-    assert list(characters()) == [*bundled_characters(), second]
+    assert list(characters()) == [*our_characters(), second]
     with pytest.raises(UsageError):
         character_named(first)
     with pytest.raises(UsageError):
@@ -131,7 +132,7 @@ def test_no_one_takes_the_place_of_one_of_ours(folder: Path) -> None:
     shutil.copy(OURS, folder / "other.glb")
     (folder / "man_adult.toml").write_text('file = "other.glb"\n')
     reload_characters()
-    assert characters() == dict(bundled_characters())
+    assert characters() == dict(our_characters())
     assert [problem.id for problem in character_problems().values()] == ["character.taken"]
 
 

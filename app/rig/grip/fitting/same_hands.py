@@ -1,0 +1,66 @@
+"""Holds of a character that has the hands of another one: wrists and fingers stay where they were fitted, lips and
+elbows are its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.rig import quaternion
+from app.rig.grip.carriage import Upright, upright
+from app.rig.grip.fitting.hand_problem import grip_problem
+from app.rig.grip.fitting.residuals import Residuals
+from app.rig.grip.grip_pose import GripPose, HandHold
+from app.rig.grip.lips import fit_lips
+from app.rig.model import Character, InstrumentModel
+from instrument_maps.hold import HandSeed
+from instrument_maps.model import InstrumentMap
+from metadata.model import Body
+
+SWIVELS: Final = 36
+"""Places of the elbow that are tried."""
+
+
+def with_own_arms(
+    grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
+) -> GripPose:
+    """Return the hold of a character from that of another one with the same hands (`Character.hands_of`).
+
+    Each elbow goes where the wrist is straightest between shoulder and instrument, as in a fit of its own.
+    """
+    lips = fit_lips(character, instrument, body)
+    own = replace(grip, character_id=character.id, lips=lips)
+    if instrument.size != 1.0:
+        # Its hands were fitted as if it had its usual size; the elbow then hangs as the other's.
+        return own
+    stand = upright(character, instrument, body, lips)
+    hands = zip(grip.hands, instrument.hands, strict=True)
+    return replace(
+        own, hands=tuple(_elbow(hand, character, model, instrument, body, seed, stand) for hand, seed in hands)
+    )
+
+
+def _elbow(
+    hand: HandHold,
+    character: Character,
+    model: InstrumentModel,
+    instrument: InstrumentMap,
+    body: Body,
+    seed: HandSeed,
+    stand: Upright,
+) -> HandHold:
+    problem, _ = grip_problem(character, model, instrument, body, seed, stand)
+    swivels = np.linspace(*problem.swivel_range, SWIVELS)
+    tried = np.zeros((SWIVELS, len(problem.low)))
+    tried[:, 6] = swivels
+    residuals, cost = Residuals(problem, 1.0), np.zeros(SWIVELS)
+    places, turns = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
+    for place, turn in zip(places, turns, strict=True):
+        parts = residuals.arm(tried, np.tile(place, (SWIVELS, 1)), np.tile(turn, (SWIVELS, 1)))
+        cost += np.square(parts).sum(axis=1)
+    swivel = swivels[np.argmin(cost)]
+    down, out = problem.swivel_frame
+    pole = quaternion.rotate(stand.instrument_rotation, np.cos(swivel) * down + np.sin(swivel) * out)
+    return replace(hand, elbow_direction=pole)

@@ -1,0 +1,68 @@
+"""The people that come with the program, made from its finished bodies when they are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache, lru_cache
+from importlib.resources import files
+from pathlib import Path
+from types import MappingProxyType
+
+from app.rig.model import Character
+from app.rig.people.body_shapes import body_m, body_shapes
+from app.rig.people.make_person import Original, original_of, person_character
+from app.rig.people.moved_joints import arm_after_m
+from app.rig.people.person import Person, phenotypes, read_person
+
+
+@cache
+def bundled_people() -> Mapping[str, Path]:
+    """Return the people: id and file, in the order of their ids. Looked up once."""
+    folder = _folder() / "people"
+    return MappingProxyType({path.stem: path for path in sorted(folder.glob("*.toml"))})
+
+
+@lru_cache(maxsize=64)
+def bundled_person(id: str) -> Person:
+    """Return one of the people as its file says; KeyError where there is none."""
+    return read_person(bundled_people()[id])
+
+
+def hands_id(id: str) -> str:
+    """Return the id of the character whose hands a character of ours has: of a person the finished body's."""
+    return bundled_person(id).original if id in bundled_people() else id
+
+
+def not_cast_for(id: str) -> frozenset[str]:
+    """Return the ids of instruments that a character of ours is too small for, and not cast for."""
+    return frozenset(bundled_person(id).not_cast_for) if id in bundled_people() else frozenset()
+
+
+def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Character:
+    """Make a person.
+
+    Parameters
+    ----------
+    named : callable
+        Gives a finished body by its id.
+    """
+    worn = {mesh: _original(named(owner), owner) for mesh, owner in person.worn.items()}
+    original = _original(named(person.original), person.original)
+    return person_character(id, original, body_shapes(), person.phenotype, person.colors, worn)
+
+
+def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
+    """Return the length of a person's arm, upper and lower, before the person is made."""
+    shapes = body_shapes()
+    bodies = (body_m(shapes, one) for one in (person.phenotype, phenotypes()[person.original]))
+    after, before = (body[len(shapes.vertices) :] for body in bodies)
+    return arm_after_m(named(person.original), dict(zip(shapes.joints, after - before, strict=True)))
+
+
+@lru_cache(maxsize=4)
+def _original(character: Character, id: str) -> Original:
+    return original_of(character, body_shapes(), phenotypes()[id])
+
+
+def _folder() -> Path:
+    return Path(str(files("resources"))) / "characters"

@@ -1,0 +1,125 @@
+"""Vertices of a finished body's meshes, bound to the base mesh: what moves there moves them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, FloatArray, IndexArray, SingleArray
+from app.rig.mesh import Mesh
+from app.rig.model import Character
+
+NEIGHBOURS = 8
+NEAR_M = 0.0003
+"""Skin lies on its own vertex of the base mesh, which counts alone; far from there all neighbours count alike."""
+ANCHORS, REACH_M, BEYOND = 16, 0.025, 1e-3
+"""Places of the face whose own change turns and stretches its shapes, how far one counts, how much no change does."""
+
+
+@dataclass(frozen=True, eq=False)
+class Binding:
+    """N vertices as shares (N, K) of base vertices ``corners`` (N, K)."""
+
+    corners: IndexArray
+    shares: SingleArray
+
+    def carried(self, moved_m: FloatArray) -> FloatArray:
+        """Displacements (N, 3) from those of the base vertices (V, 3)."""
+        carried: FloatArray = np.einsum("nk,nka->na", self.shares, moved_m[self.corners].astype(np.float32))
+        return carried.astype(np.float64)
+
+
+def bound(mesh: Mesh, base_m: FloatArray) -> Binding:
+    """Bind a mesh to base vertices (V, 3) that have its body's shape."""
+    from scipy.spatial import cKDTree  # heavy; people are made seldom
+
+    far, corners = cKDTree(base_m).query(mesh.positions_m, k=NEIGHBOURS)
+    shares = 1.0 / (np.square(far) + NEAR_M**2)
+    return Binding(np.asarray(corners, dtype=np.intp), (shares / shares.sum(axis=1, keepdims=True)).astype(np.float32))
+
+
+def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> FloatArray:
+    """Normals (V, 3) of a mesh's vertices at other positions, faces weighted by area.
+
+    Parameters
+    ----------
+    places : (V,) int
+        The same for vertices in one place, on either side of a seam.
+    """
+    corners = positions_m[mesh.triangles]
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    across: AnyFloatArray = np.asarray(np.cross(first, second), dtype=np.float64)
+    rows, count = places[mesh.triangles].ravel(), len(positions_m)
+    summed = [np.bincount(rows, np.repeat(across[:, axis], 3), count) for axis in range(3)]
+    found = np.stack(summed, axis=1).astype(np.float64)[places]
+    found /= np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-12)
+    return found
+
+
+def places_of(mesh: Mesh) -> IndexArray:
+    """By vertex the number of its place (V,)."""
+    keys = np.round(mesh.positions_m / 1e-6).astype(np.int64)
+    places: IndexArray = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
+    return places
+
+
+@dataclass(frozen=True, eq=False)
+class FaceChange:
+    """Change of a face: linear maps ``turns`` (A, 3, 3) at places ``anchors`` (A, 3) of the body before."""
+
+    anchors: FloatArray
+    turns: FloatArray
+
+    def at(self, places_m: AnyFloatArray) -> FloatArray:
+        """Linear maps (N, 3, 3) at places (N, 3): what displacements of shapes there become."""
+        squares = np.square(places_m[:, None] - self.anchors).sum(axis=2)
+        near = np.exp(-squares / (2.0 * REACH_M**2))
+        near /= near.sum(axis=1, keepdims=True) + BEYOND
+        turns: FloatArray = (near @ (self.turns - np.eye(3)).reshape(-1, 9)).reshape(-1, 3, 3) + np.eye(3)
+        return turns
+
+
+def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChange:
+    """Find how the face of a body was changed, by its skin.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The body's skin, with the shapes of its face.
+    after_m : (V, 3)
+        Where its vertices went.
+    """
+    head = before.skeleton.index("head")
+    own = np.flatnonzero((mesh.weights * (mesh.joints == head)).sum(axis=1) > 0.5)
+    moving = np.zeros(len(mesh.positions_m))
+    for morph in mesh.morphs:
+        np.maximum.at(moving, morph.vertices, np.abs(morph.deltas_m).max(axis=1))
+    lively = own[moving[own] > 0.002]
+    if not len(lively):
+        return FaceChange(np.zeros((1, 3)), np.eye(3)[None])
+    positions = mesh.positions_m.astype(np.float64)
+    anchors = positions[_spread(positions, lively)]
+    turns = [_turn(positions[own], after_m[own], anchor) for anchor in anchors]
+    return FaceChange(anchors, np.array(turns))
+
+
+def _spread(positions: FloatArray, rows: IndexArray) -> IndexArray:
+    """Some of the rows, each as far from those before as may be."""
+    chosen = [int(rows[np.argmax(positions[rows, 2])])]
+    far = np.full(len(rows), np.inf)
+    for _ in range(min(ANCHORS, len(rows)) - 1):
+        far = np.minimum(far, np.linalg.norm(positions[rows] - positions[chosen[-1]], axis=1))
+        chosen.append(int(rows[np.argmax(far)]))
+    return np.array(chosen, dtype=np.intp)
+
+
+def _turn(before: FloatArray, after: FloatArray, anchor: FloatArray) -> FloatArray:
+    """The linear map (3, 3) that takes what is near an anchor to where it went, best by squares."""
+    near = np.exp(-np.square(before - anchor).sum(axis=1) / (2.0 * REACH_M**2))
+    near /= near.sum()
+    first, second = before - near @ before, after - near @ after
+    spread = (first * near[:, None]).T @ first
+    keep = 1e-3 * float(np.trace(spread)) * np.eye(3)
+    turn: FloatArray = np.linalg.solve(spread + keep, (first * near[:, None]).T @ second + keep).T
+    return turn

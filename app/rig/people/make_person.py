@@ -1,0 +1,258 @@
+"""Characters of people: a finished body whose meshes, joints and shapes go where a phenotype takes its base mesh.
+
+The finished body itself is left as it is. Hands are moved and turned as a whole with their wrists, so that whatever was
+fitted to the finished body's hands holds for every person made from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from app.arrays import FloatArray, IndexArray
+from app.formats.scene import Material
+from app.rig.mesh import Mesh, Morph
+from app.rig.model import Character, Skeleton
+from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
+from app.rig.people.displacement import Binding, FaceChange, bound, face_change, normals_of, places_of
+from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions
+from app.rig.people.person import Color
+from app.rig.skeleton import ancestors
+
+HAND_SHARE = 0.5
+"""Skin that goes with a hand by this weight or more is a hand's."""
+LID_M = (0.002, 0.008)
+"""Lids keep their distance from the eyeball up to the first height over it, and none from the second on."""
+SKIN = "body"
+"""The mesh whose shapes make the face."""
+
+
+@dataclass(frozen=True, eq=False)
+class Original:
+    """A finished body that people are made from.
+
+    Attributes
+    ----------
+    base_m : (V + J, 3)
+        The base mesh and joints of its phenotype.
+    bindings : dict of str to Binding
+        Of its meshes, by name.
+    hands : dict of str to (N, 2)
+        By mesh: how far its vertices go with the left and the right hand, 0 to 1.
+    arms : dict of str to (N, 4)
+        By mesh: how far its vertices go with left elbow and wrist and with right ones, where an arm is lengthened.
+    places : dict of str to (N,)
+        By mesh: numbers of places (`places_of`).
+    """
+
+    character: Character
+    base_m: FloatArray
+    bindings: Mapping[str, Binding]
+    hands: Mapping[str, FloatArray]
+    arms: Mapping[str, FloatArray]
+    places: Mapping[str, IndexArray]
+
+
+def original_of(character: Character, shapes: BodyShapes, phenotype: Phenotype) -> Original:
+    """Prepare a finished body for making people from it; takes a part of a second."""
+    base_m = body_m(shapes, phenotype)
+    skin_m = base_m[: len(shapes.vertices)]
+    return Original(
+        character,
+        base_m,
+        {mesh.name: bound(mesh, skin_m) for mesh in character.meshes},
+        {mesh.name: _hand_shares(character, mesh) for mesh in character.meshes},
+        {mesh.name: _arm_shares(character, mesh) for mesh in character.meshes},
+        {mesh.name: places_of(mesh) for mesh in character.meshes},
+    )
+
+
+def _hand_shares(character: Character, mesh: Mesh) -> FloatArray:
+    shares = []
+    for side, _ in SIDES:
+        weight = np.clip(_weight_below(character, mesh, f"{side}Hand") / HAND_SHARE, 0.0, 1.0)
+        shares.append(weight * weight * (3.0 - 2.0 * weight))
+    return np.stack(shares, axis=1).astype(np.float64)
+
+
+def _weight_below(character: Character, mesh: Mesh, name: str) -> FloatArray:
+    """Weight (N,) of vertices on a joint and all below it."""
+    top = character.skeleton.index(name)
+    joints = [joint for joint in range(len(character.skeleton.names)) if top in ancestors(character.skeleton, joint)]
+    return np.asarray((mesh.weights * np.isin(mesh.joints, joints)).sum(axis=1), dtype=np.float64)
+
+
+def _arm_shares(character: Character, mesh: Mesh) -> FloatArray:
+    """Shares (N, 4) of the way of elbows and wrists that vertices go: along the arm, all of it beyond the wrist."""
+    skeleton, columns = character.skeleton, []
+    at = np.linalg.inv(character.joint_from_mesh)[:, :3, 3]
+    for side, _ in SIDES:
+        shoulder, elbow, wrist = (skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand"))
+        weights = [_weight_below(character, mesh, skeleton.names[joint]) for joint in (shoulder, elbow, wrist)]
+        along = []
+        for start, end in ((shoulder, elbow), (elbow, wrist)):
+            bone = at[end] - at[start]
+            along.append(np.clip((mesh.positions_m - at[start]) @ bone / float(bone @ bone), 0.0, 1.0))
+        upper, lower = weights[0] - weights[1], weights[1] - weights[2]
+        columns += [upper * along[0] + lower * (1.0 - along[1]), lower * along[1] + weights[2]]
+    return np.stack(columns, axis=1)
+
+
+def person_character(
+    id: str,
+    original: Original,
+    shapes: BodyShapes,
+    phenotype: Phenotype,
+    colors: Mapping[str, Color] | None = None,
+    worn: Mapping[str, Original] | None = None,
+) -> Character:
+    """Make a person.
+
+    Parameters
+    ----------
+    colors : mapping of str to (float, float, float), optional
+        By material: linear base colour.
+    worn : mapping of str to Original, optional
+        By mesh: the finished body that it is taken from, with joints of the same names.
+    """
+    body = body_m(shapes, phenotype)
+    joints = _joints(original, shapes, body)
+    before = original.character
+    skin = next(mesh for mesh in before.meshes if mesh.name == SKIN)
+    face = face_change(before, skin, _moved(original, skin, body, joints))
+    meshes = []
+    for mesh, owner in _chosen(original, worn or {}):
+        own = joints if owner is original else _joints(owner, shapes, body)
+        meshes.append(_recolored(_changed(owner, mesh, body, own, face), colors or {}))
+    return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=before), joints)
+
+
+def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh, Original]]:
+    """The meshes of a person and whose they are."""
+    found = []
+    for mesh in original.character.meshes:
+        owner = worn.get(mesh.name, original)
+        other = next((one for one in owner.character.meshes if one.name == mesh.name), None)
+        found.append((mesh, original) if other is None else (other, owner))
+    return found
+
+
+def _joints(original: Original, shapes: BodyShapes, body: FloatArray) -> MovedJoints:
+    """Move the joints of a finished body as its base mesh becomes another one."""
+    count = len(shapes.vertices)
+    steps = body[count:] - original.base_m[count:]
+    return moved_joints(original.character, dict(zip(shapes.joints, steps, strict=True)))
+
+
+def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints) -> FloatArray:
+    """Move the vertices (N, 3) of a mesh."""
+    binding, points = original.bindings[mesh.name], mesh.positions_m.astype(np.float64)
+    moved = points + binding.carried(body - original.base_m) + original.arms[mesh.name] @ joints.lengthened
+    skeleton = original.character.skeleton
+    for place, (side, _) in enumerate(SIDES):
+        share = original.hands[mesh.name][:, place, None]
+        hand = np.flatnonzero(share[:, 0] > 0.0)
+        rigid = joints.rigidly(skeleton.index(f"{side}Hand"), points[hand])
+        moved[hand] += share[hand] * (rigid - moved[hand])
+        eye = skeleton.index(f"{side}Eye")
+        ball = np.flatnonzero((mesh.weights * (mesh.joints == eye)).sum(axis=1) > 0.99)
+        moved[ball] = joints.rigidly(eye, points[ball])
+    return moved
+
+
+def _changed(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints, face: FaceChange) -> Mesh:
+    """A mesh of a finished body on another body."""
+    points, moved = mesh.positions_m.astype(np.float64), _moved(original, mesh, body, joints)
+    moved = _off_the_eyes(original, points, moved, joints)
+    places = original.places[mesh.name]
+    normals = mesh.normals + normals_of(moved, mesh, places) - normals_of(points, mesh, places)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    turns = face.at(points) if mesh.morphs else np.zeros((0, 3, 3))
+    morphs = tuple(_shape(original, morph, points, moved, joints, turns) for morph in mesh.morphs)
+    positions = moved.astype(np.float32)
+    return replace(mesh, positions_m=positions, normals=normals.astype(np.float32), morphs=morphs)
+
+
+def _shape(
+    original: Original, morph: Morph, points: FloatArray, moved: FloatArray, joints: MovedJoints, turns: FloatArray
+) -> Morph:
+    """A shape of the face on another face: turned and stretched with the skin, lids still on the eyeballs."""
+    rows = morph.vertices
+    before = points[rows] + morph.deltas_m
+    after = moved[rows] + np.einsum("nij,nj->ni", turns[rows], morph.deltas_m)
+    after = _off_the_eyes(original, before, after, joints)
+    return replace(morph, deltas_m=(after - moved[rows]).astype(np.float32))
+
+
+def _off_the_eyes(original: Original, before: FloatArray, after: FloatArray, joints: MovedJoints) -> FloatArray:
+    """Places (N, 3), those near an eyeball as far from its middle as they had been."""
+    for side, _ in SIDES:
+        eye = original.character.skeleton.index(f"{side}Eye")
+        radius_m = _ball_m(original.character, eye)
+        off = before - joints.before[eye, :3, 3]
+        far = np.linalg.norm(off, axis=1)
+        near = np.flatnonzero((far < radius_m + LID_M[1]) & (far > 0.5 * radius_m))
+        if not radius_m or not len(near):
+            continue
+        share = np.clip((radius_m + LID_M[1] - far[near]) / (LID_M[1] - LID_M[0]), 0.0, 1.0)[:, None]
+        share = share * share * (3.0 - 2.0 * share)
+        way = after[near] - joints.after[eye, :3, 3]
+        kept = way * (far[near] / np.maximum(np.linalg.norm(way, axis=1), 1e-6))[:, None]
+        after[near] += share * (kept - way)
+    return after
+
+
+@lru_cache(maxsize=16)
+def _ball_m(character: Character, eye: int) -> float:
+    """Radius of an eyeball; 0 where there is none."""
+    centre = np.linalg.inv(character.joint_from_mesh[eye])[:3, 3]
+    radii = [0.0]
+    for mesh in character.meshes:
+        own = (mesh.weights * (mesh.joints == eye)).sum(axis=1) > 0.99
+        radii += np.linalg.norm(mesh.positions_m[own] - centre, axis=1).tolist()
+    return float(max(radii))
+
+
+def _recolored(mesh: Mesh, colors: Mapping[str, Color]) -> Mesh:
+    if not any(material.name in colors for material in mesh.materials):
+        return mesh
+
+    def own(material: Material) -> Material:
+        color = colors.get(material.name)
+        return material if color is None else replace(material, base_color=(*color, material.base_color[3]))
+
+    return replace(mesh, materials=tuple(own(material) for material in mesh.materials))
+
+
+def _standing(character: Character, joints: MovedJoints) -> Character:
+    """A person with its joints where they are in the T-pose, soles on the floor."""
+    skeleton = character.skeleton
+    joint_from_mesh = np.linalg.inv(joints.after).astype(np.float64)
+    places = t_positions(skeleton, joints.after)
+    root = joints.after[0, :3, 3]
+    places += root
+    floor_m = _lowest_m(character, joint_from_mesh, places)
+    places[1:, 1] -= floor_m
+    offsets = places.copy()
+    offsets[1:] -= places[list(skeleton.parents[1:])]
+    return replace(
+        character, skeleton=Skeleton(skeleton.names, skeleton.parents, offsets), joint_from_mesh=joint_from_mesh
+    )
+
+
+def _lowest_m(character: Character, joint_from_mesh: FloatArray, places: FloatArray) -> float:
+    """Height of the lowest vertex of the feet in the T-pose."""
+    feet = [character.skeleton.index(f"{side}{part}") for side, _ in SIDES for part in ("Foot", "Toes")]
+    lowest_m = np.inf
+    world = joint_from_mesh[:, 1, :].copy()
+    world[:, 3] += places[:, 1]
+    for mesh in character.meshes:
+        own = np.flatnonzero((mesh.weights * np.isin(mesh.joints, feet)).sum(axis=1) > 0.5)
+        if len(own):
+            rows = world[mesh.joints[own]]
+            heights = np.einsum("nka,na->nk", rows[..., :3], mesh.positions_m[own]) + rows[..., 3]
+            lowest_m = min(lowest_m, float((heights * mesh.weights[own]).sum(axis=1).min()))
+    return lowest_m if np.isfinite(lowest_m) else 0.0

@@ -1,0 +1,138 @@
+"""Joints of a finished body moved to those of another one: places in the rest pose, and frames that turn along."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.arrays import FloatArray
+from app.rig.model import Character, Skeleton
+from app.rig.skeleton import ancestors
+
+SIDES = (("left", 1.0), ("right", -1.0))
+
+
+@dataclass(frozen=True, eq=False)
+class MovedJoints:
+    """The J joints of a body in its rest pose, before and after.
+
+    Attributes
+    ----------
+    before, after : (J, 4, 4) float64
+        ``mesh_from_joint``.
+    lengthened : (4, 3) float64
+        How far left elbow and wrist, then right ones, went beyond what was asked: no arm becomes shorter.
+    """
+
+    before: FloatArray
+    after: FloatArray
+    lengthened: FloatArray
+
+    def turn(self, joint: int) -> FloatArray:
+        """The rotation (3, 3) of a joint from before to after."""
+        turned: FloatArray = self.after[joint, :3, :3] @ self.before[joint, :3, :3].T
+        return turned
+
+    def rigidly(self, joint: int, points: FloatArray) -> FloatArray:
+        """Points (N, 3) moved and turned with a joint."""
+        moved: FloatArray = (points - self.before[joint, :3, 3]) @ self.turn(joint).T + self.after[joint, :3, 3]
+        return moved
+
+
+def moved_joints(original: Character, moved_m: Mapping[str, FloatArray]) -> MovedJoints:
+    """Move the joints of a body.
+
+    Parameters
+    ----------
+    moved_m : mapping of str to (3,)
+        By joint outside the hands: how far it goes. Hands go with their wrists, whatever else is not named stays. Arms
+        become no shorter: they go with the hands, which stay as large as they are.
+    """
+    skeleton = original.skeleton
+    before = np.linalg.inv(original.joint_from_mesh).astype(np.float64)
+    after = before.copy()
+    for name, step in moved_m.items():
+        if name in skeleton.names:
+            after[skeleton.index(name), :3, 3] += step
+    lengthened = np.concatenate([_lengthen(skeleton, before, after, side) for side, _ in SIDES])
+    for side, sign in SIDES:
+        for joint, (old, new) in _limb_frames(skeleton, before, after, side, sign).items():
+            after[joint, :3, :3] = new @ old.T @ before[joint, :3, :3]
+        wrist, elbow = skeleton.index(f"{side}Hand"), skeleton.index(f"{side}LowerArm")
+        turn = after[elbow, :3, :3] @ before[elbow, :3, :3].T
+        place = before[wrist, :3, 3]
+        for joint in range(len(skeleton.names)):
+            if wrist in ancestors(skeleton, joint):
+                after[joint, :3, :3] = turn @ before[joint, :3, :3]
+                after[joint, :3, 3] = after[wrist, :3, 3] + turn @ (before[joint, :3, 3] - place)
+    return MovedJoints(before, after, lengthened)
+
+
+def _lengthen(skeleton: Skeleton, before: FloatArray, after: FloatArray, side: str) -> FloatArray:
+    """Move elbow and wrist out along an arm that became shorter, in place, and return how far (2, 3)."""
+    rows = [skeleton.index(f"{side}{part}") for part in ("UpperArm", "LowerArm", "Hand")]
+    lengths = np.linalg.norm(np.diff(before[rows, :3, 3], axis=0), axis=1)
+    bones = np.diff(after[rows, :3, 3], axis=0)
+    factors = np.maximum(lengths / np.linalg.norm(bones, axis=1), 1.0)
+    steps: FloatArray = np.cumsum((factors - 1.0)[:, None] * bones, axis=0)
+    after[rows[1:], :3, 3] += steps
+    return steps
+
+
+def arm_after_m(original: Character, moved_m: Mapping[str, FloatArray]) -> float:
+    """Return the length of the right arm, upper and lower, once its joints are moved (see `moved_joints`)."""
+    skeleton = original.skeleton
+    names = [f"right{part}" for part in ("UpperArm", "LowerArm", "Hand")]
+    at = np.linalg.inv(original.joint_from_mesh[[skeleton.index(name) for name in names]])[:, :3, 3]
+    lengths = [
+        np.linalg.norm(np.diff(places, axis=0), axis=1) for places in (at, at + [moved_m[name] for name in names])
+    ]
+    return float(np.maximum(*lengths).sum())
+
+
+def t_positions(skeleton: Skeleton, joints: FloatArray) -> FloatArray:
+    """Places (J, 3) of joints in the T-pose from their frames (J, 4, 4) in the rest pose."""
+    places = np.zeros((len(joints), 3))
+    for joint, parent in enumerate(skeleton.parents):
+        if parent >= 0:
+            step = joints[parent, :3, :3].T @ (joints[joint, :3, 3] - joints[parent, :3, 3])
+            places[joint] = places[parent] + step
+    return places
+
+
+def _limb_frames(
+    skeleton: Skeleton, before: FloatArray, after: FloatArray, side: str, sign: float
+) -> dict[int, tuple[FloatArray, FloatArray]]:
+    """Frames of arm and leg as their joints stand, before and after."""
+    found: dict[int, tuple[FloatArray, FloatArray]] = {}
+    names = [f"{side}{part}" for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes")]
+    rows = [skeleton.index(name) for name in names]
+    frames = [_frames(places[rows, :3, 3], sign) for places in (before, after)]
+    for place, joint in zip((0, 1, 3, 4, 5, 6), rows[:2] + rows[3:], strict=True):
+        found[joint] = (frames[0][place], frames[1][place])
+    return found
+
+
+def _frames(places: FloatArray, sign: float) -> dict[int, FloatArray]:
+    shoulder, elbow, wrist, hip, knee, ankle, toes = places
+    hinge = np.cross(elbow - shoulder, wrist - elbow)
+    foot = _frame((toes - ankle) * np.array([1.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]))
+    side = foot[:, 2]
+    return {
+        0: _frame(sign * (elbow - shoulder), -sign * hinge),
+        1: _frame(sign * (wrist - elbow), -sign * hinge),
+        3: _frame(hip - knee, side),
+        4: _frame(knee - ankle, side),
+        5: foot,
+        6: foot,
+    }
+
+
+def _frame(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Axes in columns: along the first, and as near the second as may be."""
+    one = first / np.linalg.norm(first)
+    two = second - one * (second @ one)
+    two /= np.linalg.norm(two)
+    return np.stack([one, two, np.cross(one, two)], axis=1)

@@ -1,0 +1,89 @@
+"""A person as a file says: the finished body it is made from, its phenotype, colours, and whose clothes and hair."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from types import MappingProxyType
+from typing import Final
+
+import msgspec
+
+from app.errors import MapError
+from app.formats.toml import read_toml, shaped
+from app.rig.people.body_shapes import Phenotype
+
+Color = tuple[float, float, float]
+LEAST_M, MOST_M = 1.4, 2.1
+"""Heights of people: hands are grown-ups', so that bodies are too."""
+LEAST_AGE: Final = 0.42
+"""About 15 years."""
+
+
+class PersonName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Names of a person in both languages."""
+
+    en: str
+    ja: str
+
+
+class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """Contents of a file of a person.
+
+    Attributes
+    ----------
+    original : str
+        Id of the finished body: its hands stay as they are, everything else goes with the phenotype.
+    name : PersonName
+        Empty of the user's own people, who have a title.
+    colors : dict of str to (float, float, float)
+        By material: linear base colour.
+    worn : dict of str to str
+        By mesh (``hair``, ``shirt`` ...) the finished body that it is taken from.
+    not_cast_for : list of str
+        Ids of instruments that the body plays only beyond the bounds: it is too small for them.
+    """
+
+    original: str
+    phenotype: Phenotype
+    name: PersonName = PersonName("", "")
+    colors: dict[str, Color] = {}
+    worn: dict[str, str] = {}
+    not_cast_for: list[str] = []
+
+
+def read_person(path: Path) -> Person:
+    """Read the file of a person. Raises FileError, MapError."""
+    return checked(shaped(read_toml(path), Person, str(path)), str(path))
+
+
+def checked(person: Person, file: str) -> Person:
+    """Return a person whose numbers are within their bounds. Raises MapError ``table.invalid``."""
+    for place, least, value, most in _bounded(person):
+        if not least <= value <= most:
+            raise MapError("table.invalid", file=file, place=place, detail=f"a number from {least:g} to {most:g}")
+    for name in (person.original, *person.worn.values()):
+        if name not in phenotypes():
+            raise MapError("table.invalid", file=file, place="original", detail="the id of a finished body")
+    return person
+
+
+@cache
+def phenotypes() -> Mapping[str, Phenotype]:
+    """Return the phenotypes of the finished bodies, by id."""
+    path = Path(str(files("resources"))) / "characters" / "originals.toml"
+    return MappingProxyType(shaped(read_toml(path), dict[str, Phenotype], str(path)))
+
+
+def _bounded(person: Person) -> list[tuple[str, float, float, float]]:
+    """Numbers of a person with their places and bounds."""
+    phenotype = person.phenotype
+    found = [("phenotype.height_m", LEAST_M, phenotype.height_m, MOST_M)]
+    found.append(("phenotype.age", LEAST_AGE, phenotype.age, 1.0))
+    names = ("sex", "muscle", "weight", "proportions", "cup", "firmness", "african", "asian", "caucasian")
+    found += [(f"phenotype.{name}", 0.0, getattr(phenotype, name), 1.0) for name in names]
+    found += [(f"phenotype.local.{name}", -1.0, value, 1.0) for name, value in phenotype.local.items()]
+    found += [(f"colors.{name}", 0.0, part, 1.0) for name, color in person.colors.items() for part in color]
+    return found

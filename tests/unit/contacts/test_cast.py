@@ -1,0 +1,37 @@
+"""Forty of the pairs of a person and an instrument, judged as `resources.build.check_cast` judges all of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.rig.characters.character_library import bundled_characters
+from app.rig.people.bundled_people import bundled_people, not_cast_for
+from instrument_maps.load import bundled_maps
+from resources.build.check_cast import compass_project, faults, worse
+
+CAST = {id: [one for one in bundled_maps() if one not in not_cast_for(id)] for id in bundled_people()}
+PEOPLE = [id for id, instruments in CAST.items() if instruments]
+PAIRS = [
+    (id, CAST[id][(7 * turn + 3 * number) % len(CAST[id])]) for turn in range(3) for number, id in enumerate(PEOPLE)
+][:40]
+
+
+@pytest.mark.parametrize(("person_id", "instrument_id"), PAIRS, ids=["-".join(pair) for pair in PAIRS])
+def test_a_person_plays_within_the_bounds_of_finished_bodies(
+    tmp_path: Path, person_id: str, instrument_id: str
+) -> None:
+    project = compass_project(bundled_maps()[instrument_id], tmp_path / "compass.mid", step=5)
+    found = faults(project, person_id)
+    if found:
+        assert worse(found, [faults(project, id) for id in bundled_characters()]) == {}
+
+
+def test_a_body_that_is_too_small_misses_something(tmp_path: Path) -> None:
+    project = compass_project(bundled_maps()["trombone_tenor_F_attachment"], tmp_path / "compass.mid")
+    allowed = [faults(project, id) for id in bundled_characters()]
+    small = [id for id in bundled_people() if "trombone_tenor_F_attachment" in not_cast_for(id)]
+    assert small
+    assert worse(faults(project, small[0]), allowed)
+    assert not worse(allowed[0], allowed)

@@ -1,0 +1,83 @@
+"""People of the user's own: made of one of our bodies by a table in the folder of characters."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from app.errors import MapError
+from app.performance.bodies import suited_to
+from app.plan.parameters import PlayerParameters
+from app.project.casting import StagePosition
+from app.project.performers import Player
+from app.rig.characters.character_library import (
+    FOLDER_VARIABLE,
+    add_person,
+    character_library,
+    character_named,
+    character_problems,
+    reload_characters,
+    remove_character,
+)
+from app.rig.people.body_shapes import Phenotype
+from app.rig.people.bundled_people import bundled_person
+from app.rig.people.person import Person
+from app.rig.skeleton import rest_positions
+from instrument_maps.load import bundled_maps
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
+    reload_characters()
+    return tmp_path
+
+
+def taller(person: Person, height_m: float) -> Person:
+    return msgspec.structs.replace(person, phenotype=msgspec.structs.replace(person.phenotype, height_m=height_m))
+
+
+def test_a_person_is_kept_made_and_removed(folder: Path) -> None:
+    id = add_person(taller(bundled_person("cast_marie"), 1.75), "My  Marie")
+    assert id == "my_marie"
+    assert character_library().own[id].title == "My Marie"
+    assert [path.name for path in folder.iterdir()] == ["my_marie.toml"]
+    eyes_m = [
+        rest_positions(character_named(one).skeleton)[character_named(one).skeleton.index("leftEye"), 1]
+        for one in ("cast_marie", id)
+    ]
+    assert eyes_m[1] - eyes_m[0] == pytest.approx(0.075, abs=0.02)
+    remove_character(id)
+    assert list(folder.iterdir()) == []
+    assert id not in character_library().sources
+
+
+def test_a_person_plays_the_instruments_of_the_finished_body(folder: Path) -> None:
+    id = add_person(taller(bundled_person("cast_yumi"), 1.5), "Small")
+    player = Player("p", "", "", "trumpet_Bb", id, PlayerParameters(), StagePosition(0.0, 0.0, 0.0))
+    trumpet = bundled_maps()["trumpet_Bb"]
+    assert suited_to(player, trumpet).instrument is trumpet
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'file = "a.glb"\n[person]\noriginal = "man_adult"\n[person.phenotype]\nheight_m = 1.7\n',
+        '[person]\noriginal = "nobody"\n[person.phenotype]\nheight_m = 1.7\n',
+        '[person]\noriginal = "man_adult"\n[person.phenotype]\nheight_m = 17.0\n',
+        'title = "neither"\n',
+    ],
+)
+def test_a_table_that_makes_no_one_is_reported(folder: Path, text: str) -> None:
+    (folder / "odd.toml").write_text(text, encoding="utf-8")
+    reload_characters()
+    assert "odd" not in character_library().sources
+    assert "odd" in character_problems()
+
+
+def test_a_person_that_cannot_be_is_not_kept(folder: Path) -> None:
+    with pytest.raises(MapError):
+        add_person(Person("man_adult", Phenotype(3.0)), "Giant")
+    assert list(folder.iterdir()) == []

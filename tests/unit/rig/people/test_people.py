@@ -1,0 +1,131 @@
+"""Bodies of phenotypes against anny's own, and people made from finished bodies."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.errors import MapError
+from app.formats.toml import toml
+from app.rig import quaternion
+from app.rig.characters.character_library import bundled_characters, character_named, our_characters
+from app.rig.model import Character
+from app.rig.people.body_shapes import Phenotype, body_m, body_shapes, heights_m
+from app.rig.people.bundled_people import bundled_people, bundled_person
+from app.rig.people.make_person import original_of, person_character
+from app.rig.people.person import phenotypes, read_person
+from app.rig.skeleton import forward, rest_positions
+from app.rig.skinning import mesh_named, patch
+from instrument_maps.load import bundled_maps
+from tests.support.deformed import deform
+
+ANNY = Path(__file__).parents[3] / "data" / "anny_bodies.json"
+"""Answers of anny 0.6.2 for three people: some vertices and joints, metres, soles on the floor."""
+
+
+@cache
+def answers() -> dict[str, Any]:
+    read: dict[str, Any] = json.loads(ANNY.read_text(encoding="utf-8"))
+    return read
+
+
+def phenotype_of(asked: dict[str, float], height_m: float) -> Phenotype:
+    renamed = {"gender": "sex", "cupsize": "cup"}
+    return Phenotype(height_m, **{renamed.get(name, name): value for name, value in asked.items()})
+
+
+@pytest.mark.parametrize("name", ["child", "elder", "stout"])
+def test_a_body_is_what_anny_makes_of_the_same_phenotype(name: str) -> None:
+    shapes, told = body_shapes(), answers()["people"][name]
+    body = body_m(shapes, phenotype_of(told["phenotype"], told["height_m"]))
+    rows = np.searchsorted(shapes.vertices, answers()["vertices"])
+    assert (shapes.vertices[rows] == answers()["vertices"]).all()
+    off_mm = 1000.0 * np.linalg.norm(body[rows] - told["positions_m"], axis=1)
+    assert off_mm.max() < 0.3
+    assert off_mm.mean() < 0.1
+    for joint, place in told["joints_m"].items():
+        place_m = body[len(shapes.vertices) + shapes.joints.index(joint)]
+        assert 1000.0 * np.linalg.norm(place_m - place) < 0.3, joint
+
+
+@pytest.mark.parametrize("id", bundled_characters())
+def test_a_finished_body_is_made_of_its_own_phenotype_again(id: str) -> None:
+    before, shapes = character_named(id), body_shapes()
+    original = original_of(before, shapes, phenotypes()[id])
+    skin = mesh_named(before, "body")
+    nearest = original.base_m[original.bindings["body"].corners[:, 0]]
+    # Hands and lids were changed after the phenotype; the head was not.
+    assert np.mean(np.linalg.norm(nearest - skin.positions_m, axis=1) < 1e-4) > 0.4
+    after = person_character("again", original, shapes, phenotypes()[id])
+    for old, new in zip(before.meshes, after.meshes, strict=True):
+        np.testing.assert_allclose(new.positions_m, old.positions_m, atol=1e-6)
+        np.testing.assert_allclose(new.normals, old.normals, atol=1e-5)
+        for shape, same in zip(old.morphs, new.morphs, strict=True):
+            np.testing.assert_allclose(same.deltas_m, shape.deltas_m, atol=1e-6)
+    np.testing.assert_allclose(rest_positions(after.skeleton), rest_positions(before.skeleton), atol=1e-6)
+
+
+def skin_at_rest(character: Character, mark: str) -> np.ndarray:
+    """Vertices (N, 3) of a landmark in the T-pose."""
+    landmark = character.landmarks[mark]
+    still = np.tile(quaternion.IDENTITY, (1, len(character.skeleton.names), 1))
+    joints = forward(character.skeleton, still)
+    part = patch(character, mesh_named(character, landmark.mesh), landmark.vertices)
+    return np.asarray(deform(part, joints)[0])
+
+
+@pytest.mark.parametrize("id", bundled_people())
+def test_a_person_has_the_hands_of_the_finished_body_and_a_height_of_its_own(id: str) -> None:
+    person, character = bundled_person(id), character_named(id)
+    before = character_named(person.original)
+    for side in ("left", "right"):
+        wrist = before.skeleton.index(f"{side}Hand")
+        hands = [skin_at_rest(one, f"{side}.hand") - rest_positions(one.skeleton)[wrist] for one in (before, character)]
+        np.testing.assert_allclose(hands[1], hands[0], atol=2e-6)
+    assert character.hands_of is before
+    low_m, high_m = heights_m(body_shapes(), person.phenotype)
+    assert low_m < person.phenotype.height_m < high_m
+    eyes_m = rest_positions(character.skeleton)[character.skeleton.index("leftEye"), 1]
+    # Eyes lie 0.93 to 0.94 of stature high (ANSUR II: 1.632 of 1.752 m, 1.520 of 1.629 m); shoes lift them.
+    assert 0.92 * person.phenotype.height_m < eyes_m < 0.97 * person.phenotype.height_m
+
+
+@pytest.mark.parametrize("id", ["cast_yumi", "cast_henry"])
+def test_lids_close_over_the_eyes_of_everyone(id: str) -> None:
+    """Blinking, the skin next to an eyeball is as far from it as the finished body's."""
+    character, before = character_named(id), character_named(bundled_person(id).original)
+    least = []
+    for one in (before, character):
+        skin, eye = mesh_named(one, "body"), one.skeleton.index("leftEye")
+        blink = next(morph for morph in skin.morphs if morph.name == "eyeBlinkLeft")
+        shut = skin.positions_m[blink.vertices] + blink.deltas_m
+        far = np.linalg.norm(shut - np.linalg.inv(one.joint_from_mesh[eye])[:3, 3], axis=1)
+        least.append(np.sort(far)[:100])
+    np.testing.assert_allclose(least[1], least[0], atol=3e-4)
+
+
+def test_people_differ_and_are_named() -> None:
+    assert len(our_characters()) >= 16
+    names = [bundled_person(id).name for id in bundled_people()]
+    assert len({name.en for name in names}) == len({name.ja for name in names}) == len(names)
+    bodies = [(bundled_person(id).phenotype, bundled_person(id).colors["skin"]) for id in bundled_people()]
+    assert len({body.height_m for body, _ in bodies}) > 10
+    assert all(set(bundled_person(id).not_cast_for) <= set(bundled_maps()) for id in bundled_people())
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("height_m", 0.4), ("age", 0.1), ("muscle", 1.2), ("weight", float("-1")), ("asian", -0.1)],
+)
+def test_a_person_that_cannot_be_is_refused(tmp_path: Path, field: str, value: float) -> None:
+    table = {"original": "man_adult", "name": {"en": "A", "ja": "A"}, "phenotype": {"height_m": 1.7, field: value}}
+    path = tmp_path / "a.toml"
+    path.write_text(toml(table), encoding="utf-8")
+    with pytest.raises(MapError) as raised:
+        read_person(path)
+    assert field in str(raised.value.message.arguments["place"])
