@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
 
 import msgspec
@@ -40,6 +40,8 @@ AMPLITUDE_SPREAD = 0.12
 
 FAR_REACH_M = 0.4
 """A hand that travels this far works at the end of an arm."""
+LONG_ARMS = 0.9
+"""Arms are long from this share of the longest on."""
 
 
 class StagePosition(msgspec.Struct, frozen=True):
@@ -163,8 +165,10 @@ def player_seed(seed: int, player_id: str) -> int:
     return seed_of("player", seed, player_id)
 
 
-def choose_characters(travels_m: Sequence[float], arms_m: Mapping[str, float]) -> tuple[str, ...]:
-    """A character for every player: a far reach gets the longest arms, the others the least used character.
+def choose_characters(
+    travels_m: Sequence[float], arms_m: Mapping[str, float], left_out: Sequence[Collection[str]] = ()
+) -> tuple[str, ...]:
+    """A character for every player: a far reach gets one of the long arms, and everyone the least used character.
 
     Parameters
     ----------
@@ -172,19 +176,23 @@ def choose_characters(travels_m: Sequence[float], arms_m: Mapping[str, float]) -
         How far each player's instrument asks a hand to travel.
     arms_m : mapping of str to float
         Length of arm of every character to choose from; at least one.
+    left_out : sequence of collection of str, optional
+        By player: characters who are too small for the instrument.
 
     Returns
     -------
     tuple of str
         Ids, in the order of the players.
     """
-    longest = max(arms_m, key=lambda character: arms_m[character])
-    chosen = [longest if travel_m > FAR_REACH_M else None for travel_m in travels_m]
-    counts = Counter(character for character in chosen if character is not None)
-    result = []
-    for character in chosen:
-        if character is None:
-            character = min(arms_m, key=lambda candidate: counts[candidate])
-            counts[character] += 1
-        result.append(character)
-    return tuple(result)
+    longest_m = max(arms_m.values())
+    long = [character for character, arm_m in arms_m.items() if arm_m >= LONG_ARMS * longest_m]
+    counts: Counter[str] = Counter()
+    result = dict.fromkeys(range(len(travels_m)), "")
+    # Those who ask for long arms choose first, so that the others are who is left.
+    for place in sorted(result, key=lambda place: travels_m[place] <= FAR_REACH_M):
+        possible = long if travels_m[place] > FAR_REACH_M else list(arms_m)
+        small = left_out[place] if left_out else ()
+        suited = [character for character in possible if character not in small] or possible
+        result[place] = min(suited, key=lambda candidate: counts[candidate])
+        counts[result[place]] += 1
+    return tuple(result.values())

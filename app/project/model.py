@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import Final
 
 import msgspec
-import numpy as np
 
 from app.errors import UsageError
 from app.plan.by_hand.corrections import Correction
@@ -17,6 +16,7 @@ from app.plan.generate import PREROLL_BEATS, usual_preroll
 from app.plan.parameters import Parameter, PlayerParameters, declared
 from app.project.camera_bookmarks import CameraBookmark
 from app.project.casting import (
+    FAR_REACH_M,
     ConductorPlace,
     amplitude,
     choose_characters,
@@ -36,8 +36,8 @@ from app.project.parameters import with_settings as parameters_with
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
-from app.rig.characters.character_library import bundled_characters, character_named
-from app.rig.model import Character
+from app.rig.characters.character_library import our_arm_m, our_characters
+from app.rig.people.bundled_people import not_cast_for
 from app.score.instrument_choice import MapChoice
 from app.score.metre_map import MetreMap
 from app.score.model import ControllerCurve, Note, Part, Score
@@ -377,7 +377,12 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
 def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
     """A character for each instrument, by the reach it asks for."""
     travels_m = [_hand_travel_m(instrument) for instrument in instruments]
-    return choose_characters(travels_m, {id: _arm_m(character_named(id)) for id in bundled_characters()})
+    # To find out how long an arm is takes a moment, and few instruments ask for it.
+    asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
+    arms_m = {id: our_arm_m(id) if asked else 0.0 for id in our_characters()}
+    small = {id: not_cast_for(id) for id in arms_m}
+    left_out = [{id for id, names in small.items() if instrument.id in names} for instrument in instruments]
+    return choose_characters(travels_m, arms_m, left_out)
 
 
 def _hand_travel_m(instrument: InstrumentMap) -> float:
@@ -388,11 +393,3 @@ def _hand_travel_m(instrument: InstrumentMap) -> float:
 def _by_hand(control: Control) -> bool:
     """Return whether the whole hand travels with a control."""
     return control.finger.endswith(".hand")
-
-
-def _arm_m(character: Character) -> float:
-    """Upper and lower arm."""
-    skeleton = character.skeleton
-    return float(
-        sum(np.linalg.norm(skeleton.offsets_m[skeleton.index(joint)]) for joint in ("rightLowerArm", "rightHand"))
-    )

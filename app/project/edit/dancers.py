@@ -22,7 +22,7 @@ from app.project.footprint import footprint
 from app.project.ids import fresh_dancer_ids
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
-from app.rig.characters.character_library import bundled_characters
+from app.rig.characters.character_library import our_characters
 
 MOST_IN_ROW: Final = 5
 
@@ -204,7 +204,7 @@ def checked_choreography(choreography: str | os.PathLike[str]) -> str:
 def _seldom_seen(project: Project) -> str:
     seen = Counter(player.character_id for player in project.players)
     seen.update(dancer.character_id for dancer in project.dancers)
-    return min(bundled_characters(), key=lambda id: seen[id])
+    return min(our_characters(), key=lambda id: seen[id])
 
 
 def set_body_dance(project: Project, player_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
