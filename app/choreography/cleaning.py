@@ -9,9 +9,10 @@ from typing import Final
 
 import numpy as np
 
+from app.choreography.body_speeds import PARTS, part_speeds
 from app.choreography.clip import MotionClip
 from app.choreography.clip_ends import idle, proper
-from app.choreography.damage import PARTS, Damage, part_speeds
+from app.choreography.damage import Damage
 from app.choreography.mending import mended
 from app.errors import Message
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from app.arrays import BoolArray
 from app.choreography.body import SEGMENTS
+from app.choreography.body_speeds import angle, runs
 from app.choreography.clip import MotionClip
 from app.choreography.cuts import LONGEST_REST_S
-from app.choreography.damage import angle, runs
 from app.rig import quaternion
 
 HELD_RAD: Final = 0.05

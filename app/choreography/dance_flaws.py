@@ -62,7 +62,7 @@ def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
     apart = round(NEAR_S * float(clip.fps))
     return tuple(
         one
-        for one in damage(clip, TOLERANCE)
+        for one in damage(clip, TOLERANCE, captured=False)
         if all(seam < one.start - apart or one.stop + apart < seam for seam in seams)
     )
 

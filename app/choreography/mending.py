@@ -15,8 +15,10 @@ import numpy as np
 
 from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
+from app.choreography.body_speeds import PARTS, angle
 from app.choreography.clip import MotionClip
-from app.choreography.damage import PARTS, Damage, angle, between, damage
+from app.choreography.cubic_distance import between
+from app.choreography.damage import Damage, damage
 from app.rig import quaternion
 
 LONGEST_S: Final = 0.125

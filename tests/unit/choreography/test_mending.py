@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import SEGMENTS
+from app.choreography.body_speeds import angle
 from app.choreography.clip import MotionClip
-from app.choreography.damage import FASTEST_HIPS_RAD_S, FASTEST_RAD_S, Damage, angle, damage
+from app.choreography.damage import FASTEST_HIPS_RAD_S, FASTEST_RAD_S, Damage, damage
 from app.choreography.mending import LONGEST_S, mended
 from app.rig import quaternion
 from tests.support.damaged import KINDS, damaged

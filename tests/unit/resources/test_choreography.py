@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.choreography.damage import FASTEST_HIPS_RAD_S, FASTEST_RAD_S, damage, part_speeds
+from app.choreography.body_speeds import part_speeds
+from app.choreography.damage import FASTEST_HIPS_RAD_S, FASTEST_RAD_S, damage
 from app.choreography.model import ChoreographyModel
 from app.choreography.model_file import read_model
 from resources.build.build_choreography import PAIRS, TARGET, learned

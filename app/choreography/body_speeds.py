@@ -1,0 +1,36 @@
+"""Parts of a moving body, how fast each is from frame to frame, and spans of frames."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.body import SEGMENTS
+from app.choreography.clip import MotionClip
+
+PLACE: Final = len(SEGMENTS)
+"""Number of the hips' place among the tracks of a clip, after its segments."""
+PARTS: Final = (*SEGMENTS, "place")
+
+
+def part_speeds(clip: MotionClip) -> FloatArray:
+    """(F - 1, 17) rad/s of every segment from frame to frame, and m/s of the hips."""
+    turns = angle(clip.rotations[:-1], clip.rotations[1:])
+    ways = np.linalg.norm(np.diff(clip.hips_m, axis=0), axis=-1, keepdims=True)
+    return np.concatenate([turns, ways], axis=1) * float(clip.fps)
+
+
+def angle(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Radians between rotations (..., 4)."""
+    # By the distance of the unit quaternions, which is exact where it is small, as the cosine is not.
+    dot = np.einsum("...i,...i->...", a, b)
+    apart = np.linalg.norm(a - np.where(dot < 0.0, -1.0, 1.0)[..., None] * b, axis=-1)
+    return np.asarray(4.0 * np.arcsin(np.clip(0.5 * apart, 0.0, 1.0)))
+
+
+def runs(of: BoolArray) -> list[tuple[int, int]]:
+    """Half-open spans in which a condition holds."""
+    edges = np.flatnonzero(np.diff(of.astype(np.int8), prepend=0, append=0))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

@@ -1,0 +1,72 @@
+"""Distance of a motion from the cubic that joins two of its moments at their speeds."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.arrays import FloatArray, IntArray
+from app.choreography.body_speeds import angle
+from app.rig import quaternion
+
+MOST_WINDOWS: Final = 8
+MOST_INSIDE: Final = 8
+"""Lengths of windows, and frames inside of each, where the frame rate has more of them."""
+FAR_S: Final = 0.1
+"""Bounds of distances hold for windows of this time; in shorter ones they are less."""
+LEAST_PART: Final = 0.45
+"""But never less than this part of them."""
+GROWS: Final = 1.2
+"""Exponent of the time by which they grow."""
+
+
+def between(
+    before: FloatArray, after: FloatArray, slopes: tuple[FloatArray, FloatArray], share: float | FloatArray
+) -> FloatArray:
+    """Cubic from the one value to the other at a share of the way, with slopes per whole way."""
+    square, cube = share * share, share**3
+    return np.asarray(
+        (2.0 * cube - 3.0 * square + 1.0) * before
+        + (cube - 2.0 * square + share) * slopes[0]
+        + (3.0 * square - 2.0 * cube) * after
+        + (cube - square) * slopes[1]
+    )
+
+
+def window_lengths(fps: float, most_s: float) -> list[int]:
+    """Steps of the windows of up to a time; two at least."""
+    most = max(2, int(most_s * fps))
+    return sorted({round(one) for one in np.geomspace(2, most, min(MOST_WINDOWS, most - 1))})
+
+
+def part_of_bound(length_s: float) -> float:
+    """Return the bound of a window of a time as a part of that of `FAR_S`."""
+    return float(max(LEAST_PART, (length_s / FAR_S) ** GROWS))
+
+
+def turns_off(rotations: FloatArray, start: IntArray, part: IntArray, length: int) -> FloatArray:
+    """Farthest angles from the cubic of the frames between ``start`` and ``length`` later."""
+    ends = [rotations[start + step, part] for step in (-1, 0, length, length + 1)]
+    slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
+    off = np.zeros(len(start))
+    for step in _inside(length):
+        expected = quaternion.normalize(between(ends[1], ends[2], slopes, step / length))
+        off = np.maximum(off, angle(expected, rotations[start + step, part]))
+    return off
+
+
+def moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
+    """The same of places (F, 3), metres."""
+    ends = [places[start + step] for step in (-1, 0, length, length + 1)]
+    slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
+    off = np.zeros(len(start))
+    for step in _inside(length):
+        expected = between(ends[1], ends[2], slopes, step / length)
+        off = np.maximum(off, np.linalg.norm(expected - places[start + step], axis=-1))
+    return off
+
+
+def _inside(length: int) -> list[int]:
+    """Frames of a window that are compared."""
+    return sorted({round(one) for one in np.linspace(1, length - 1, min(MOST_INSIDE, length - 1))})

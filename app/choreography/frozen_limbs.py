@@ -1,0 +1,120 @@
+"""Segments that stand as if they were cut out while the body moves: markers that were lost, frames that were held.
+
+A captured joint is never quite still, and it begins and ends its rests smoothly: a rest that begins or ends within a
+frame at the joint's speed is damage, all of it. An elbow or a knee that is stretched as far as the rig lets it may stop
+within a frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray
+from app.choreography.body import PARENT_OF, SEGMENTS
+from app.choreography.body_speeds import PARTS, PLACE, angle, runs
+from app.choreography.clip import MotionClip
+from app.rig import quaternion
+
+EXACT: Final = 1e-6
+"""Speed (rad/s, m/s) of what does not move: a body that is read has other roundings in every frame."""
+FROZEN: Final = 2
+"""Steps without any motion, of a body that moves by more than `STARTS_RAD_S` before or after them, are lost frames."""
+STARTS_RAD_S: Final = 1.5
+MOST_FROZEN: Final = 0.25
+"""A clip that rests longer than this part of its time was made so."""
+NEARLY_RAD_S: Final = 2e-3
+"""Speed of a constant joint whose file has few decimals."""
+NEARLY_S: Final = 0.1
+"""Least time for which it is constant."""
+LONG_S: Final = 0.25
+"""Time from which on a ball joint, or two neighbouring joints, that rest without beginning and ending smoothly are
+frozen."""
+LEAST_RAD_S: Final = 0.1
+"""Least speed of a joint that stops abruptly."""
+SMOOTH: Final = 0.55
+"""Largest share of the second step that the first one has where a joint sets off smoothly: it has a third of it."""
+STRETCHED_RAD: Final = 0.02
+"""An elbow or a knee is stretched if it is bent by so little more than it ever is."""
+_HINGES: Final = tuple(at for at, name in enumerate(SEGMENTS) if "Lower" in name)
+_BALLS: Final = tuple(
+    at for at, name in enumerate(SEGMENTS) if "Lower" not in name and at and name[-4:] not in ("Hand", "Foot")
+)
+
+
+def frozen(clip: MotionClip, speeds: FloatArray) -> Iterator[tuple[int, int, int]]:
+    """Spans (start, stop, part) between sound frames in which the body or a part of it is frozen.
+
+    Parameters
+    ----------
+    speeds : (F - 1, 17) float64
+        See `app.choreography.body_speeds.part_speeds`.
+    """
+    yield from ((start, stop, part) for start, stop in _bodies(speeds) for part in range(len(PARTS)))
+    rests = {part: _rests(clip, speeds, part) for part in range(PLACE)}
+    for part, spans in rests.items():
+        for start, stop in spans:
+            if max(speeds[start - 1, part], speeds[stop, part]) > STARTS_RAD_S or (
+                (stop - start) / float(clip.fps) >= LONG_S
+                and _is_abrupt(speeds[:, part], start, stop)
+                and (part in _BALLS or _has_resting_neighbour(rests, part, start, stop))
+            ):
+                yield start - 1, stop + 1, part
+
+
+def with_held(speeds: FloatArray, found: set[tuple[int, int, int]]) -> set[tuple[int, int, int]]:
+    """Spans, each with what it is the edge of: frames in which the segment is held where it jumped to, or was held."""
+    still = speeds <= EXACT
+    long = [
+        [run for run in runs(still[:, part]) if run[1] - run[0] >= FROZEN] if _is_seldom(still[:, part]) else []
+        for part in range(len(PARTS))
+    ]
+    begins, ends = [dict(some) for some in long], [{stop: start for start, stop in some} for some in long]
+    return {(ends[part].get(start, start), begins[part].get(stop, stop), part) for start, stop, part in found}
+
+
+def _bodies(speeds: FloatArray) -> Iterator[tuple[int, int]]:
+    """Spans in which a body that moves stands as if it were cut out."""
+    still = np.asarray((speeds <= EXACT).all(axis=1))
+    if not _is_seldom(still):
+        return
+    fast = speeds[:, :PLACE].max(axis=1)
+    for start, stop in runs(still):
+        beside = max(fast[start - 1] if start else 0.0, fast[stop] if stop < len(fast) else 0.0)
+        if stop - start >= FROZEN and start and stop < len(fast) and beside > STARTS_RAD_S:
+            yield start, stop + 1
+
+
+def _rests(clip: MotionClip, speeds: FloatArray, part: int) -> list[tuple[int, int]]:
+    """Steps within the clip in which a segment is constant."""
+    found = []
+    for most, least in ((EXACT, FROZEN), (NEARLY_RAD_S, max(FROZEN, round(NEARLY_S * float(clip.fps))))):
+        still = np.asarray(speeds[:, part] <= most)
+        if still.any() and _is_seldom(still):
+            found += [run for run in runs(still) if run[1] - run[0] >= least and run[0] and run[1] < len(speeds)]
+    if part in _HINGES and found:
+        bent = angle(clip.rotations[:, part], quaternion.IDENTITY)
+        least_bent = float(bent.min()) + STRETCHED_RAD
+        # Exactly as in the rest pose: its marker was lost.
+        found = [run for run in found if bent[run[0]] > least_bent or bent[run[0]] < EXACT]
+    return sorted(set(found))
+
+
+def _is_abrupt(speeds: FloatArray, start: int, stop: int) -> bool:
+    """Return whether a rest begins or ends within a frame."""
+    sides = ((speeds[start - 1], speeds[max(start - 2, 0)]), (speeds[stop], speeds[min(stop + 1, len(speeds) - 1)]))
+    return any(first > max(LEAST_RAD_S, SMOOTH * second) for first, second in sides)
+
+
+def _has_resting_neighbour(rests: dict[int, list[tuple[int, int]]], part: int, start: int, stop: int) -> bool:
+    above = PARENT_OF[SEGMENTS[part]]
+    beside = [at for at, name in enumerate(SEGMENTS) if PARENT_OF[name] == SEGMENTS[part] or name == above]
+    return any(
+        min(stop, other[1]) - max(start, other[0]) > 0.5 * (stop - start) for at in beside for other in rests[at]
+    )
+
+
+def _is_seldom(still: BoolArray) -> bool:
+    return bool(still.mean() <= MOST_FROZEN)
