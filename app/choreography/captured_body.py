@@ -20,7 +20,7 @@ from app.choreography.body_check import SURE, Checked, checked, stands, unlike
 from app.choreography.captured_joints import ARM, LEG, SIDES, Captured
 from app.choreography.joints_by_lengths import joints_by_lengths
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
-from app.choreography.sides import exchanged, joints_by_side
+from app.choreography.sides import called_after_the_other_side, exchanged, joints_by_side
 from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.rig import quaternion
@@ -96,6 +96,8 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
     """
     motion = _Motion(bvh, file)
     body, found, wrong, missing = _automatic(motion)
+    if body is not None:
+        body = _with_sides_said(body, motion.figure)
     used = found
     if joints:
         used = corrected(motion.figure, found, joints, JOINTS)
@@ -265,6 +267,17 @@ def _by_the_mean(body: Captured) -> list[Message]:
         if fingers < 2 and not body.thumbs[f"{side}Hand"].any():
             parts.append(f"{side}Hand")
     return [Message("motion.mean_turns", {"joints": ", ".join(parts)})] if parts else []
+
+
+def _with_sides_said(body: CapturedBody, figure: Figure) -> CapturedBody:
+    """The body with a guess that names the limbs whose bones are called after the other side."""
+    against = called_after_the_other_side(body.found.bones, figure.bone_names)
+    if not against:
+        return body
+    bones = {joint: figure.bone_names[body.found.bones[joint]] for joint in against}
+    guess = Message("motion.sides", {"joints": ", ".join(f"{joint} {bone}" for joint, bone in bones.items())})
+    sides = tuple(joint for joint in body.doubtful if not joint.startswith(("left", "right")))
+    return replace(body, guesses=(*body.guesses, guess), doubtful=sides)
 
 
 def _by_names(figure: Figure) -> JointMapping:

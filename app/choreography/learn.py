@@ -94,6 +94,16 @@ def analyse(pair: Pair) -> Analysis:
     return Analysis(clip, fit, find_offset(clip, pair.rhythm), unfit)
 
 
+def require_usable(pair: Pair) -> None:
+    """Raise UsageError if nothing can be learned from a pair: nothing moves, music and motion do not meet, or its cuts
+    are none of its motion."""
+    clip = stored(pair.motion)
+    cuts = _cuts(pair, clip)
+    if not cuts:
+        raise UsageError("learn.no_motion", motions=pair.motion_name)
+    _require_sounds(pair, _sounds(pair.rhythm, _source(pair, clip), [(cut.start, cut.end) for cut in cuts]))
+
+
 def learn(
     pairs: Sequence[Pair],
     *,
@@ -211,17 +221,21 @@ def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
 
 def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[MotionSegment]:
     """The motions of a clip with the symbols that sound during each."""
-    bounds = np.array([(one.start, one.end) for one in segments], np.float64).reshape(-1, 2) / float(FPS)
+    spans = [(one.start, one.end) for one in segments]
+    sounds = _sounds(pair.rhythm, source, spans)
+    _require_sounds(pair, sounds)
+    melody = [()] * len(segments) if pair.rhythm.melody is None else _sounds(pair.rhythm.melody, source, spans)
+    return [replace(one, sounds=own, melody=tune) for one, own, tune in zip(segments, sounds, melody, strict=True)]
 
-    def during(rhythm: Rhythm) -> list[tuple[int, ...]]:
-        symbols = rhythm.symbols.tolist()
-        spans = np.searchsorted(rhythm.hits_s, bounds - source.offset_s).tolist()
-        return [tuple(symbols[start:stop]) for start, stop in spans]
 
-    if segments and not any(during(pair.rhythm)):
+def _sounds(rhythm: Rhythm, source: TrainingPair, spans: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
+    """Symbols that sound during spans of a clip's frames."""
+    bounds = np.array(spans, np.float64).reshape(-1, 2) / float(FPS)
+    symbols = rhythm.symbols.tolist()
+    within = np.searchsorted(rhythm.hits_s, bounds - source.offset_s).tolist()
+    return [tuple(symbols[start:stop]) for start, stop in within]
+
+
+def _require_sounds(pair: Pair, sounds: Sequence[tuple[int, ...]]) -> None:
+    if sounds and not any(sounds):
         raise UsageError("learn.no_overlap", motion=pair.motion_name, music=pair.music_name)
-    melody = [()] * len(segments) if pair.rhythm.melody is None else during(pair.rhythm.melody)
-    return [
-        replace(one, sounds=own, melody=tune)
-        for one, own, tune in zip(segments, during(pair.rhythm), melody, strict=True)
-    ]

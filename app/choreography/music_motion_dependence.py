@@ -4,7 +4,7 @@ Two thirds of the motions of each source are learned from; of the last third it 
 which basic motion is danced, in bits a motion, beyond how often its dancer dances each. The same is asked with the
 music of each source parted into stretches, which are put in another order: a pairing that tells something tells more
 than nearly all of these (P. Good, "Permutation, Parametric and Bootstrap Tests of Hypotheses", 3rd ed. 2005; stretches,
-for sounds that follow one another are alike by themselves).
+for sounds that follow one another are alike by themselves). Copies of a motion are all learned from, or all held out.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from app.arrays import FloatArray, IntArray
 from app.choreography.hit_log_odds import OF_ALL
 from app.choreography.model import ChoreographyModel
+from app.choreography.near_copies import groups_of_copies
 from app.choreography.rhythm import SYMBOLS
 from app.errors import Message
 
@@ -25,6 +26,8 @@ ORDERS: Final = 199
 """Number of permutations of the music that are tried."""
 TELLS: Final = 0.05
 """Largest share of the other orders that inform as much, for music that informs about the motion."""
+LEAST_BITS: Final = 0.05
+"""Fewer bits a motion are none: they are shown in tenths."""
 STRETCH: Final = (3, 7)
 """Fewest and most motions whose music stays together."""
 LEAST: Final = 20
@@ -53,7 +56,7 @@ class Pairing:
     @property
     def tells(self) -> bool:
         """Return whether the music informs about the motion as other music would not."""
-        return self.bits > 0.0 and self.chance <= TELLS
+        return self.bits >= LEAST_BITS and self.chance <= TELLS
 
 
 def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
@@ -85,11 +88,23 @@ def trust_in(model: ChoreographyModel) -> float:
 def report(model: ChoreographyModel) -> Message:
     """Report whether a model's music informs about its motion."""
     found = pairing_of(model)
-    if found is None:
-        return Message("learn.pairing_unknown", {"least": LEAST})
+    return Message("learn.pairing_unknown", {"least": LEAST}) if found is None else verdict(found)
+
+
+def verdict(found: Pairing) -> Message:
+    """Return what the bits and their chance say together."""
+    if found.bits < LEAST_BITS:
+        # Whatever other music predicts: this one predicts nothing.
+        return Message("learn.pairing_predicts_nothing", {})
     id_ = "learn.pairing_tells" if found.tells else "learn.pairing_tells_nothing"
-    # Rounded to what is shown, so that a little below nothing is nothing, not "-0.0".
-    return Message(id_, {"bits": round(found.bits, 1) + 0.0, "chance": found.chance})
+    return Message(id_, {"bits": found.bits, "chance": found.chance})
+
+
+def _earliest(groups: IntArray, places: FloatArray) -> FloatArray:
+    """(S,) the least place of each group."""
+    least = np.full(groups.max(initial=0) + 1, np.inf)
+    np.minimum.at(least, groups, places)
+    return np.asarray(least[groups])
 
 
 class _Test:
@@ -103,16 +118,24 @@ class _Test:
         for clip in range(len(model.clips)):
             own = np.flatnonzero(self._clips == clip)
             places[own] = np.arange(len(own)) / max(len(own), 1)
+        groups, sounded = groups_of_copies(model), np.zeros((len(self._states), len(SYMBOLS)))
+        for at, one in enumerate(model.segments):
+            np.add.at(sounded[at], list(one.sounds), 1.0)
+        # What is copied with its sounds counts once; other copies are on the side of the first third and second.
+        once = np.zeros(len(places), bool)
+        once[np.unique(np.column_stack([groups, sounded]), axis=0, return_index=True)[1]] = True
+        places = np.where(once, _earliest(groups, places), np.nan)
         learned = places < LEARNED
         # Half of what is learned from says how far the other half's sounds can be trusted.
         half = places < LEARNED / 2.0
         self._parts = (np.flatnonzero(half), np.flatnonzero(learned & ~half))
-        self._learned, self._held_out = np.flatnonzero(learned), np.flatnonzero(~learned)
+        self._learned, self._held_out = np.flatnonzero(learned), np.flatnonzero(once & ~learned)
 
     @property
     def is_long_enough(self) -> bool:
         """Return whether there are motions in each part, and more than one order of their music."""
-        return len(self._states) >= LEAST and min(map(len, self._parts)) > 0
+        used = len(self._learned) + len(self._held_out)
+        return used >= LEAST and min(map(len, (*self._parts, self._held_out))) > 0
 
     def bits(self, sounds: FloatArray) -> float:
         """Bits per motion by which these sounds (S, 47) predict the motions held out."""

@@ -45,6 +45,8 @@ class RawSkeleton:
         From each bone's parent to the bone, and to the ends of the last ones.
     figures : tuple of str
         Names of all skeletons of the file where it has several.
+    figure_name : str
+        This one's among them.
     """
 
     figure: Figure
@@ -52,6 +54,7 @@ class RawSkeleton:
     places: FloatArray
     lines: FloatArray
     figures: tuple[str, ...] = ()
+    figure_name: str = ""
 
     def corrected(self, joints: Mapping[str, str]) -> JointMapping:
         """Bones with a user's corrections. Raises FileError where one names what there is not."""
@@ -89,4 +92,4 @@ def raw_skeleton(
         for joint, end in bvh.end_sites_cm.items()
     ]
     shape = np.array(lines, np.float64).reshape(-1, 2, 3)
-    return RawSkeleton(zero_pose(bvh, file), found, places, shape, bvh.figures)
+    return RawSkeleton(zero_pose(bvh, file), found, places, shape, bvh.figures, bvh.figure)

@@ -22,8 +22,8 @@ from app.choreography.body_check import report
 from app.choreography.captured_body import captured_body
 from app.choreography.cleaning import CleanedClip, cleaned, remarks
 from app.choreography.clip import BodyShape, MotionClip
-from app.choreography.raw_skeleton import RawSkeleton, raw_skeleton
-from app.errors import FileError, Message
+from app.choreography.raw_skeleton import BodyError, RawSkeleton, raw_skeleton
+from app.errors import FileError, Message, shortened
 from app.formats.bvh.clip import BvhClip
 from app.formats.motion_limits import require_frames, require_rate
 from app.rig import quaternion
@@ -37,6 +37,8 @@ HEIGHTS_M: Final = (1.35, 2.15)
 """A unit that makes the figure as high as this is taken; the first of `UNITS_M` that does."""
 HEIGHT_M: Final = 1.7
 """Height of a figure that no unit fits."""
+MOST_FIGURES: Final = 16
+"""Skeletons of a file that are tried where none is asked for."""
 FAR_M: Final = 0.05
 """Joints farther from their place in the file are reported."""
 HIPS_OVER_LEGS: Final = (0.5, 1.5)
@@ -122,7 +124,7 @@ def read_motion(
     joints : mapping of str to str, optional
         Corrections of bones, see `captured_body`.
     figure : str
-        Root of the skeleton to read where a BVH file has several; empty: the first.
+        Root of the skeleton to read where a BVH file has several; empty: the first that is a body.
 
     Raises
     ------
@@ -131,6 +133,27 @@ def read_motion(
     """
     file = Path(path)
     bvh = read_motion_file(file, figure)
+    if not bvh.figures or figure:
+        return _of_figure(bvh, file, fps, joints)
+    failures = list[FileError]()
+    for name in bvh.figures[:MOST_FIGURES]:
+        one = bvh if name == bvh.figure else read_motion_file(file, name)
+        others = shortened(", ".join(other for other in bvh.figures if other != name), 80)
+        guess = Message("motion.figures", {"name": name, "others": others})
+        try:
+            return _of_figure(replace(one, guesses=(*one.guesses, guess)), file, fps, joints)
+        except FileError as error:
+            # Corrections may name bones of another figure.
+            failures.append(error)
+    no_body = next((error for error in failures if isinstance(error, BodyError)), None)
+    if no_body is None:
+        raise failures[0]
+    figures = shortened(", ".join(bvh.figures), 200)
+    raise BodyError("motion.no_body", no_body.skeleton, file=str(file), figures=figures) from no_body
+
+
+def _of_figure(bvh: BvhClip, file: Path, fps: Fraction | None, joints: Mapping[str, str] | None) -> ReadMotion:
+    """The motion of a file's figure, within the limits."""
     rate = fps or bvh.fps
     require_rate(rate, str(file))
     seconds = (len(bvh.rotations_xyzw) - 1) / float(rate)

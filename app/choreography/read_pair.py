@@ -67,7 +67,7 @@ def read_pair(
     joints : mapping of str to str, optional
         Corrections of the motion's bones by joint, see `app.choreography.raw_skeleton.JOINTS`; empty: none.
     figure : str
-        Root of the motion's skeleton where its file has several; empty: the first.
+        Root of the motion's skeleton where its file has several; empty: the first that is a body.
 
     Raises
     ------

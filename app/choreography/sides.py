@@ -15,6 +15,7 @@ CLEARLY: Final = 0.3
 """Knees and toes that together point back more than this exchange the legs that names say; each is 1 at most."""
 
 
+SIDE_WORDS: Final = (("left", "right"), ("l", "r"), ("links", "rechts"), ("左", "右"))
 LEGS: Final = ("UpperLeg", "LowerLeg", "Foot", "Toes")
 ARMS: Final = ("Shoulder", "Arm", "Hand", "Thumb", "Index", "Middle", "Ring", "Little")
 
@@ -81,3 +82,30 @@ def exchanged(joints: Mapping[str, int], names: Sequence[str] = ("",)) -> dict[s
         turned = side != "" and any(name in joint for name in names)
         found[other[side] + joint[len(side) :] if turned else joint] = bone
     return found
+
+
+def called_after_the_other_side(joints: Mapping[str, int], names: Sequence[str]) -> tuple[str, ...]:
+    """Upper arms and legs whose bones' names say that they are of the other side.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Of all bones of the file.
+    """
+    found = []
+    for part in ("UpperArm", "UpperLeg"):
+        left, right = (f"{side}{part}" for side in ("left", "right"))
+        if _says_left(names[joints[right]], names[joints[left]]):
+            found += [left, right]
+    return tuple(found)
+
+
+def _says_left(name: str, other: str) -> bool:
+    """Return whether a name is that of a left bone, and the other is its right one's."""
+    name, other = name.lower(), other.lower()
+    return any(
+        name[:at] + right + name[at + len(left) :] == other
+        for left, right in SIDE_WORDS
+        for at in range(len(name))
+        if name.startswith(left, at)
+    )

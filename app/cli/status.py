@@ -16,7 +16,7 @@ BAD_USE: Final = 2
 NO_DISPLAY: Final = 3
 """The editor has nowhere to open, or a film cannot be drawn."""
 PARTIAL: Final = 4
-"""Done, but players were excluded, or a take lies elsewhere than asked."""
+"""Done, but players or pairs were excluded, or a take lies elsewhere than asked."""
 STOPPED: Final = 128 + signal.SIGINT
 """Stopped with Ctrl-C."""
 

@@ -14,15 +14,17 @@ from app.cli.commands import Actions, add_actions
 from app.cli.options import bounded_number, frame_rate, seconds, whole_number
 from app.cli.progress import Progress
 from app.cli.speech import said, sentence
+from app.cli.status import DONE, PARTIAL
 from app.cli.summary import columns, heads
 from app.cli.terminal import say, warn
 from app.encoding import shown
-from app.errors import UsageError
+from app.errors import AppError, Cancelled, UsageError
 from app.project.frame_rate import USUAL_RATE
 
 if TYPE_CHECKING:
     from app.choreography.dance import Dance
     from app.choreography.model import ChoreographyModel
+    from app.choreography.read_pair import ReadPair
 
 
 MOST_STATES: Final = 1000
@@ -122,43 +124,39 @@ def _add_learn(actions: Actions) -> None:
     command.set_defaults(run=learn)
 
 
-def learn(arguments: argparse.Namespace) -> None:
-    """Learn from the pairs, write the file and print what it holds."""
+def learn(arguments: argparse.Namespace) -> int:
+    """Learn from the pairs that can be read, write the file and print what it holds; the exit status.
+
+    Raises
+    ------
+    AppError
+        That of the first pair, if nothing can be learned from any.
+    """
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
     from app.choreography.music_motion_dependence import report
-    from app.choreography.read_pair import read_pair, to_check
+    from app.choreography.read_pair import to_check
     from app.project.choreography_files import SUFFIX
 
-    files: Sequence[PairFiles] = arguments.pairs
     target: Path = arguments.to if arguments.to.suffix == SUFFIX else Path(f"{arguments.to}{SUFFIX}")
     progress = Progress(sys.stderr)
     try:
-        read = []
-        for number, one in enumerate(files):
-            progress(0.5 * number / len(files), one.motion.name)
-            read.append(
-                read_pair(
-                    one.motion,
-                    one.music,
-                    offset_s=one.offset_s,
-                    fps=one.fps,
-                    credits=one.credits,
-                    cuts=one.cuts,
-                    joints=one.joints,
-                    figure=one.figure or "",
-                )
+        read, left_out = _read_pairs(arguments.pairs, progress)
+        if read:
+            model = learned(
+                [one.pair for one in read],
+                states=arguments.states,
+                seed=arguments.seed,
+                name=shown(target.stem),
+                progress=lambda share, label: progress(0.5 + 0.5 * share, label),
             )
-        model = learned(
-            [one.pair for one in read],
-            states=arguments.states,
-            seed=arguments.seed,
-            name=shown(target.stem),
-            progress=lambda share, label: progress(0.5 + 0.5 * share, label),
-        )
-        write_model(target, model)
+            write_model(target, model)
     finally:
         progress.clear()
+    if not read:
+        for name, error in left_out[1:]:
+            warn(said("learn.unusable", motion=name, reason=sentence(error.message)))
+        raise left_out[0][1]
     say(*learned_table(model, target, [one.motion.start_s for one in read]), "", sentence(report(model)))
     notes = [f"  {one.pair.motion_name}: {', '.join(map(sentence, found))}" for one in read if (found := to_check(one))]
     say("", said("learn.body"), *(f"  {one.pair.motion_name}: {sentence(one.motion.checked)}" for one in read))
@@ -167,6 +165,37 @@ def learn(arguments: argparse.Namespace) -> None:
     for source in model.sources:
         if not source.credits:
             warn(said("learn.no_credits", motion=source.motion_name))
+    for name, error in left_out:
+        warn(said("learn.left_out", motion=name, reason=sentence(error.message)))
+    return PARTIAL if left_out else DONE
+
+
+def _read_pairs(files: Sequence[PairFiles], progress: Progress) -> tuple[list[ReadPair], list[tuple[str, AppError]]]:
+    """Read pairs; the names of the motions of those from which nothing can be learned, with the reasons."""
+    from app.choreography.learn import require_usable
+    from app.choreography.read_pair import read_pair
+
+    read, left_out = [], list[tuple[str, AppError]]()
+    for number, one in enumerate(files):
+        progress(0.5 * number / len(files), one.motion.name)
+        try:
+            found = read_pair(
+                one.motion,
+                one.music,
+                offset_s=one.offset_s,
+                fps=one.fps,
+                credits=one.credits,
+                cuts=one.cuts,
+                joints=one.joints,
+                figure=one.figure or "",
+            )
+            require_usable(found.pair)
+            read.append(found)
+        except Cancelled:
+            raise
+        except AppError as error:
+            left_out.append((shown(one.motion.name), error))
+    return read, left_out
 
 
 def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:

@@ -39,6 +39,8 @@ class BvhClip:
     figures : tuple of str
         Names of all skeletons of the file where it has several, this one among them: those of their roots, numbered
         where they are the same.
+    figure : str
+        Which of `figures` this one is.
     orders : tuple of str
         Order of each joint's rotation channels, for a file that is to be written; empty: Z, X, Y.
     """
@@ -54,4 +56,5 @@ class BvhClip:
     rate_guess: Message | None = None
     guesses: tuple[Message, ...] = ()
     figures: tuple[str, ...] = ()
+    figure: str = ""
     orders: tuple[str, ...] = ()

@@ -179,18 +179,15 @@ def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip
     said = _FRAMES.match(motion)
     if said is None:
         raise FileError("bvh.no_frames", file=file, line=max(1, line))
-    try:
-        frames = int(said[1])
-    except ValueError as error:
-        raise FileError("bvh.frames", file=file, found=said[1][:40]) from error
-    try:
-        frame_time = float(said[2])
-    except ValueError as error:
-        raise FileError("bvh.frame_time", file=file, found=said[2][:40]) from error
+    frames_line, time_line = (line - 1 + len(motion[: said.end(group)].splitlines()) for group in (1, 2))
+    frames = _whole(said[1])
+    # A decimal comma means the same.
+    written = said[2].replace(",", ".", 1)
+    frame_time = float(written) if _is_number(written) else 0.0
     if not 1e-6 < frame_time < 1e6:
-        raise FileError("bvh.frame_time", file=file, found=said[2][:40])
+        raise FileError("bvh.frame_time", file=file, line=time_line, found=said[2][:40])
     if not 1 <= frames < 2**31:
-        raise FileError("bvh.frames", file=file, found=said[1][:40])
+        raise FileError("bvh.frames", file=file, line=frames_line, found=said[1][:40])
     width = sum(len(channels) for channels in skeleton.channels)
     before_table = line - 1 + len(motion[: said.end()].splitlines())
     values, guesses = _table(motion[said.end() :], frames, width, file, before_table)
@@ -200,14 +197,19 @@ def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip
         raise FileError("motion.no_figure", file=file, figure=figure, figures=shortened(", ".join(names), 200))
     if len(roots) > 1:
         first = roots[names.index(figure) if figure else 0]
-        if not figure:
-            others = shortened(", ".join(names[1:]), 80)
-            guesses += (Message("motion.figures", {"name": names[0], "others": others}),)
         before = sum(len(channels) for channels in skeleton.channels[:first])
         skeleton, values = skeleton.figure(first), values[:, before:]
-    fps, rate_guess = _rate(frame_time, said[2])
+    fps, rate_guess = _rate(frame_time, written)
     clip = _clip(values, skeleton, fps, rate_guess, guesses)
-    return replace(clip, figures=tuple(names)) if len(names) > 1 else clip
+    return replace(clip, figures=tuple(names), figure=figure or names[0]) if len(names) > 1 else clip
+
+
+def _whole(word: str) -> int:
+    """Return the whole number that is written; 0 for anything else."""
+    try:
+        return int(word)
+    except ValueError:
+        return 0
 
 
 def _numbered(names: list[str]) -> list[str]:

@@ -196,9 +196,16 @@ def test_a_bad_pair_is_named_and_the_others_stay(
     drop(dialog, folder / "swings.bvh", folder / "drums.mid")
     type_number(dialog, "learn_offset", "1")
     drop(dialog, folder / "steps.bvh", folder / "silent.mid")
-    assert "Pair 2" in state(dialog)
+    assert "Pair 2 is left out: " in state(dialog)
     assert "silent.mid has no notes" in state(dialog)
-    assert not child(dialog, QPushButton, "learn_start").isEnabled()
+    # The other one is learned without it.
+    assert child(dialog, QPushButton, "learn_start").isEnabled()
+    press(dialog, "learn_start")
+    assert [one.motion_name for one in read_model(folder / "choreography.choreography").sources] == ["swings.bvh"]
+    assert "Pair 2 is left out: " in state(dialog)
+    assert [row_texts(dialog, row)[4] for row in (0, 1)] == ["2", "–"]
+    (folder / "choreography.choreography").unlink()
+    select(dialog, 1)
     assert dialog.drafts[0].offset_s == 1.0
     # The remedy: its music.
     monkeypatch.setattr(learn_pair, "ask_for_file", lambda *_: folder / "steps.mid")

@@ -17,7 +17,7 @@ from app.choreography.model_file import read_model, write_model
 from app.choreography.read_motion import read_motion
 from app.cli import main, parser
 from app.cli.choreography.command import PairFiles
-from app.cli.status import BAD_INPUT, BAD_USE, DONE
+from app.cli.status import BAD_INPUT, BAD_USE, DONE, PARTIAL
 from app.formats.bvh.clip import BvhClip
 from app.formats.bvh.write import write_bvh
 from app.rig import quaternion
@@ -117,7 +117,8 @@ def test_a_pair_is_learned(swings: Path, drums: Path, tmp_path: Path, capsys: py
         "motion          music  seconds  segments  states  offset s  confidence",
         "swings.bvh  drums.mid      8.5        10       4      1.00       given",
         "",
-        "There are too few motions (at least 20 are needed) to test whether the music predicts them.",
+        "There are too few motions that are no copies of one another (at least 20 are needed) to test whether the "
+        "music predicts them.",
         "",
         "body:",
         "  swings.bvh: T-pose: hip line 0°, shoulder line 0° off level; spine 0° off upright; knees 0°, elbows 0°, "
@@ -215,6 +216,28 @@ def test_what_cannot_be_learned_from_is_named(
         command = ["choreography", "learn", "--pair", str(motion), str(music), *options]
         assert main([*command, "--to", str(target)]) == status
         assert said in capsys.readouterr().err
+    assert not target.exists()
+
+
+def test_a_bad_pair_is_left_out_and_named_and_the_others_are_learned(
+    swings: Path, drums: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One that cannot be read, one whose music sounds elsewhere, and one that is sound."""
+    target, missing = tmp_path / "x.choreography", tmp_path / "none.bvh"
+    later = write_clip(tmp_path / "later.bvh", arm_swings(60))
+    command = ["choreography", "learn", "--pair", str(missing), str(drums)]
+    command += ["--pair", str(swings), str(drums), "--offset", "1"]
+    command += ["--pair", str(later), str(drums), "--offset", "1000"]
+    assert main([*command, "--to", str(target)]) == PARTIAL
+    printed = capsys.readouterr()
+    assert "none.bvh was left out; the other pairs were learned." in printed.err
+    assert "later.bvh was left out; the other pairs were learned. nothing of drums.mid" in printed.err
+    assert [source.motion_name for source in read_model(target).sources] == ["swings.bvh"]
+    target.unlink()
+    assert main(["choreography", "learn", *command[2:5], *command[8:], "--to", str(target)]) == BAD_INPUT
+    printed = capsys.readouterr()
+    assert "later.bvh cannot be learned from: nothing of drums.mid" in printed.err
+    assert "none.bvh cannot be read" in printed.err
     assert not target.exists()
 
 

@@ -149,6 +149,11 @@ def test_the_left_is_where_the_knees_and_toes_say(rest: str | None, names: str) 
     """A mirrored motion is danced with the other arm, though the names of its bones do not know."""
     mirror = mirrored(SALSA if rest is None else rerigged(SALSA, REST_POSES[rest]))
     read, expected = motion_of(NAMES[names](mirror), "a.bvh"), motion_of(SALSA, "b.bvh")
+    said = [guess for guess in guesses(read) if guess.id == "motion.sides"]
+    # Names that say nothing are not gainsaid; nor are those of a motion that is as they say.
+    assert bool(said) is (names != "none")
+    assert all("leftUpperArm" in str(guess.arguments["joints"]) for guess in said)
+    assert "motion.sides" not in {guess.id for guess in guesses(motion_of(NAMES[names](SALSA), "c.bvh"))}
     ours, theirs = (one.clip.world().positions_m[:, 1:] for one in (read, expected))
     sides = {"left": "right", "righ": "left"}
     other = [SEGMENTS.index(sides.get(name[:4], name[:4]) + name[4 + name.startswith("right") :]) for name in SEGMENTS]

@@ -14,6 +14,7 @@ from app.choreography.clip import MotionClip
 from app.choreography.features import points_m
 from app.choreography.mending import mended
 from app.rig import quaternion
+from tests.support.dances import stepping
 from tests.unit.choreography.test_mending import dancing, outside, turning
 
 ARM = ("rightUpperArm", "rightLowerArm", "rightHand")
@@ -113,7 +114,7 @@ def test_a_twitch_that_only_the_feet_show_is_mended_and_named(parts: tuple[str, 
 @pytest.mark.parametrize("frames", [12, 20, 30])
 def test_a_body_that_sinks_into_the_floor_is_left_out(frames: int) -> None:
     """Dips of 20 cm, four of them: the floor is where the feet stand, not where they sink to."""
-    clip = dancing(60)
+    clip = stepping(16)
     hips = clip.hips_m.copy()
     for start in (60, 160, 260, 360):
         hips[start : start + frames, 1] -= 0.2 * np.sin(np.linspace(0.0, np.pi, frames)) ** 2

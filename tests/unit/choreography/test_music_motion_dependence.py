@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from app.choreography.model import ChoreographyModel
-from app.choreography.music_motion_dependence import Pairing, pairing_of, report, trust_in
+from app.choreography.music_motion_dependence import Pairing, pairing_of, report, trust_in, verdict
+from app.messages import text
 from tests.support.dances import model
 
 
@@ -70,6 +71,40 @@ def test_a_dance_follows_sounds_as_far_as_they_tell() -> None:
     assert 0.0 < trust_in(barely) < 1.0
     # Of a few motions nothing can be said against what sounded.
     assert trust_in(replace(barely, segments=barely.segments[:12])) == 1.0
+
+
+def copied(made: ChoreographyModel, late: int) -> ChoreographyModel:
+    """A model with every take again, with its first motions left out and its sounds kept."""
+    segments = list(made.segments)
+    for clip in range(len(made.clips)):
+        own = [one for one in made.segments if one.clip == clip][late:]
+        segments += [replace(one, clip=len(made.clips) + clip) for one in own]
+    return replace(made, segments=tuple(segments), clips=made.clips * 2, sources=made.sources * 2)
+
+
+def test_takes_that_are_added_again_tell_no_more() -> None:
+    """Motions that were learned from are not asked for, though a copy of them begins later."""
+    for seed in (100, 101, 102):
+        once = judged(sounding(seed, 0.0))
+        again = judged(copied(sounding(seed, 0.0), 30))
+        assert not again.tells
+        assert again.bits == pytest.approx(once.bits, abs=0.1)
+
+
+def test_the_verdict_and_its_bits_agree() -> None:
+    """Fewer bits than are shown are none, however few other orders of the music predict more."""
+    for bits, chance, id_ in (
+        (-0.2, 0.03, "learn.pairing_predicts_nothing"),
+        (0.04, 0.01, "learn.pairing_predicts_nothing"),
+        (0.3, 0.2, "learn.pairing_tells_nothing"),
+        (0.3, 0.04, "learn.pairing_tells"),
+    ):
+        found = Pairing(bits, chance)
+        said = verdict(found)
+        assert said.id == id_
+        assert found.tells is (id_ == "learn.pairing_tells")
+        for language in ("en", "ja"):
+            assert "-0." not in text(said, language)
 
 
 def test_the_same_model_is_judged_the_same() -> None:

@@ -14,8 +14,10 @@ from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.read_motion import guesses, read_motion
 from app.errors import FileError
+from app.messages import text
 from app.rig import quaternion
 from tests.support.dance_measures import SHARED
+from tests.support.rerigged import together
 
 pytestmark = pytest.mark.slow
 
@@ -242,6 +244,36 @@ def test_a_body_that_is_captured_about_its_hips_keeps_its_unit(tmp_path: Path) -
     read = read_motion(path)
     assert "motion.place_unit" not in [message.id for message in guesses(read)]
     assert np.ptp(read.clip.hips_m[:, 1]) < 0.01
+
+
+SWORD = """HIERARCHY
+ROOT sword
+{
+OFFSET 0 0 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 90 0
+}
+}
+"""
+
+
+def test_a_prop_before_the_body_is_not_taken_for_it(tmp_path: Path) -> None:
+    """The first figure that is a body is read, and said; where none is, the error names them and how to choose."""
+    path, body = tmp_path / "a.bvh", bvh(np.eye(3), 0.01)
+    sword = f"{SWORD}MOTION\nFrames: 20\nFrame Time: 0.025\n" + "0 0 0\n" * 20
+    path.write_text(together(sword, body), encoding="utf-8")
+    read = read_motion(path)
+    assert (read.skeleton.figures, read.skeleton.figure_name) == (("sword", "Hips"), "Hips")
+    said = next(message for message in guesses(read) if message.id == "motion.figures")
+    assert said.arguments == {"name": "Hips", "others": "sword"}
+    assert "--figure" in text(said)
+    assert read_motion(path, joints={"neck": ""}).skeleton.figure_name == "Hips"
+    path.write_text(together(sword, sword.replace("sword", "shield")), encoding="utf-8")
+    with pytest.raises(FileError) as caught:
+        read_motion(path)
+    assert (caught.value.message.id, caught.value.message.arguments["figures"]) == ("motion.no_body", "sword, shield")
 
 
 @pytest.mark.parametrize("suffix", [".vrma", ".bvh", ".txt"])

@@ -168,7 +168,8 @@ def test_a_hinge_has_one_channel() -> None:
     ],
 )
 def test_a_frame_time_of_few_digits_is_a_usual_rate(written: str, fps: Fraction) -> None:
-    assert decode_bvh(ARM % ("1 Xrotation", "0", "0", written, "1 2"), "a.bvh").fps == fps
+    for separated in (written, written.replace(".", ",")):
+        assert decode_bvh(ARM % ("1 Xrotation", "0", "0", separated, "1 2"), "a.bvh").fps == fps
 
 
 @pytest.mark.parametrize(
@@ -272,7 +273,7 @@ def test_of_several_figures_the_first_is_read_or_the_one_asked_for() -> None:
     alone = "\n".join([f"{head.replace('hips', 'partner')}MOTION", *start[1:], rows])
     both = together(text, alone)
     found = decode_bvh(both, "a.bvh")
-    assert found.guesses == (Message("motion.figures", {"name": "hips", "others": "partner"}),)
+    assert (found.figures, found.figure) == (("hips", "partner"), "hips")
     assert found.figures == ("hips", "partner")
     same(replace(found, guesses=(), figures=()), decode_bvh(text, "a.bvh"))
     for name, expected in (("partner", alone), ("hips", text)):
@@ -360,3 +361,12 @@ def test_damage_is_named(text: str, problem: str) -> None:
         decode_bvh(text, "bad.bvh")
     assert raised.value.message.id == problem
     assert raised.value.message.arguments["file"] == "bad.bvh"
+
+
+@pytest.mark.parametrize(("head", "id"), [("Frames:", "bvh.frames"), ("Frame Time:", "bvh.frame_time")])
+def test_a_wrong_head_of_the_motion_is_named_with_its_line(head: str, id: str) -> None:
+    text = re.sub(f"{head}.*", f"{head} 1,2,3", TEXT)
+    with pytest.raises(FileError) as raised:
+        decode_bvh(text, "bad.bvh")
+    line = next(at for at, one in enumerate(text.splitlines(), start=1) if one.startswith(head))
+    assert raised.value.message == Message(id, {"file": "bad.bvh", "line": line, "found": "1,2,3"})

@@ -39,6 +39,7 @@ from widgets.dialogs.choreography.learn_rows import (
     PairList,
     PairRead,
     PairRow,
+    left_out_text,
     missing_text,
     take_contents,
 )
@@ -366,16 +367,17 @@ class LearnDialog(WorkingDialog):
         elif self._failure is not None:
             text = sentence(self._failure)
         elif result is not None:
-            text = "\n".join(map(message_text, (summary(result.model, result.path), result.pairing)))
+            learned = map(message_text, (summary(result.model, result.path), result.pairing))
+            text = "\n".join(filter(None, (*learned, left_out_text(self._rows))))
         elif self._unknown:
             names = ", ".join(shown(path.name) for path in self._unknown)
             text = "\n".join(filter(None, (self.tr("learn_dialog.unknown_files").format(files=names), missing)))
         elif missing:
             text = missing
-        elif path is not None and os.path.isfile(path):
-            text = self.tr("learn_dialog.replaces_file")
         else:
-            text = ""
+            replaces = path is not None and os.path.isfile(path)
+            text = self.tr("learn_dialog.replaces_file") if replaces else ""
+            text = "\n".join(filter(None, (left_out_text(self._rows), text)))
         self._state.setText(text)
         self._show_use()
 

@@ -67,6 +67,7 @@ class PairForm(Retranslated, QWidget):
         self._draft, self._found, self._busy = PairDraft(), PairContents(), False
         self._figures: tuple[str, ...] = ()
         self._figures_of: Path | None = None
+        self._figure_read = ""
         self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
         self._paths = {name: self.texted(PathEdit(), placeholder=text_id) for name, text_id in _PLACEHOLDERS.items()}
         self._figure = self.texted(named(Combo(), "learn_figure"), tip="pair_form.figure_tip")
@@ -128,8 +129,9 @@ class PairForm(Retranslated, QWidget):
             # While another of them is read, or where it cannot be read, they stay.
             self._figures_of = motion
             self._figures = () if skeleton is None else skeleton.figures
+            self._figure_read = "" if skeleton is None else skeleton.figure_name
         self._figure.set_options([Option(name, shown(name)) for name in self._figures])
-        self._figure.show_option(self._draft.figure or next(iter(self._figures), None))
+        self._figure.show_option(self._draft.figure or self._figure_read or None)
         for widget in (self._labels["figure"], self._figure):
             widget.setVisible(bool(self._figures))
 

@@ -130,7 +130,9 @@ def missing_text(rows: Sequence[PairRow]) -> str:
         if row.draft.music is None:
             return tr("learn_dialog.music_missing").format(n=at + 1)
         if row.found.error is not None:
-            return tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
+            if all(other.found.error is not None for other in rows):
+                return tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
+            continue
         bounds = offset_range_s(row.found)
         if bounds is not None and is_offset_outside(row.draft, row.found):
             least, most = (f"{bound_s:.3f}" for bound_s in bounds)
@@ -138,6 +140,16 @@ def missing_text(rows: Sequence[PairRow]) -> str:
     if any(row.reading for row in rows):
         return tr("learn_dialog.reading_files")
     return ""
+
+
+def left_out_text(rows: Sequence[PairRow]) -> str:
+    """Return which pairs are not learned from, and why: a line each."""
+    texts = [
+        tr("learn_dialog.pair_left_out").format(n=at + 1, error=message_text(row.found.error))
+        for at, row in enumerate(rows)
+        if row.found.error is not None
+    ]
+    return "\n".join(texts)
 
 
 class PairList(ColumnList):

@@ -60,6 +60,7 @@ def learning(
     share : list of float
         Its one number becomes the share that is done, 0..1.
     """
+    rows = tuple(row for row in rows if row.found.error is None)
     pairs = [pair for row in rows if (pair := training_pair(row)) is not None]
 
     def work(progress: Progress, stop_requested: StopRequested) -> LearnedChoreography:
