@@ -32,7 +32,7 @@ LEANS_DEG: Final = {"hips": -3.0, "spine": -2.0, "chest": -4.0}
 """Lean, ahead positive, of the way to the next joint of the trunk in a body that stands: the mean of rigs whose zero
 pose does (CMU, Mixamo, MakeHuman)."""
 MOST_LEAN_DEG: Final = 20.0
-"""A way farther from upright than this, where the motion has it in the mean, is not along the trunk."""
+"""Largest mean angle from upright at which a line between joints is taken to go along the trunk."""
 EYES_DEG: Final = 45.0
 """Angle between upright and the way from the head's joint to between the eyes."""
 BALL_DEG: Final = 25.0

@@ -64,7 +64,7 @@ class Mended:
 
 
 def mended(clip: MotionClip) -> Mended:
-    """Mend what can be; the same clip where there is no damage."""
+    """Mend the damage of a clip; the same clip where there is none."""
     replaced: list[Damage] = []
     left_out: tuple[Damage, ...] = ()
     for last in (*(False,) * ROUNDS, True):

@@ -574,7 +574,7 @@ def _names(project: Project, player_id: str) -> tuple[str, ...]:
 
 
 def _first_tick(take: Take) -> float:
-    """Return where a take begins, or a note that was struck a little before: it was meant for that beginning."""
+    """Tick at which a take begins; a little earlier if its first note was struck shortly before."""
     onsets_s, start_s = take.played.onsets_s, take.start_us / 1e6
     early_s = onsets_s[(onsets_s >= start_s - EARLY_S) & (onsets_s < start_s)]
     return take.tempo_map.ticks(float(early_s[0]) if len(early_s) else start_s)

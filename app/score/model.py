@@ -72,7 +72,8 @@ class ControllerCurve(msgspec.Struct, frozen=True):
 
     @property
     def shown_range(self) -> tuple[float, float]:
-        """The values between which it is drawn and edited: of a bend the usual ones, or as far as it goes."""
+        """Range of values in which the curve is drawn and edited: for a bend the usual range, or a larger one if the
+        curve exceeds it."""
         widest = max(1.0, *map(abs, self.values)) if self.kind == "pitch_bend" else 1.0
         return (-widest if self.kind == "pitch_bend" else 0.0), widest
 

@@ -25,7 +25,7 @@ from widgets.timeline.lane_layout import LaneState
 from widgets.timeline.panel import TimelinePanel
 
 LAYOUT_VERSION: Final = 2
-"""Another set of panels makes layouts of before useless: they are passed over."""
+"""Version of stored layouts; layouts stored with another version, for other panels, are ignored."""
 SHORT_PX: Final = 880
 """In a window lower than this the inspector has the whole height: above the timeline it could show two rows; and the
 players have none of it, so that the timeline is wide."""

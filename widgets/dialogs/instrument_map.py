@@ -219,7 +219,8 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show_state()
 
     def _show_wrong(self) -> None:
-        """Show why files of the user's own cannot be used; there may be no instrument to show it at."""
+        """Show why files of the user's own cannot be used, apart from the list, in which such a file may have no
+        row."""
         reported = [problem for problems in library().problems.values() for problem in problems]
         lines = [self.tr("instruments_dialog.files_with_errors")]
         lines += [message_text(problem, self._session) for problem in reported[:MOST_WRONG]]
@@ -301,7 +302,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show_row()
 
     def _fit_columns(self, mode: QHeaderView.ResizeMode) -> None:
-        """Give all columns a mode but the one that has the room that is left over."""
+        """Set the resize mode of all columns except the one that takes the remaining width."""
         header = self._table.horizontalHeader()
         header.setSectionResizeMode(mode)
         header.setSectionResizeMode(LABEL, QHeaderView.ResizeMode.Stretch)

@@ -204,7 +204,7 @@ class ProblemList(Retranslated, QWidget):
         self.list.scrollTo(index)
 
     def _keys(self) -> list[RowKey]:
-        """The player and the problems of each row."""
+        """Keys of the rows: the player and the problems of each."""
         return [line.key for line in self.list.lines.lines if isinstance(line.key, tuple)]
 
     def _requested(

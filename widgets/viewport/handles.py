@@ -179,7 +179,7 @@ def correction_at(
 
 
 def fresh_correction(project: Project, player_id: str, target: PoseTarget, span: CorrectionSpan) -> PoseCorrection:
-    """A correction that does nothing yet, of a name that the player has not."""
+    """A pose correction without effect yet, under a name that the player's corrections do not use."""
     taken = {item.name for item in project.corrections.get(player_id, ()) if isinstance(item, PoseCorrection)}
     number = 1
     while f"{target}_{number}" in taken:

@@ -172,7 +172,7 @@ class _Player:
         return place
 
     def _find(self, kind: str, name: str, place: int) -> int | None:
-        """The place that a jump is to; the one that a word means is the nearest."""
+        """Index of the measure that a jump leads to, or None; of several with the same word, the nearest."""
         named = [one for one, bar in enumerate(self.bars) if getattr(bar, kind) and name in (getattr(bar, kind), _ANY)]
         named = named or [one for one, bar in enumerate(self.bars) if getattr(bar, kind)]
         if not named:

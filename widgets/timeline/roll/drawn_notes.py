@@ -20,7 +20,8 @@ LEVELS = 4
 """Shades of velocity."""
 GHOST_ALPHA = 70
 MOST_RECTANGLES = 6000
-"""More notes behind than this, and the narrow ones become points of a picture: two to four times as fast."""
+"""Number of other players' notes above which the narrow ones are drawn as points of a picture, two to four times as
+fast as rectangles."""
 NARROW_PX = 5.0
 OUT_OF_SIGHT_PX = 3.0
 

@@ -51,7 +51,7 @@ class FittedInstrument(NamedTuple):
 def fitted_to_body(
     character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
 ) -> FittedInstrument:
-    """Suit an instrument to a body. One that lacks nothing and is of a grown-up's size gets the very map.
+    """Fit an instrument to a body. A grown-up body that lacks nothing gets the map unchanged.
 
     Parameters
     ----------
