@@ -35,6 +35,7 @@ from app.export.request import ExportRequest
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, EYE_TURNS, REST_POSES, ROOT_BONES, RigOptions
 from app.export.run import export as write
 from app.export.tree import clean_up
+from app.formats.images import TEXTURE_SIZES, USUAL_TEXTURE_PX
 from app.formats.keys import KEY_CHOICES
 from app.messages import text
 from app.performance.ensemble import Performance
@@ -91,6 +92,9 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
     fill_help(parts, parts=", ".join(FACE_PARTS))
     alone = command.add_argument("--motion-only", action="store_true")
     fill_help(alone, formats=names_where(lambda kind: kind.without_meshes))
+    sizes = tuple(texture_size_text(px) for px in TEXTURE_SIZES)
+    textures = command.add_argument("--texture-size", choices=sizes, default=texture_size_text(USUAL_TEXTURE_PX))
+    fill_help(textures, formats=names_where(lambda kind: kind.textured), usual=USUAL_TEXTURE_PX)
     keys = command.add_argument("--keys", choices=KEY_CHOICES, default="every")
     fill_help(keys, formats=names_where(lambda kind: kind.reduces_keys))
 
@@ -102,6 +106,11 @@ def add_rig_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--rest-pose", choices=REST_POSES, default=DEFAULT_RIG.rest_pose)
     command.add_argument("--twist-bones", action="store_true")
     command.add_argument("--eyes", choices=EYE_TURNS, default=DEFAULT_RIG.eyes)
+
+
+def texture_size_text(px: int) -> str:
+    """A size of textures as typed: pixels, or ``off``."""
+    return str(px) if px else "off"
 
 
 jobs = bounded_number(1, 256, "quantity.processes", int)
@@ -222,6 +231,7 @@ def _request(
         keys=arguments.keys,
         face=FaceOptions(arguments.face_names, arguments.face_parts),
         motion_only=arguments.motion_only,
+        texture_px=next(px for px in TEXTURE_SIZES if texture_size_text(px) == arguments.texture_size),
         with_ignored=arguments.ignored,
     )
 

@@ -20,6 +20,7 @@ from app.editor.setting_bindings import FOLDED, GROUPED, THEME, TIME, SettingBin
 from app.editor.stored_settings import BytesSetting, FilePathSetting, Setting, StoredSettings
 from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.editor.viewport_state import Follows
+from app.formats.images import USUAL_TEXTURE_PX, TextureSize
 from app.formats.keys import KeyChoice
 from app.messages import LANGUAGES
 from app.messages.pitches import PitchNames
@@ -148,6 +149,8 @@ class Settings(StoredSettings):
     """The Unreal project that players were last exported into; empty: none."""
     export_into = Setting("files/export_into", "folder")
     """Destination of the last export: ``"folder"`` or ``"unreal"``."""
+    export_texture_px = Setting[TextureSize]("files/export_texture_px", USUAL_TEXTURE_PX, TextureSize)
+    """Longest side of textures of the last export; 0: none."""
     export_keys = Setting[KeyChoice]("files/export_keys", "every", KeyChoice)
     """Keys of the last export."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
 from app.arrays import AnyFloatArray
 from app.errors import UsageError
 from app.export.rig_options import Attachment
+from app.formats.images import USUAL_TEXTURE_PX
 from app.formats.scene import Scene, SkinnedMesh, without_meshes
+from app.formats.texture_colors import with_textures
 from app.formats.usd import UsdSound
 from app.formats.usd_package import refuse_without_usd
 
@@ -33,6 +35,8 @@ class WriteOptions:
         Further expressions of a face, by weights of the scene's morphs.
     meshes : bool
         Whether files that can do without have meshes.
+    texture_px : int
+        Longest side of textures; 0: none.
     t_pose : ndarray, shape (B, 4), or None
         Rotations of the scene's bones on their parents in the T-pose.
     """
@@ -41,6 +45,7 @@ class WriteOptions:
     bone_names: Mapping[int, str] = field(default_factory=dict)
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     meshes: bool = True
+    texture_px: int = USUAL_TEXTURE_PX
     t_pose: AnyFloatArray | None = None
 
 
@@ -77,6 +82,8 @@ class FileFormat:
         Whether all bones share their keys in it.
     without_meshes : bool
         Whether its meshes can be left out (`WriteOptions.meshes`).
+    textured : bool
+        Whether its surfaces have textures.
     bones_by_name : bool
         Whether bones may get other names in it (`WriteOptions.bone_names`).
     package : str
@@ -99,6 +106,7 @@ class FileFormat:
     reduces_keys: bool = True
     keys_by_pose: bool = False
     without_meshes: bool = False
+    textured: bool = False
     bones_by_name: bool = False
     package: str = ""
     refuse: Callable[[], None] = lambda: None
@@ -111,10 +119,16 @@ class FileFormat:
 # Writers and readers are loaded when something is written: the command line names the formats in its help.
 
 
+def _shown(scenes: Iterable[Scene], options: WriteOptions) -> Iterator[Scene]:
+    """Scenes with the meshes and textures that are asked for."""
+    for scene in scenes:
+        yield with_textures(scene, options.texture_px) if options.meshes else without_meshes(scene)
+
+
 def _write_fbx(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.fbx.write import write_scenes
 
-    write_scenes(path, scenes if beside.meshes else map(without_meshes, scenes))
+    write_scenes(path, _shown(scenes, beside))
 
 
 def _read_fbx(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
@@ -134,7 +148,7 @@ def _write_bvh(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> Non
 def _write_glb(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.gltf.write import write_glbs
 
-    write_glbs(path, scenes if beside.meshes else map(without_meshes, scenes))
+    write_glbs(path, _shown(scenes, beside))
 
 
 def _read_glb(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
@@ -146,7 +160,11 @@ def _read_glb(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
 def _write_usd(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:
     from app.formats.usd import write_usds
 
-    write_usds(path, scenes, None if beside.sound is None else UsdSound(beside.sound, 0.0))
+    write_usds(
+        path,
+        _shown(scenes, replace(beside, meshes=True)),
+        None if beside.sound is None else UsdSound(beside.sound, 0.0),
+    )
 
 
 def _read_usd(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
@@ -173,7 +191,9 @@ _BOTH: Final[tuple[FileContent, ...]] = ("character", "instrument")
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     row.id: row
     for row in (
-        FileFormat("fbx", "FBX", ".fbx", _BOTH, 3.0, _write_fbx, read=_read_fbx, usual=True, without_meshes=True),
+        FileFormat(
+            "fbx", "FBX", ".fbx", _BOTH, 3.0, _write_fbx, read=_read_fbx, usual=True, without_meshes=True, textured=True
+        ),
         FileFormat(
             "bvh",
             "BVH",
@@ -186,7 +206,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             reduces_keys=False,
             bones_by_name=True,
         ),
-        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb, read=_read_glb, without_meshes=True),
+        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb, read=_read_glb, without_meshes=True, textured=True),
         FileFormat(
             "usd",
             "USD",
@@ -196,6 +216,7 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             _write_usd,
             read=_read_usd,
             keys_by_pose=True,
+            textured=True,
             package="usd-core",
             refuse=refuse_without_usd,
         ),

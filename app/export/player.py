@@ -268,5 +268,6 @@ def write_options(request: ExportRequest, character: Character, target: TargetSk
         bone_names=profile_names(request.bvh_names, target, character.skeleton) if request.bvh_names else {},
         expressions=vrm_expressions(character),
         meshes=not request.motion_only,
+        texture_px=request.texture_px,
         t_pose=target.t_pose,
     )

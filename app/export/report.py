@@ -217,6 +217,8 @@ class Report(msgspec.Struct, frozen=True):
     """Missing content of the piece's file, which was read as far as it goes; also among the warnings."""
     keys: KeyChoice = "every"
     """Frames that have keys; their number is reported for each performer."""
+    textures: tuple[str, ...] = ()
+    """Image files that FBX and USD files name, with the folder they are in."""
     ignored_problems: int = 0
     """Problems that the project ignores; they are not among the warnings."""
 
@@ -229,7 +231,7 @@ class Report(msgspec.Struct, frozen=True):
             *(dancer.files for dancer in self.dancers),
         ]
         stage = 0 if self.stage is None else len(self.stage.files)
-        return sum(map(len, files)) + stage + (self.sound is not None) + 1
+        return sum(map(len, files)) + stage + len(self.textures) + (self.sound is not None) + 1
 
 
 def encode_report(report: Report) -> bytes:

@@ -15,6 +15,7 @@ from app.export.rig import rig_of
 from app.export.rig_options import DEFAULT_RIG, RigOptions
 from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import CheckedTarget, checked_targets, spoilt
+from app.formats.images import USUAL_TEXTURE_PX
 from app.formats.keys import KeyChoice
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
 from app.performance.dances import Dancing
@@ -68,6 +69,8 @@ class ExportRequest:
         Which curves faces have, and their names.
     motion_only : bool
         Whether files are without meshes, in formats that can be so.
+    texture_px : int
+        Longest side of textures in files; 0: files have none, and their surfaces the mean colours.
     with_ignored : bool
         Whether problems that the project ignores are among the report's warnings.
     """
@@ -91,6 +94,7 @@ class ExportRequest:
     keys: KeyChoice = "every"
     face: FaceOptions = DEFAULT_FACE
     motion_only: bool = False
+    texture_px: int = USUAL_TEXTURE_PX
     with_ignored: bool = False
 
 

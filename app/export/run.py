@@ -27,6 +27,7 @@ from app.export.report import (
 from app.export.request import ExportCast, ExportRequest, cast_of
 from app.export.stage import write_stage
 from app.formats.atomic import atomic_write
+from app.formats.texture_files import texture_files
 from app.performance.performance_problems import reported_lines
 from app.score.chunks import INCOMPLETE
 from app.score.part_messages import begins_after
@@ -131,12 +132,13 @@ def write_cast(
                 progress((begun + (whole - begun) * share) / whole, label)
 
             stage = write_stage(request, cast, folder, placed)
-        filed = _report(request, cast, players, tuple(dancers), stage, wording)
+        textures = texture_files(folder)
+        filed = _report(request, cast, players, tuple(dancers), stage, wording, textures)
         with atomic_write(folder / REPORT) as stream:
             stream.write(encode_report(filed))
     if shown_in is None:
         return WordedReports(filed, filed)
-    return WordedReports(filed, _report(request, cast, players, tuple(dancers), stage, shown_in))
+    return WordedReports(filed, _report(request, cast, players, tuple(dancers), stage, shown_in, textures))
 
 
 def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]:
@@ -159,6 +161,7 @@ def _report(
     dancers: tuple[DancerReport, ...],
     stage: StageReport | None,
     wording: Callable[[Message], str],
+    textures: tuple[str, ...],
 ) -> Report:
     project, span = request.performance.project, request.span
     warnings, ignored = list[str](), 0
@@ -199,5 +202,6 @@ def _report(
         dancers=dancers,
         stage=stage,
         keys=request.keys,
+        textures=textures,
         ignored_problems=ignored,
     )

@@ -55,6 +55,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     keys: KeyChoice
     face: FaceOptions
     motion_only: bool
+    texture_px: int
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
@@ -93,6 +94,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         keys=request.keys,
         face=request.face,
         motion_only=request.motion_only,
+        texture_px=request.texture_px,
     )
 
 
@@ -115,6 +117,7 @@ def _request(job: ExportJob) -> ExportRequest:
         keys=job.keys,
         face=job.face,
         motion_only=job.motion_only,
+        texture_px=job.texture_px,
     )
 
 

@@ -6,7 +6,7 @@ import io
 import warnings
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,10 @@ MOST_SIDE_PX: Final = 8192
 MOST_SCANS: Final = 64
 """Scans that a JPEG may have, each of which is a pass over the picture; real ones have about ten."""
 JPEG_QUALITY: Final = 92
+TextureSize = Literal[0, 512, 1024, 2048, 4096]
+TEXTURE_SIZES: Final[tuple[TextureSize, ...]] = get_args(TextureSize)
+"""Longest sides of textures in files, in pixels, to choose from; 0: no textures."""
+USUAL_TEXTURE_PX: Final = 2048
 _JPEG_MAGIC: Final = b"\xff\xd8"
 _SCAN: Final = b"\xff\xda"
 _FORMATS: Final = ("PNG", "JPEG", "WEBP", "BMP", "TGA")
@@ -84,6 +88,12 @@ def small(texture: Texture) -> Pixels | None:
     return decoded(texture, 256)
 
 
+def mean(texture: Texture) -> float:
+    """Mean of a grey texture from 0 to 1; a half where it cannot be read."""
+    pixels = small(texture)
+    return 0.5 if pixels is None else float(pixels[..., 0].mean()) / 255.0
+
+
 def resized(textures: MaterialTextures, most_px: int) -> MaterialTextures:
     """Textures of which no side is longer."""
 
@@ -107,11 +117,7 @@ def _resized(texture: Texture, most_px: int) -> Texture:
     fitted = _smaller(texture.content, most_px)
     if fitted is None:
         return texture
-    if texture.mime_type == "image/png":
-        return texture_of(texture.name, _png(fitted))
-    stream = io.BytesIO()
-    fitted.convert("RGB").save(stream, "JPEG", quality=JPEG_QUALITY)
-    return texture_of(texture.name, stream.getvalue())
+    return _encoded(texture, texture.name, fitted)
 
 
 def _smaller(content: bytes, most_px: int) -> Image | None:
@@ -175,3 +181,88 @@ def _png(image: Image) -> bytes:
     stream = io.BytesIO()
     image.save(stream, "PNG", compress_level=6)
     return stream.getvalue()
+
+
+@lru_cache(maxsize=128)
+def tinted(texture: Texture, factor: tuple[float, float, float], solid: bool) -> Texture:
+    """An sRGB texture whose linear colours are multiplied, without its alpha where it is ``solid``; itself where that
+    changes nothing, or it cannot be read."""
+    image = _opened(texture.content)
+    if image is None or (factor == (1.0, 1.0, 1.0) and not (solid and _has_alpha(image))):
+        return texture
+    image = _smaller(texture.content, MOST_SIDE_PX)
+    if image is None:
+        return texture
+    levels = np.arange(256) / 255.0
+    light = np.where(levels <= 0.04045, levels / 12.92, ((levels + 0.055) / 1.055) ** 2.4)
+    bands = [*image.convert("RGBA").split()]
+    for band, share in enumerate(factor):
+        part = np.clip(light * share, 0.0, 1.0)
+        shown = np.where(part <= 0.0031308, 12.92 * part, 1.055 * part ** (1.0 / 2.4) - 0.055)
+        bands[band] = bands[band].point(np.round(shown * 255.0).astype(int).tolist())
+    mode = "RGBA" if _has_alpha(image) and not solid else "RGB"
+    return _encoded(texture, f"{texture.name}_tinted", _merged(mode, bands))
+
+
+@lru_cache(maxsize=128)
+def scaled_channel(texture: Texture, band: str, role: str, factor: float) -> Texture:
+    """One channel (``R``, ``G`` or ``B``) of a texture as a grey one, multiplied; itself where it cannot be read."""
+    image = _smaller(texture.content, MOST_SIDE_PX)
+    if image is None:
+        return texture
+    levels = np.clip(np.round(np.arange(256) * factor), 0, 255).astype(int).tolist()
+    grey = image.convert("RGB").getchannel(band).point(levels)
+    return _encoded(texture, f"{texture.name}_{role}", grey)
+
+
+@lru_cache(maxsize=128)
+def opacity(texture: Texture, factor: float) -> Texture:
+    """The alpha of a texture, multiplied, as grey and as alpha; itself where it cannot be read."""
+    image = _smaller(texture.content, MOST_SIDE_PX)
+    if image is None:
+        return texture
+    levels = np.clip(np.round(np.arange(256) * factor), 0, 255).astype(int).tolist()
+    alpha = image.convert("RGBA").getchannel("A").point(levels)
+    return texture_of(f"{texture.name}_opacity", _png(_merged("LA", [alpha, alpha])))
+
+
+def with_opacity(color: Texture, mask: Texture) -> Texture:
+    """A colour with the alpha of another image, or with its brightness where that has none."""
+    first, second = _smaller(color.content, MOST_SIDE_PX), _smaller(mask.content, MOST_SIDE_PX)
+    if first is None or second is None or color == mask:
+        return color
+    alpha = second.convert("RGBA").getchannel("A") if _has_alpha(second) else second.convert("L")
+    image = first.convert("RGB")
+    image.putalpha(alpha.resize(first.size))
+    return texture_of(color.name, _png(image))
+
+
+def packed_surface(roughness: Texture | None, metallic: Texture | None) -> Texture:
+    """Grey images of roughness and metal as green and blue of one; where one is missing, the factor alone counts."""
+    first, second = (None if one is None else _smaller(one.content, MOST_SIDE_PX) for one in (roughness, metallic))
+    size = next((image.size for image in (first, second) if image is not None), (1, 1))
+    white = _white(size)
+    bands = [white, *(white if image is None else image.convert("L").resize(size) for image in (first, second))]
+    name = next(one.name for one in (roughness, metallic) if one is not None)
+    return texture_of(f"{name}_orm", _png(_merged("RGB", bands)))
+
+
+def _white(size: tuple[int, int]) -> Image:
+    from PIL import Image
+
+    return Image.new("L", size, 255)
+
+
+def _merged(mode: str, bands: list[Image]) -> Image:
+    from PIL import Image
+
+    return Image.merge(mode, bands[: len(mode)])
+
+
+def _encoded(texture: Texture, name: str, image: Image) -> Texture:
+    """An image as a texture of the kind that another one is of."""
+    if texture.mime_type == "image/png":
+        return texture_of(name, _png(image))
+    stream = io.BytesIO()
+    image.save(stream, "JPEG", quality=JPEG_QUALITY)
+    return texture_of(name, stream.getvalue())

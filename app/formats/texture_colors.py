@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 
 from app.arrays import AnyFloatArray, FloatArray
-from app.formats.images import small
-from app.formats.scene import Material, SkinnedMesh
+from app.formats.images import resized, small
+from app.formats.scene import Material, Scene, SkinnedMesh
 from app.formats.textures import NO_TEXTURES, TextureUse
 
 OPAQUE: Final = 0.5
@@ -62,6 +62,18 @@ def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
         textures=NO_TEXTURES,
         alpha=alpha,
     )
+
+
+def with_textures(scene: Scene, most_px: int) -> Scene:
+    """A scene whose textures have no longer side; none at all where that is 0."""
+    return replace(scene, meshes=tuple(_with_textures(mesh, most_px) for mesh in scene.meshes))
+
+
+def _with_textures(mesh: SkinnedMesh, most_px: int) -> SkinnedMesh:
+    if not most_px:
+        return without_textures(mesh)
+    fitted = tuple(replace(one, textures=resized(one.textures, most_px)) for one in mesh.materials)
+    return mesh if fitted == mesh.materials else replace(mesh, materials=fitted)
 
 
 def without_textures(mesh: SkinnedMesh) -> SkinnedMesh:

@@ -3,7 +3,8 @@ scenes lie below one prim of the clip's name, each at its place, and share mater
 
 Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that USD does not allow for a prim
 are made valid, and stay whole as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
-tokens. The package usd-core (module ``pxr``) is loaded here and nowhere else, when a file is written; it is optional.
+tokens. Textures are files beside it. The package usd-core (module ``pxr``) is loaded when a file is written and at no
+other time; it is optional.
 
 Source: OpenUSD documentation, "UsdSkel: Skeleton Schema", "UsdPreviewSurface Specification", "UsdMedia".
 """
@@ -25,10 +26,12 @@ from app.errors import FileError
 from app.formats.atomic import atomic_write
 from app.formats.continuous import continuous
 from app.formats.euler import matrices
-from app.formats.scene import Clip, Material, MorphTarget, Scene, SkinnedMesh, checked_scenes
+from app.formats.scene import Clip, MorphTarget, Scene, SkinnedMesh, checked_scenes
 from app.formats.skin import influences
 from app.formats.temporary_folders import scratch_folder
+from app.formats.texture_files import TextureFiles
 from app.formats.unique_names import numbered
+from app.formats.usd_materials import UsdMaterials
 from app.formats.usd_package import open_libraries, refuse_without_usd
 
 METERS_PER_UNIT = 0.01
@@ -83,7 +86,9 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
         open_libraries()
         from pxr import Tf, UsdUtils
 
-        layer = _stage_layer(scenes, sound)
+        files = TextureFiles()
+        layer = _stage_layer(scenes, sound, files)
+        files.write(Path(path).parent)
         try:
             # USD writes files of its own only.
             with scratch_folder() as folder:
@@ -100,8 +105,8 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
             raise FileError("file.cannot_write", file=os.fspath(path), reason=reason) from error
 
 
-def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None) -> Any:
-    """The whole file."""
+def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None, files: TextureFiles) -> Any:
+    """The whole file; ``files`` gets the textures that it names."""
     from pxr import Kind, Sdf, Usd, UsdGeom
 
     layer: Any = Sdf.Layer.CreateAnonymous(".usda")
@@ -109,7 +114,7 @@ def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None) -> Any:
     UsdGeom.SetStageMetersPerUnit(stage, METERS_PER_UNIT)
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
     group = ""
-    materials: _Materials | None = None
+    materials: UsdMaterials | None = None
     for number, scene in enumerate(checked_scenes(scenes)):
         if number == 0:
             layer.comment = scene.creator
@@ -125,7 +130,7 @@ def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None) -> Any:
         root = f"{group}/{root_name}"
         default = group or root
         if materials is None:
-            materials = _Materials(stage, f"{default}/Materials")
+            materials = UsdMaterials(stage, f"{default}/Materials", files, _identifiers)
         _Writer(scene, layer, stage, materials).write(root)
         if number == 0:
             stage.SetDefaultPrim(stage.GetPrimAtPath(default))
@@ -134,48 +139,10 @@ def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None) -> Any:
     return layer
 
 
-class _Materials:
-    """The preview surfaces of a file, each made when it is first asked for."""
-
-    def __init__(self, stage: Any, path: str) -> None:
-        self._stage, self._path = stage, path
-        self._made: dict[Material, Any] = {}
-        self._taken: set[str] = set()
-
-    def __getitem__(self, surface: Material) -> Any:
-        from pxr import UsdGeom
-
-        if not self._made:
-            UsdGeom.Scope.Define(self._stage, self._path)
-        if surface not in self._made:
-            (name,) = _identifiers([surface.name], self._taken)
-            self._taken.add(name)
-            self._made[surface] = self._material(surface, f"{self._path}/{name}")
-        return self._made[surface]
-
-    def _material(self, surface: Material, path: str) -> Any:
-        from pxr import Gf, Sdf, UsdShade
-
-        material = UsdShade.Material.Define(self._stage, path)
-        material.GetPrim().SetDisplayName(surface.name)
-        shader = UsdShade.Shader.Define(self._stage, f"{path}/Surface")
-        shader.CreateIdAttr("UsdPreviewSurface")
-        color = Gf.Vec3f(*surface.base_color[:3])
-        shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f).Set(color)
-        for number, value in (
-            ("metallic", surface.metallic),
-            ("roughness", surface.roughness),
-            ("opacity", surface.base_color[3]),
-        ):
-            shader.CreateInput(number, Sdf.ValueTypeNames.Float).Set(float(value))
-        material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
-        return material
-
-
 class _Writer:
     """Puts one scene into a stage."""
 
-    def __init__(self, scene: Scene, layer: Any, stage: Any, materials: _Materials) -> None:
+    def __init__(self, scene: Scene, layer: Any, stage: Any, materials: UsdMaterials) -> None:
         self._scene = scene
         self._layer = layer
         self._stage = stage

@@ -52,8 +52,12 @@ class Mesh:
 
 def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
     """A mesh's materials without textures, in their mean colours."""
-    used = [np.unique(mesh.triangles[mesh.triangle_materials == number]) for number in range(len(mesh.materials))]
-    return tuple(plain_material(one, mesh.uvs[own]) for one, own in zip(mesh.materials, used, strict=True))
+    made = []
+    for number, material in enumerate(mesh.materials):
+        corners = mesh.uvs[mesh.triangles[mesh.triangle_materials == number]]
+        # Of a card of hair the corners alone are cut out.
+        made.append(plain_material(material, np.concatenate([corners.reshape(-1, 2), corners.mean(axis=1)])))
+    return tuple(made)
 
 
 def scaled_mesh(mesh: Mesh, size: float) -> Mesh:

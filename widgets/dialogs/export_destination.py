@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -153,3 +153,36 @@ def _warnings(report: Report) -> tuple[str, ...]:
 
 def _left_out(report: Report) -> tuple[Message, ...]:
     return tuple(Message("player.left_out", {"player": one.player, "reason": one.reason}) for one in report.left_out)
+
+
+class Written:
+    """Progress of an export, noted by its thread.
+
+    Parameters
+    ----------
+    performers : collection of str
+        Names of the performers that files are written of.
+
+    Attributes
+    ----------
+    share : float
+        Share of the whole that is written.
+    label : str
+        The performer or file that was worked on last.
+    """
+
+    def __init__(self, performers: Collection[str]) -> None:
+        self.performers, self.share, self.label = performers, 0.0, ""
+        self._begun: dict[str, int] = {}
+
+    def report(self, share: float, label: str) -> None:
+        """Note how far it is, and what was worked on."""
+        if label in self.performers:
+            self._begun.setdefault(label, len(self._begun) + 1)
+        self.share, self.label = share, label
+
+    @property
+    def number(self) -> int | None:
+        """Place of the performer that was worked on last in the order of their beginning, from 1; None of a file of
+        everyone."""
+        return self._begun.get(self.label)

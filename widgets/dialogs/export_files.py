@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -17,18 +16,19 @@ from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
 from app.export.formats import refuse_attachment, requested
 from app.export.request import ExportRequest
+from app.formats.images import TEXTURE_SIZES, USUAL_TEXTURE_PX, TextureSize
 from app.formats.keys import KEY_CHOICES, KeyChoice
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.performers import Player
 from metadata.load import load_bone_names
-from widgets.common.controls import Button, Caption, named, selectable, wrapped
+from widgets.common.controls import Button, Caption, named, said, selectable, wrapped
 from widgets.common.layouts import Scrolled, begin_with_size, in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
-from widgets.dialogs.export_destination import Destination, Done, foresee_folder, foresee_unreal, write
+from widgets.dialogs.export_destination import Destination, Done, Written, foresee_folder, foresee_unreal, write
 from widgets.dialogs.export_face import FaceChooser
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser
@@ -56,41 +56,12 @@ def _profiles() -> ComboBox:
     return box
 
 
+def _size_text(px: int) -> str:
+    return "export_dialog.texture_size" if px else "export_dialog.no_textures"
+
+
 def _some(names: tuple[str, ...]) -> str:
     return ", ".join(names[:_NAMES]) + (" …" if len(names) > _NAMES else "")
-
-
-class Written:
-    """Progress of an export, noted by its thread.
-
-    Parameters
-    ----------
-    performers : collection of str
-        Names of the performers that files are written of.
-
-    Attributes
-    ----------
-    share : float
-        Share of the whole that is written.
-    label : str
-        The performer or file that was worked on last.
-    """
-
-    def __init__(self, performers: Collection[str]) -> None:
-        self.performers, self.share, self.label = performers, 0.0, ""
-        self._begun: dict[str, int] = {}
-
-    def report(self, share: float, label: str) -> None:
-        """Note how far it is, and what was worked on."""
-        if label in self.performers:
-            self._begun.setdefault(label, len(self._begun) + 1)
-        self.share, self.label = share, label
-
-    @property
-    def number(self) -> int | None:
-        """Place of the performer that was worked on last in the order of their beginning, from 1; None of a file of
-        everyone."""
-        return self._begun.get(self.label)
 
 
 class ExportDialog(WorkingDialog):
@@ -107,6 +78,8 @@ class ExportDialog(WorkingDialog):
         Where the last export went: ``"folder"`` or ``"unreal"``.
     keys : str
         What was chosen of `KEY_CHOICES` before.
+    texture_px : int
+        What was chosen of `TEXTURE_SIZES` before.
     before : ExportedBars, of the piece's last export
     source, creator : str
         Name of the piece's file; program and version, for the report.
@@ -127,6 +100,7 @@ class ExportDialog(WorkingDialog):
         unreal: Path | None = None,
         destination: Destination = "folder",
         keys: KeyChoice = "every",
+        texture_px: TextureSize = USUAL_TEXTURE_PX,
         before: ExportedBars = WHOLE_PIECE,
     ) -> None:
         super().__init__("export_files", "export", parent)
@@ -144,6 +118,9 @@ class ExportDialog(WorkingDialog):
         key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys", "export_dialog.linear_keys")
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
+        self._textures = self.texted(named(ComboBox(), "export_textures"), tip="export_dialog.textures_tip")
+        self.texted(self._textures, options={str(px): said(_size_text(px), px=str(px)) for px in TEXTURE_SIZES})
+        self._textures.setCurrentIndex(TEXTURE_SIZES.index(texture_px))
         self._range = RangeChooser(session, self._project.score)
         self._range.begin_with(before.bars)
         self._preroll = self.texted(BeatsBox("export_preroll"), suffix="export_dialog.beats")
@@ -202,6 +179,7 @@ class ExportDialog(WorkingDialog):
                 "export_dialog.files": self._formats,
                 "export_dialog.bone_names_in_bvh": self._bvh_names,
                 "export_dialog.keys": self._keys,
+                "export_dialog.textures": self._textures,
                 "export_dialog.skeleton": self._skeleton,
                 "export_dialog.rig": self._rig,
                 "export_dialog.face": self._face,
@@ -213,7 +191,16 @@ class ExportDialog(WorkingDialog):
         )
         self._form.addRow(Label(), self._outcome)
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
-        self.fields += (self._skeleton, self._rig, self._face, self._range, self._preroll, self._lead_in, self._rate)
+        self.fields += (
+            self._textures,
+            self._skeleton,
+            self._rig,
+            self._face,
+            self._range,
+            self._preroll,
+            self._lead_in,
+            self._rate,
+        )
         columns = in_row((left, 1), (named(Scrolled(self._form), "export_choices"), 2), spacing=18)
         buttons = self._box("export_dialog.export", self.start, self._show_folder)
         in_column((columns, 1), self._under_way, self._progress, buttons, of=self)
@@ -232,6 +219,11 @@ class ExportDialog(WorkingDialog):
     def keys(self) -> KeyChoice:
         """The chosen rule for frames with keys."""
         return KEY_CHOICES[self._keys.currentIndex()]
+
+    @property
+    def texture_px(self) -> TextureSize:
+        """The chosen size of textures; 0: none."""
+        return TEXTURE_SIZES[self._textures.currentIndex()]
 
     @property
     def chosen_bars(self) -> ExportedBars:
@@ -258,6 +250,7 @@ class ExportDialog(WorkingDialog):
             motion_only=self._formats.motion_only and self._place.destination == "folder",
             bvh_names=self._bvh_names.currentData(),
             keys=self.keys if self._place.destination == "folder" else "every",
+            texture_px=self.texture_px,
             skeleton=self._skeleton.choice,
             rig=self._rig.options,
             face=self._face.options,
@@ -354,6 +347,7 @@ class ExportDialog(WorkingDialog):
         kinds = requested(self._formats.formats) if into_folder else ()
         self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
         self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))
+        self._form.setRowVisible(self._textures, not into_folder or any(kind.textured for kind in kinds))
         self._form.setRowVisible(self._preroll, self._range.bars is None)
         self._form.setRowVisible(self._lead_in, self._range.bars is not None)
         if not self.player_ids:

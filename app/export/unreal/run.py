@@ -191,7 +191,7 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
-    request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False)
+    request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False, texture_px=0)
     cast = cast_of(request, shown_in or wording, stop_requested)
     left_out = tuple(one.player.id for one in cast.left_out)
     plan = plan_export(request.performance, cast.ids, request.source, project, left_out=left_out, bars=request.bars)

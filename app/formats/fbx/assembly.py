@@ -9,6 +9,8 @@ import numpy as np
 
 from app.formats.fbx.encode import Element, Property
 from app.formats.scene import Material
+from app.formats.texture_files import TextureFiles
+from app.formats.textures import Texture, TextureUse
 
 _FIRST_ID: Final = 1_000_000
 
@@ -17,9 +19,12 @@ _FIRST_ID: Final = 1_000_000
 class Assembly:
     """Objects and connections while the file is being put together."""
 
+    files: TextureFiles
     objects: list[Element] = field(default_factory=list)
     connections: list[Element] = field(default_factory=list)
     materials: dict[Material, int] = field(default_factory=dict)
+    textures: dict[TextureUse, int] = field(default_factory=dict)
+    videos: dict[Texture, int] = field(default_factory=dict)
     last_id: int = _FIRST_ID
 
     def new_id(self) -> int:

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import Any, Final, TypeVar, get_args
+from typing import Any, Final, TypeAlias, TypeVar, get_args
 
 import msgspec
 import numpy as np
@@ -28,6 +28,7 @@ from app.formats.rates import exact_rate
 from app.formats.reading_child import NO_MEMORY, NO_READER, UNREADABLE, read_by_child
 
 T = TypeVar("T")
+ByteArray: TypeAlias = npt.NDArray[np.uint8]
 
 MOST_BYTES: Final = 2**30
 """Largest file; characters have a hundredth of it."""
@@ -86,14 +87,45 @@ class FbxMorph:
     deltas: FloatArray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
+class FbxTexture:
+    """An image that a material uses.
+
+    Attributes
+    ----------
+    file : str
+        Its name as the program that wrote the file had it: any path, of any system.
+    image : int or None
+        The image's file among those in this one; None where it is not.
+    moved, scaled : (float, float)
+        The image's coordinates are ``(uv - moved) * scaled``, v up.
+    """
+
+    name: str
+    file: str
+    image: int | None
+    moved: tuple[float, float]
+    scaled: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
 class FbxMaterial:
-    """A surface; colours are linear."""
+    """A surface; colours are linear.
+
+    Attributes
+    ----------
+    bump : float
+        Strength of its normal map.
+    textures : mapping of str to FbxTexture
+        By role: ``color``, ``opacity``, ``normal``, ``roughness``, ``metallic``.
+    """
 
     name: str
     base_color: tuple[float, float, float, float]
     metallic: float
     roughness: float
+    bump: float
+    textures: Mapping[str, FbxTexture]
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,10 +161,17 @@ class FbxMesh:
 
 @dataclass(frozen=True, eq=False)
 class FbxContent:
-    """Contents of a file; `nodes` in the file's order, the first is the file's own root."""
+    """Contents of a file; `nodes` in the file's order, the first is the file's own root.
+
+    Attributes
+    ----------
+    images : tuple of (N,) uint8
+        Files of images that are in it.
+    """
 
     nodes: tuple[FbxNode, ...]
     meshes: tuple[FbxMesh, ...]
+    images: tuple[ByteArray, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,6 +260,8 @@ def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> An
         found = np.vstack([np.array(given, dtype=np.float64), (0.0, 0.0, 0.0, 1.0)])
     if not np.isfinite(found).all():
         raise ValueError("a number is not finite")
+    if np.dtype[np.uint8] in get_args(kind):
+        return found.astype(np.uint8)
     # Since NumPy 2.5 `npt.NDArray` is an alias that msgspec resolves, so that a kind is no longer equal to `IntArray`.
     return found.astype(np.int64 if np.dtype[np.int64] in get_args(kind) else np.float64)
 

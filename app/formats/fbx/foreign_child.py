@@ -70,6 +70,8 @@ class _Written:
 
     def __init__(self, most: int) -> None:
         self.arrays: dict[str, npt.NDArray[Any]] = {}
+        self.images: list[str] = []
+        self.image_numbers: dict[int, int] = {}
         self._left = most
 
     def take(self, count: int) -> None:
@@ -115,7 +117,7 @@ def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
         "face_materials": written.numbers(mesh.face_material, np.int64),
         "normals": _attribute(mesh.vertex_normal, 3, written),
         "uvs": _attribute(mesh.vertex_uv, 2, written),
-        "materials": [_material(material) for material in _every(mesh.materials)],
+        "materials": [_material(material, written) for material in _every(mesh.materials)],
         "skins": [_skin(skin, written) for skin in _every(mesh.skin_deformers)],
         "morphs": [
             morph
@@ -133,8 +135,8 @@ def _attribute(attribute: Any, width: int, written: _Written) -> list[str] | Non
     return [written.vectors(attribute.values, width), written.numbers(attribute.indices, np.int64)]
 
 
-def _material(material: Any) -> dict[str, Any]:
-    surface = _keep(_keep(material).pbr)
+def _material(material: Any, written: _Written) -> dict[str, Any]:
+    surface, older = _keep(_keep(material).pbr), _keep(material.fbx)
     color = _keep(_keep(surface.base_color).value_vec4)
     roughness, metallic, opacity = (
         _keep(value).value_vec4.x if value.has_value else otherwise
@@ -149,7 +151,50 @@ def _material(material: Any) -> dict[str, Any]:
         "base_color": [color.x, color.y, color.z, opacity],
         "roughness": roughness,
         "metallic": metallic,
+        "bump": bump.value_vec4.x if (bump := _keep(older.bump_factor)).has_value else 1.0,
+        "textures": {
+            role: found
+            for role, maps in (
+                ("color", (surface.base_color,)),
+                ("opacity", (surface.opacity, older.transparency_factor, older.transparency_color)),
+                ("normal", (surface.normal_map, older.normal_map)),
+                ("roughness", (surface.roughness,)),
+                ("metallic", (surface.metalness,)),
+            )
+            if (found := _texture(maps, written)) is not None
+        },
     }
+
+
+def _texture(maps: Iterable[Any], written: _Written) -> dict[str, Any] | None:
+    """The first image of some maps of a material: its file's name, its content if it is in the file, and its place."""
+    for own in _every(maps):
+        texture = _keep(own.texture)
+        if texture is None or not texture.has_file:
+            continue
+        content = _keep(texture.content)
+        moved, scaled = (0.0, 0.0), (1.0, 1.0)
+        if texture.has_uv_transform:
+            place = _keep(texture.uv_transform)
+            (moved_u, moved_v, _), (scale_u, scale_v, _) = tuple(place.translation), tuple(place.scale)
+            moved, scaled = (moved_u, moved_v), (scale_u, scale_v)
+        return {
+            "name": texture.name,
+            "file": texture.relative_filename or texture.filename,
+            "image": _image(texture.typed_id, content, written) if len(content) else None,
+            "moved": moved,
+            "scaled": scaled,
+        }
+    return None
+
+
+def _image(key: int, content: Any, written: _Written) -> int:
+    """The number of an image's content among those of the file, which many materials share."""
+    if key not in written.image_numbers:
+        written.take(len(content) // 8)
+        written.image_numbers[key] = len(written.images)
+        written.images.append(written.add(np.frombuffer(bytes(content), np.uint8)))
+    return written.image_numbers[key]
 
 
 def _skin(skin: Any, written: _Written) -> list[dict[str, Any]]:
@@ -195,7 +240,7 @@ def _load(data: bytes, *, animated: bool) -> Any:
             data,
             file_format=ufbx.FileFormat.FBX,
             ignore_animation=not animated,
-            ignore_embedded=True,
+            ignore_embedded=animated,
             load_external_files=False,
             generate_missing_normals=True,
             normalize_normals=True,
@@ -232,7 +277,7 @@ def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
     written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
     meshes = [_mesh(mesh, written) for mesh in _every(scene.meshes)]
-    return {"nodes": nodes, "meshes": meshes}, written.arrays
+    return {"nodes": nodes, "meshes": meshes, "images": written.images}, written.arrays
 
 
 def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:

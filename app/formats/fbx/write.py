@@ -3,7 +3,7 @@
 The layout is what the FBX SDK 2019.2, ufbx, Blender, assimp and three.js all read alike: no pivots, no scaling, bones
 as LimbNodes under one root, linear keys. A bone's rest is its pre-rotation, so that its curves are 0 there, and each
 has its own order of angles. Several scenes share one take; the bones and meshes of each are below a Null of its name at
-its place, which Blender makes the armature.
+its place, which Blender makes the armature. Textures are files beside it (`app.formats.texture_files`).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -21,7 +22,6 @@ from app.formats.fbx import encode, ticks
 from app.formats.fbx.assembly import Assembly
 from app.formats.fbx.curves import EULER_ORDER, ORDERS, FbxLayerCurves
 from app.formats.fbx.encode import Element, element_pieces
-from app.formats.fbx.materials import PHYSICAL_MATERIAL, SHADING_MODEL, phong
 from app.formats.fbx.packed_meshes import PackedMesh, packed_mesh
 from app.formats.fbx.sections import (
     definitions,
@@ -33,7 +33,9 @@ from app.formats.fbx.sections import (
     property_row,
     takes,
 )
-from app.formats.scene import Bone, Clip, Material, NodePlace, Scene, SkinnedMesh, checked_scenes
+from app.formats.fbx.write_materials import material_object
+from app.formats.scene import Bone, Clip, NodePlace, Scene, SkinnedMesh, checked_scenes
+from app.formats.texture_files import TextureFiles
 
 _BESIDE_CM = 5e-4
 
@@ -53,14 +55,16 @@ def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
 
 def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
     """Write scenes into one file as `write_scene`; each is let go when the next is asked for."""
-    pieces = element_pieces(scene_elements(scenes))
+    textures = TextureFiles()
+    pieces = element_pieces(scene_elements(scenes, textures))
+    textures.write(Path(path).parent)
     with atomic_write(path) as stream:
         stream.writelines(pieces)
 
 
-def scene_elements(scenes: Iterable[Scene]) -> tuple[Element, ...]:
-    """Top level of the file, in the order that every reader expects."""
-    graph = Assembly()
+def scene_elements(scenes: Iterable[Scene], textures: TextureFiles | None = None) -> tuple[Element, ...]:
+    """Top level of the file, in the order that every reader expects; ``textures`` gets those that it names."""
+    graph = Assembly(TextureFiles() if textures is None else textures)
     curves: FbxLayerCurves | None = None
     creator, take, rate, last_tick = "", "", None, 0
     for scene in checked_scenes(scenes):
@@ -206,63 +210,11 @@ def _add_mesh(
     shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", packed.geometry)
     graph.connect(shape, model)
     for material in mesh.materials:
-        if material not in graph.materials:
-            graph.materials[material] = graph.add("Material", material.name, "Material", "", _material(material))
-        graph.connect(graph.materials[material], model)
+        graph.connect(material_object(graph, material), model)
     _add_skin(graph, figure, mesh.name, packed, shape, binds, world_from_node)
     if mesh.morphs:
         _add_morphs(graph, figure, mesh, packed, shape)
     return model
-
-
-def _material(surface: Material) -> tuple[Element, ...]:
-    material = phong(surface)
-    *rgb, opacity = (float(value) for value in surface.base_color)
-    transparency = 1.0 - opacity
-
-    def color(name: str, *values: float) -> Element:
-        return property_row(name, "Color", "", "A", *values)
-
-    def number(name: str, value: float) -> Element:
-        return property_row(name, "Number", "", "A", float(value))
-
-    def parameter(name: str, value: float) -> Element:
-        return property_row(f"3dsMax|Parameters|{name}", "Float", "", "A", float(value))
-
-    return (
-        integer("Version", 102),
-        Element("ShadingModel", (SHADING_MODEL,)),
-        integer("MultiLayer", 0),
-        property_block(
-            color("DiffuseColor", *material.diffuse_rgb),
-            number("DiffuseFactor", material.diffuse_factor),
-            color("EmissiveColor", 0.0, 0.0, 0.0),
-            color("AmbientColor", 0.0, 0.0, 0.0),
-            color("SpecularColor", *material.specular_rgb),
-            number("SpecularFactor", material.specular_factor),
-            number("Shininess", material.shininess),
-            number("ShininessExponent", material.shininess),
-            number("ReflectionFactor", surface.metallic),
-            color("TransparentColor", *[float(transparency > 0.0)] * 3),
-            number("TransparencyFactor", transparency),
-            number("Opacity", opacity),
-            property_row("3dsMax", "Compound", "", ""),
-            *(
-                property_row(f"3dsMax|{name}", "int", "Integer", "", np.int32(value))
-                for name, value in PHYSICAL_MATERIAL.items()
-            ),
-            property_row("3dsMax|Parameters", "Compound", "", ""),
-            parameter("base_weight", 1.0),
-            property_row("3dsMax|Parameters|base_color", "ColorAndAlpha", "", "A", *rgb, 1.0),
-            parameter("metalness", surface.metallic),
-            parameter("roughness", surface.roughness),
-            property_row("3dsMax|Parameters|roughness_inv", "Bool", "", "A", np.int32(0)),
-            parameter("reflectivity", 1.0),
-            property_row("3dsMax|Parameters|refl_color", "ColorAndAlpha", "", "A", 1.0, 1.0, 1.0, 1.0),
-            parameter("trans_ior", 1.5),
-            parameter("cutout", opacity),
-        ),
-    )
 
 
 def _add_skin(

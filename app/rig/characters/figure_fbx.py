@@ -17,6 +17,7 @@ import numpy.typing as npt
 from app.arrays import FloatArray, IntArray, SingleArray
 from app.errors import FileError
 from app.formats.fbx.foreign import FbxCluster, FbxContent, FbxMesh, FbxNode, read_foreign_fbx
+from app.formats.fbx.foreign_textures import FbxTextures
 from app.formats.scene import Material
 from app.rig.characters.figure_build import (
     SINGULAR,
@@ -42,8 +43,9 @@ def fbx_figure(path: Path) -> Figure:
     world = rest_pose([node.parent for node in content.nodes], posed, bound)
     parts: list[FigurePart] = []
     hidden = _hidden(content.nodes)
+    textures = FbxTextures(path, content)
     for mesh in content.meshes:
-        parts += _parts(str(path), mesh, content.nodes, world, hidden)
+        parts += _parts(mesh, textures, content.nodes, world, hidden)
     nodes = NodeHierarchy(
         names=[node.name for node in content.nodes],
         parents=[node.parent for node in content.nodes],
@@ -89,13 +91,17 @@ def _hidden(nodes: tuple[FbxNode, ...]) -> frozenset[int]:
 
 
 def _parts(
-    file: str, mesh: FbxMesh, nodes: tuple[FbxNode, ...], world: FloatArray, hidden: frozenset[int]
+    mesh: FbxMesh,
+    textures: FbxTextures,
+    nodes: tuple[FbxNode, ...],
+    world: FloatArray,
+    hidden: frozenset[int],
 ) -> list[FigurePart]:
     shown = [node for node in mesh.nodes if node not in hidden]
     if not len(mesh.points) or not len(mesh.faces) or not shown:
         return []
     clusters = [cluster for skin in mesh.skins for cluster in skin if len(cluster.points)]
-    built, points = _triangulated(file, mesh)
+    built, points = _triangulated(mesh, textures)
     if clusters:
         joints, weights = _influences(clusters, len(mesh.points))
         table = np.array([world[cluster.node] @ cluster.bone_from_mesh for cluster in clusters])
@@ -128,7 +134,7 @@ def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.
     return joints, shares
 
 
-def _triangulated(file: str, mesh: FbxMesh) -> tuple[Mesh, IntArray]:
+def _triangulated(mesh: FbxMesh, textures: FbxTextures) -> tuple[Mesh, IntArray]:
     """The mesh with one vertex per point, normal and texture coordinate that belong together, without its skin, and the
     point of each vertex."""
     corners = mesh.corners
@@ -141,7 +147,7 @@ def _triangulated(file: str, mesh: FbxMesh) -> tuple[Mesh, IntArray]:
     triangles, owners = _fans(mesh.faces)
     texture = uvs[first]
     texture[:, 1] = 1.0 - texture[:, 1]
-    surfaces = tuple(Material(m.name, m.base_color, m.metallic, m.roughness, False) for m in mesh.materials)
+    surfaces = tuple(map(textures.material, mesh.materials))
     built = Mesh(
         name=mesh.name,
         positions_m=mesh.points[points].astype(np.float32),
@@ -152,7 +158,7 @@ def _triangulated(file: str, mesh: FbxMesh) -> tuple[Mesh, IntArray]:
         materials=surfaces or (Material("default", (0.8, 0.8, 0.8, 1.0), 0.0, 0.8),),
         joints=np.zeros((len(points), 1), np.int32),
         weights=np.zeros((len(points), 1), np.float32),
-        morphs=_morphs(file, mesh, points),
+        morphs=_morphs(textures.file, mesh, points),
     )
     return built, points
 

@@ -150,12 +150,14 @@ def export_files(editor: Editor) -> None:
         unreal=Path(unreal) if unreal else None,
         destination="unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
         keys=editor.settings.export_keys,
+        texture_px=editor.settings.export_texture_px,
         before=editor.exported_bars.get(piece, ExportedBars()),
     )
 
     def remember(destination: str, place: Path) -> None:
         editor.exported_bars[piece] = dialog.chosen_bars
         editor.settings.export_into = destination
+        editor.settings.export_texture_px = dialog.texture_px
         if destination == "folder":
             editor.settings.export_keys = dialog.keys
         if destination == "unreal":

@@ -29,7 +29,8 @@ from tests.gui.japanese import speaking
 from tests.support.bad_players import own_folders, with_character, with_instrument
 from tests.support.tasks import ImmediateTasks
 from tests.support.windows import child
-from widgets.dialogs.export_files import ExportDialog, Written
+from widgets.dialogs.export_destination import Written
+from widgets.dialogs.export_files import ExportDialog
 
 KEY_WIDGETS = ((QComboBox, "export_keys"), (QCheckBox, "export_fbx"), (QCheckBox, "export_bvh"))
 
@@ -293,6 +294,17 @@ def test_meshes_can_be_left_out_where_a_format_can_do_without(dialog: ExportDial
     assert dialog._request().motion_only
     bvh_only(dialog)
     assert not dialog._request().motion_only, "a box that is off does nothing"
+
+
+def test_the_size_of_textures_is_chosen(dialog: ExportDialog) -> None:
+    assert dialog._request().texture_px == 2048
+    sizes = child(dialog, QComboBox, "export_textures")
+    assert [sizes.itemText(row) for row in range(3)] == ["None, mean colours", "Up to 512 px", "Up to 1024 px"]
+    for row, px in enumerate((0, 512)):
+        sizes.setCurrentIndex(row)
+        assert dialog._request().texture_px == dialog.texture_px == px
+    bvh_only(dialog)
+    assert sizes.isHidden()
 
 
 def test_curves_of_faces_are_chosen_by_name_and_part(dialog: ExportDialog) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,12 +11,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.formats.fbx.foreign import read_foreign_fbx
+from app.formats.fbx.foreign_textures import FbxTextures
+from app.formats.fbx.write import write_scene
 from app.formats.gltf.read_scene import read_scene
 from app.formats.gltf.write import write_glb
 from app.formats.images import ImageReader, decoded, resized
 from app.formats.scene import Material
 from app.formats.texture_colors import without_textures
 from app.formats.textures import NO_TEXTURES, MaterialTextures, TextureUse, texture_of
+from app.formats.usd import write_usd
 from tests.support.textured import card_material, encoded, letter, textured_scene
 
 
@@ -111,3 +116,84 @@ def test_a_mesh_without_textures_has_their_mean_colours() -> None:
     assert red == pytest.approx(0.716, abs=0.01)
     assert green < 0.01
     assert plain.roughness == pytest.approx(64 / 255, abs=0.02)
+
+
+def read_back(path: Path) -> Material:
+    """The one material of an FBX file, as another program's reader and ours of its output find it."""
+    content = read_foreign_fbx(path)
+    return FbxTextures(path, content).material(content.meshes[0].materials[0])
+
+
+def test_an_fbx_file_has_its_textures_beside_it(tmp_path: Path) -> None:
+    write_scene(tmp_path / "card.fbx", textured_scene())
+    write_scene(tmp_path / "again.fbx", textured_scene())
+    files = sorted(path.name for path in (tmp_path / "Textures").iterdir())
+    assert [re.sub("_[0-9a-f]{8}", "", name) for name in files] == [
+        *("card_color.png", "card_color_opacity.png", "card_normal.png", "card_orm_roughness.jpg"),
+    ]
+    material = read_back(tmp_path / "card.fbx")
+    color, normal, packed = material.textures.color, material.textures.normal, material.textures.metallic_roughness
+    assert color is not None
+    assert normal is not None
+    assert packed is not None
+    shown, wanted = decoded(color.texture, 64), letter()
+    assert shown is not None
+    assert np.array_equal(shown[..., 3], wanted[..., 3])
+    assert np.array_equal(shown[..., :3], wanted[..., :3])
+    assert material.alpha_mode == "mask"
+    # A tiled texture lies where it lay: within whole turns of the picture.
+    meant = card_material().textures.normal
+    assert meant is not None
+    assert normal.texture.content == meant.texture.content
+    assert normal.scale == pytest.approx(meant.scale)
+    assert np.allclose((np.array(normal.offset) - meant.offset + 0.5) % 1.0, 0.5, atol=1e-5)
+    assert material.textures.normal_scale == pytest.approx(0.5)
+    rough = decoded(packed.texture, 8)
+    assert rough is not None
+    assert abs(int(rough[4, 4, 1]) - 64) <= 2
+    # Metal is a number where no image says otherwise.
+    assert material.metallic == 0.0
+
+
+def test_a_colour_is_multiplied_into_an_fbx_files_image_and_an_opaque_one_has_no_alpha(tmp_path: Path) -> None:
+    half = replace(card_material(), base_color=(0.5, 1.0, 1.0, 1.0), alpha=None)
+    write_scene(tmp_path / "card.fbx", textured_scene(half))
+    (file,) = (tmp_path / "Textures").glob("*tinted*")
+    image = Image.open(file)
+    assert image.mode == "RGB"
+    # sRGB 188 is linear 0.5.
+    assert image.getpixel((50, 10)) == (188, 255, 255)
+
+
+def test_images_that_an_fbx_file_names_elsewhere_are_not_opened(tmp_path: Path) -> None:
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "figure").mkdir()
+    write_scene(tmp_path / "figure" / "card.fbx", textured_scene())
+    (tmp_path / "figure" / "Textures").rename(tmp_path / "outside" / "Textures")
+    assert read_back(tmp_path / "figure" / "card.fbx").textures == MaterialTextures(normal_scale=0.5)
+    (tmp_path / "figure" / "Textures").symlink_to(tmp_path / "outside" / "Textures")
+    assert read_back(tmp_path / "figure" / "card.fbx").textures == MaterialTextures(normal_scale=0.5)
+
+
+def test_a_usd_file_shows_its_textures(tmp_path: Path) -> None:
+    pxr = pytest.importorskip("pxr.UsdShade")
+    from pxr import Usd
+
+    write_usd(tmp_path / "card.usdc", textured_scene())
+    stage = Usd.Stage.Open(str(tmp_path / "card.usdc"))
+    shaders = {prim.GetName(): pxr.Shader(prim) for prim in stage.Traverse() if prim.IsA(pxr.Shader)}
+
+    def inputs(name: str) -> dict[str, object]:
+        return {one.GetBaseName(): one.Get() for one in shaders[name].GetInputs()}
+
+    spaces = {name: inputs(name)["sourceColorSpace"] for name in ("Color", "Normal", "Roughness")}
+    assert spaces == {"Color": "sRGB", "Normal": "raw", "Roughness": "raw"}
+    for name in spaces:
+        file = inputs(name)["file"].path  # type: ignore[attr-defined]
+        assert file.startswith("./Textures/")
+        assert (tmp_path / file).is_file()
+    assert tuple(inputs("Normal_place")["scale"]) == pytest.approx((4.0, 3.0))  # type: ignore[arg-type]
+    assert inputs("Surface")["opacityThreshold"] == pytest.approx(0.4)
+    surface = shaders["Surface"]
+    linked = {one.GetBaseName() for one in surface.GetInputs() if one.HasConnectedSource()}
+    assert linked == {"diffuseColor", "opacity", "normal", "roughness", "metallic", "occlusion"}

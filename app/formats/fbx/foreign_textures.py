@@ -1,0 +1,99 @@
+"""Surfaces of FBX files of other programs as those of a scene, with the images that are in the file or beside it.
+
+A file names images by paths of the computer it was written on. Of these only names count: an image is looked for in the
+file's own folder and in some below it, after links are resolved.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+from typing import Final
+
+from app.errors import FileError
+from app.formats.fbx.foreign import FbxContent, FbxMaterial, FbxTexture
+from app.formats.files import read_file
+from app.formats.images import ImageReader, packed_surface, with_opacity
+from app.formats.scene import Material
+from app.formats.textures import MaterialTextures, Texture, TextureUse
+
+MOST_BESIDE: Final = 2**27
+"""Bytes of all images beside a file."""
+FOLDERS: Final = (".", "Textures", "textures", "Texture", "Tex", "tex", "images", "Images")
+_MOST_FILES: Final = 256
+_FARTHEST: Final = 1e6
+
+
+class FbxTextures:
+    """Makes materials of those of one file, each image read once."""
+
+    def __init__(self, path: Path, content: FbxContent) -> None:
+        self.file = str(path)
+        self._path = path
+        self._left, self._left_files = MOST_BESIDE, _MOST_FILES
+        self._embedded = [image.tobytes() for image in content.images]
+        self._images = ImageReader(sum(map(len, self._embedded)) + MOST_BESIDE // 8)
+        self._beside: dict[str, bytes] = {}
+
+    def material(self, surface: FbxMaterial) -> Material:
+        """A material with those of its textures that can be read; what opacity its images have cuts it out."""
+        found = {role: use for role, one in surface.textures.items() if (use := self._use(one)) is not None}
+        color, opacity = found.get("color"), found.get("opacity")
+        cut = color is not None and opacity is not None
+        if color is not None and opacity is not None:
+            color = TextureUse(with_opacity(color.texture, opacity.texture), color.scale, color.offset)
+        rough, metal = found.get("roughness"), found.get("metallic")
+        placed = rough or metal
+        packed = None
+        if placed is not None:
+            images = None if rough is None else rough.texture, None if metal is None else metal.texture
+            packed = TextureUse(packed_surface(*images), placed.scale, placed.offset)
+        red, green, blue, alpha = surface.base_color
+        bump = surface.bump if 0.0 <= surface.bump < _FARTHEST else 1.0
+        # A map takes the place of the value.
+        return Material(
+            surface.name,
+            (1.0, 1.0, 1.0, 1.0 if opacity is not None else alpha) if color is not None else (red, green, blue, alpha),
+            1.0 if metal is not None else surface.metallic,
+            1.0 if rough is not None else surface.roughness,
+            cut,
+            MaterialTextures(
+                color,
+                found.get("normal"),
+                packed,
+                normal_scale=bump,
+            ),
+            "mask" if cut else None,
+        )
+
+    def _use(self, texture: FbxTexture) -> TextureUse | None:
+        made = self._texture(texture)
+        if made is None or not all(abs(number) < _FARTHEST for number in (*texture.scaled, *texture.moved)):
+            return None
+        (scale_u, scale_v), (moved_u, moved_v) = texture.scaled, texture.moved
+        # v points down in the place of a texture.
+        return TextureUse(made, (scale_u, scale_v), (-moved_u * scale_u, 1.0 - scale_v + moved_v * scale_v))
+
+    def _texture(self, texture: FbxTexture) -> Texture | None:
+        name = PurePosixPath(texture.file.replace("\\", "/")).name
+        content = self._found(name) if texture.image is None else self._embedded[texture.image]
+        return self._images.texture(Path(name).stem or texture.name, content) if content else None
+
+    def _found(self, name: str) -> bytes:
+        """An image's file by its name; nothing where there is none to be had."""
+        if name in self._beside or not name or "\0" in name or self._left_files <= 0:
+            return self._beside.get(name, b"")
+        self._left_files -= 1
+        content = b""
+        folder = self._path.parent.resolve()
+        for below in (f"{self._path.stem}.fbm", *FOLDERS):
+            try:
+                file = (folder / below / name).resolve()
+                if not file.is_file() or not file.is_relative_to(folder):
+                    continue
+                content = read_file(file, self._left)
+            except (OSError, RuntimeError, ValueError, FileError):
+                continue  # A figure is shown without what cannot be had.
+            break
+        self._left -= len(content)
+        self._beside[name] = content
+        return content
