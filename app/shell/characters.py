@@ -18,6 +18,7 @@ from app.rig.characters.character_library import (
     MOST_TITLE,
     CharacterEntry,
     add_character,
+    add_person,
     character_library,
     remove_character,
     write_entry,
@@ -26,11 +27,13 @@ from app.rig.characters.figure_build import has_odd_height
 from app.rig.characters.load_character import read_character
 from app.rig.characters.read_figure import SUFFIXES
 from app.rig.figure import Figure
+from app.rig.people.person import Person
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.dialogs.character import CharacterDialog
 from widgets.dialogs.character_draft import CharacterDraft
 from widgets.dialogs.characters import CharactersDialog
+from widgets.dialogs.person import PersonDialog
 
 PERSON_M: Final = 1.7
 """Height that is offered for a figure that is as tall as no person is."""
@@ -42,6 +45,7 @@ def show_characters(editor: Editor) -> None:
     def make() -> CharactersDialog:
         dialog = CharactersDialog(editor.session, editor.window)
         dialog.add_asked.connect(lambda: ask_for_character(editor))
+        dialog.make_asked.connect(lambda: make_person(editor))
         dialog.edit_asked.connect(lambda id: edit_character(editor, id))
         dialog.remove_asked.connect(lambda id: remove(editor, id))
         dialog.dropped.connect(lambda path: bring_character(editor, path))
@@ -78,6 +82,11 @@ def edit_character(editor: Editor, id: str) -> None:
     if source is None or source.entry is None:
         return
     entry, path = source.entry, source.path
+    if entry.person is not None:
+        _person_dialog(
+            editor, entry.title or id, entry.person, lambda title, person: _change_person(editor, id, title, person)
+        )
+        return
 
     def done(figure: Figure) -> None:
         draft = CharacterDraft(entry.title or id, entry.joints, entry.morphs, entry.height_m, tuple(entry.hidden))
@@ -85,6 +94,35 @@ def edit_character(editor: Editor, id: str) -> None:
         dialog.agreed.connect(lambda draft, give: _change(editor, id, entry, draft))
 
     _read(editor.session, path, done)
+
+
+def make_person(editor: Editor) -> None:
+    """Make a person of the user's own, like one of ours, by sliders."""
+
+    def keep(title: str, person: Person) -> None:
+        try:
+            add_person(person, title)
+        except AppError as error:
+            editor.session.notice(error.message, Severity.ERROR)
+        else:
+            editor.session.notice(Message("character.added", {"name": title}))
+        editor.session.characters_saved.emit()
+
+    _person_dialog(editor, "", None, keep)
+
+
+def _person_dialog(editor: Editor, title: str, person: Person | None, agreed: Callable[[str, Person], None]) -> None:
+    dialog = PersonDialog(editor.session, title, person, editor.window)
+    dialog.agreed.connect(agreed)
+    dialog.open()
+
+
+def _change_person(editor: Editor, id: str, title: str, person: Person) -> None:
+    try:
+        write_entry(id, CharacterEntry(title=shortened(" ".join(title.split()), MOST_TITLE), person=person))
+    except AppError as error:
+        editor.session.notice(error.message, Severity.ERROR)
+    editor.session.characters_saved.emit()
 
 
 def remove(editor: Editor, id: str) -> None:

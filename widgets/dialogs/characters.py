@@ -29,7 +29,7 @@ class CharactersDialog(Retranslated, QDialog):
 
     Signals
     -------
-    add_asked()
+    add_asked(), make_asked()
     edit_asked(str), remove_asked(str)
         Of the character of this id.
     dropped(object)
@@ -37,6 +37,7 @@ class CharactersDialog(Retranslated, QDialog):
     """
 
     add_asked = Signal()
+    make_asked = Signal()
     edit_asked = Signal(str)
     remove_asked = Signal(str)
     dropped = Signal(object)
@@ -52,6 +53,7 @@ class CharactersDialog(Retranslated, QDialog):
         self.list = named(QListWidget(), "character_list")
         self.list.setIconSize(_PICTURE_PX)
         self._add = Button("characters_dialog.add", self.add_asked.emit, "characters_add")
+        self._make = Button("characters_dialog.make", self.make_asked.emit, "characters_make")
         self._edit = Button("characters_dialog.edit", lambda: self.edit_asked.emit(self.chosen), "characters_edit")
         self._remove = Button(
             "characters_dialog.remove", lambda: self.remove_asked.emit(self.chosen), "characters_remove"
@@ -60,7 +62,7 @@ class CharactersDialog(Retranslated, QDialog):
         self._wrong.setObjectName("characters_wrong")
         for label in (self._explained, self._wrong):
             label.setWordWrap(True)
-        side = in_column(self._add, self._edit, self._remove, STRETCH, HelpButton(), self._close)
+        side = in_column(self._add, self._make, self._edit, self._remove, STRETCH, HelpButton(), self._close)
         middle = in_row((self.list, 1), side)
         in_column(self._explained, (middle, 1), self._wrong, of=self, margins=14, spacing=10)
         self.list.itemActivated.connect(lambda item: self.edit_asked.emit(self.chosen))

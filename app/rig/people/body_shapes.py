@@ -22,6 +22,10 @@ from app.formats.packed_arrays import PackedArrays, read_arrays
 
 AGES, HALVES, ENDS = (-1.0 / 3.0, 0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0), (0.0, 0.5, 1.0), (0.0, 1.0)
 """Values at which shapes stand: newborn, baby, child (about 11 years), young (25), old (90); and others."""
+YEARS, GROWN = (11.0, 25.0, 90.0), (1.0 / 3.0, 2.0 / 3.0, 1.0)
+"""Years of age, and the ages of phenotypes that they are."""
+AGE_YEARS: Final = (15.0, 90.0)
+"""Range of people's ages."""
 SKIN_VERTICES: Final = 13380
 """The base mesh has its skin first; what follows carries clothes, teeth and eyes."""
 ROWS = 32
@@ -144,6 +148,16 @@ def shapes_of(packed: PackedArrays, path: Path) -> BodyShapes:
         rows.astype(np.intp),
         deltas * STEP_M,
     )
+
+
+def age_of(years: float) -> float:
+    """Return the age of a phenotype for years."""
+    return float(np.interp(years, YEARS, GROWN))
+
+
+def years_of(age: float) -> float:
+    """Return the years that a phenotype's age is."""
+    return float(np.interp(age, GROWN, YEARS))
 
 
 def _between(value: float, anchors: tuple[float, ...]) -> list[float]:

@@ -13,13 +13,12 @@ import msgspec
 
 from app.errors import MapError
 from app.formats.toml import read_toml, shaped
-from app.rig.people.body_shapes import Phenotype
+from app.rig.people.body_shapes import AGE_YEARS, Phenotype, age_of
 
 Color = tuple[float, float, float]
-LEAST_M, MOST_M = 1.4, 2.1
-"""Heights of people: hands are grown-ups', so that bodies are too."""
-LEAST_AGE: Final = 0.42
-"""About 15 years."""
+HEIGHTS_M: Final = (1.4, 2.1)
+"""Range of people's heights: hands are grown-ups', so that bodies are too."""
+LEAST_AGE: Final = age_of(AGE_YEARS[0])
 
 
 class PersonName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -80,7 +79,7 @@ def phenotypes() -> Mapping[str, Phenotype]:
 def _bounded(person: Person) -> list[tuple[str, float, float, float]]:
     """Numbers of a person with their places and bounds."""
     phenotype = person.phenotype
-    found = [("phenotype.height_m", LEAST_M, phenotype.height_m, MOST_M)]
+    found = [("phenotype.height_m", HEIGHTS_M[0], phenotype.height_m, HEIGHTS_M[1])]
     found.append(("phenotype.age", LEAST_AGE, phenotype.age, 1.0))
     names = ("sex", "muscle", "weight", "proportions", "cup", "firmness", "african", "asian", "caucasian")
     found += [(f"phenotype.{name}", 0.0, getattr(phenotype, name), 1.0) for name in names]

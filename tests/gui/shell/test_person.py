@@ -1,0 +1,71 @@
+"""A person made by sliders: shown, kept, changed and cast like any other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox, QLineEdit, QListWidget, QPushButton
+from pytestqt.qtbot import QtBot
+
+from app.rig.characters.character_library import FOLDER_VARIABLE, character_library, reload_characters
+from app.rig.people.body_shapes import years_of
+from app.rig.people.bundled_people import bundled_person
+from app.shell.app import Program
+from tests.gui.shell.conftest import trigger
+from tests.support.windows import PATIENCE_MS, child
+from widgets.common.number_slider import NumberSlider
+from widgets.dialogs.characters import CharactersDialog
+from widgets.dialogs.person import PersonDialog
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    own = tmp_path / "characters"
+    monkeypatch.setenv(FOLDER_VARIABLE, str(own))
+    reload_characters()
+    yield own
+    monkeypatch.undo()
+    reload_characters()
+
+
+def slide(dialog: PersonDialog, name: str, text: str) -> None:
+    """Type a number into a slider."""
+    slider = child(dialog, NumberSlider, f"person_{name}")
+    slider.type_value(text)
+    QTest.keyClick(child(slider, QLineEdit, "number_field"), Qt.Key.Key_Return)
+
+
+def test_a_person_is_made_and_changed(program: Program, qtbot: QtBot) -> None:
+    trigger(program, "application.characters")
+    listed = child(program.window, CharactersDialog, "characters")
+    child(listed, QPushButton, "characters_make").click()
+    dialog = child(program.window, PersonDialog, "person")
+    assert not dialog._buttons.ok.isEnabled()
+    like = child(dialog, QComboBox, "person_like")
+    like.setCurrentIndex(like.findData("cast_thomas"))
+    like.activated.emit(like.currentIndex())
+    assert dialog.person.phenotype == bundled_person("cast_thomas").phenotype
+    slide(dialog, "height_m", "1.71")
+    slide(dialog, "age", "40")
+    child(dialog, QLineEdit, "person_title").setText("Tom")
+    qtbot.waitUntil(lambda: not dialog._pictures["head"].pixmap().isNull(), timeout=PATIENCE_MS)
+    dialog._buttons.ok.click()
+    (entry,) = character_library().own.values()
+    assert entry.title == "Tom"
+    assert entry.person is not None
+    assert entry.person.phenotype.height_m == 1.71
+    assert round(years_of(entry.person.phenotype.age)) == 40
+    assert entry.person.colors == bundled_person("cast_thomas").colors
+    assert child(listed, QListWidget, "character_list").item(0).text() == "Tom"
+    child(listed, QPushButton, "characters_edit").click()
+    (again,) = (one for one in program.window.findChildren(PersonDialog) if one.isVisible())
+    assert child(again, NumberSlider, "person_height_m").value == 1.71
+    slide(again, "height_m", "1.8")
+    again._buttons.ok.click()
+    (entry,) = character_library().own.values()
+    assert entry.person is not None
+    assert entry.person.phenotype.height_m == 1.8

@@ -1,0 +1,173 @@
+"""A person of the user's own: like one of ours, of another height, age and build."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import msgspec
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtWidgets import QDialog, QLineEdit, QWidget
+
+from app.editor.session import Session
+from app.errors import AppError, Message, Progress, StopRequested
+from app.rig.characters.character_library import MOST_TITLE, character_named
+from app.rig.people.body_shapes import AGE_YEARS, age_of, years_of
+from app.rig.people.bundled_people import bundled_people, bundled_person, person_of
+from app.rig.people.person import HEIGHTS_M, Person, PersonName
+from widgets.common.character_picture import Crop, picture, seen
+from widgets.common.controls import Caption, OkCancel, Retranslated, named, wrapped
+from widgets.common.help import with_help
+from widgets.common.instrument_name import character_name
+from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row
+from widgets.common.number_slider import NumberSlider
+from widgets.common.plain import ComboBox, Label
+from widgets.common.text import message_text
+
+PICTURES_PX: Final[dict[Crop, QSize]] = {"head": QSize(280, 220), "body": QSize(280, 250)}
+SOON_MS: Final = 60
+"""Milliseconds after which the next picture of a drag is drawn."""
+
+
+class PersonDialog(Retranslated, QDialog):
+    """A person as sliders and a picture.
+
+    Parameters
+    ----------
+    title : str
+        Name of the person.
+    person : Person or None
+        One of the user's own, to be changed; None: a new one.
+
+    Signals
+    -------
+    agreed(str, object)
+        The user accepts the `Person` of this title.
+    """
+
+    agreed = Signal(str, object)
+
+    def __init__(
+        self, session: Session, title: str = "", person: Person | None = None, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("person")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._session = session
+        self.person = person or _without_name(bundled_person(next(iter(bundled_people()))))
+        self._drawing = self._picture_requested = False
+        self.title = named(QLineEdit(title), "person_title")
+        self.title.setMaxLength(MOST_TITLE)
+        self.like = named(ComboBox(), "person_like")
+        self._is_new = person is None
+        self.sliders = {
+            "height_m": NumberSlider(session, *HEIGHTS_M, step=0.01, resets=False),
+            "age": NumberSlider(session, *AGE_YEARS, step=1.0, decimals=0, resets=False),
+            "muscle": NumberSlider(session, 0.0, 100.0, default=50.0, step=5.0, decimals=0),
+            "weight": NumberSlider(session, 0.0, 100.0, default=50.0, step=5.0, decimals=0),
+        }
+        for name, slider in self.sliders.items():
+            slider.setObjectName(f"person_{name}")
+            slider.changed.connect(lambda value, token, name=name: self._set(name, value))
+        self.texted(self.sliders["height_m"], words=("person_dialog.height", "m", "person_dialog.height_tip"))
+        self.texted(self.sliders["age"], words=("person_dialog.age", "person_dialog.years", "person_dialog.age_tip"))
+        self.texted(self.sliders["muscle"], words=("person_dialog.muscle", "%", "person_dialog.muscle_tip"))
+        self.texted(self.sliders["weight"], words=("person_dialog.weight", "%", "person_dialog.weight_tip"))
+        self._pictures = {crop: named(Label(), f"person_{crop}") for crop in PICTURES_PX}
+        self._explained = wrapped(Caption("person_dialog.hands_and_arms_stay"))
+        self._buttons = OkCancel("person_dialog.keep", "person_dialog.cancel")
+        self._soon = QTimer(self, singleShot=True, interval=SOON_MS)
+        self._soon.timeout.connect(self._draw)
+        self._lay_out()
+        self.like.activated.connect(lambda index: self._be_like(self.like.itemData(index)))
+        self.title.textChanged.connect(lambda text: self._buttons.ok.setEnabled(bool(text.strip())))
+        self._buttons.accepted.connect(self._agree)
+        self._buttons.rejected.connect(self.reject)
+        self._buttons.ok.setEnabled(bool(title.strip()))
+        self.texted(self, title="person_dialog.title")
+        self.retranslate()
+        begin_with_size(self, QSize(700, 560))
+        self.title.setFocus()
+        self._show()
+
+    def _lay_out(self) -> None:
+        rows: dict[str, QWidget] = {"person_dialog.name": self.title}
+        if self._is_new:
+            rows["person_dialog.like"] = self.like
+        for crop, size in PICTURES_PX.items():
+            self._pictures[crop].setFixedSize(size)
+            self._pictures[crop].setAlignment(Qt.AlignmentFlag.AlignCenter)
+        fields = in_column(in_form(rows), *self.sliders.values(), self._explained, STRETCH)
+        in_column(
+            in_row(in_column(*self._pictures.values()), (fields, 1)),
+            with_help(self._buttons),
+            of=self,
+            margins=14,
+            spacing=10,
+        )
+
+    def _be_like(self, id: str) -> None:
+        self.person = _without_name(bundled_person(id))
+        self._show()
+
+    def _set(self, name: str, value: float) -> None:
+        changed = {"height_m": value, "age": age_of(value)}.get(name, value / 100.0)
+        phenotype = msgspec.structs.replace(self.person.phenotype, **{name: changed})
+        self.person = msgspec.structs.replace(self.person, phenotype=phenotype)
+        self._soon.start()
+
+    def _show(self) -> None:
+        """Show the numbers of the person, and draw it."""
+        phenotype = self.person.phenotype
+        self.sliders["height_m"].show_value(phenotype.height_m)
+        self.sliders["age"].show_value(round(years_of(phenotype.age)))
+        for name in ("muscle", "weight"):
+            self.sliders[name].show_value(round(100.0 * getattr(phenotype, name)))
+        self._soon.start()
+
+    def _draw(self) -> None:
+        if self._drawing:
+            self._picture_requested = True
+            return
+        person, ratio = self.person, self.devicePixelRatioF()
+
+        def work(progress: Progress, stop_requested: StopRequested) -> dict[Crop, QImage]:
+            shown = seen(person_of("person", person, character_named))
+            sizes = {crop: size * ratio for crop, size in PICTURES_PX.items()}
+            return {crop: picture(shown, size.width(), size.height(), crop) for crop, size in sizes.items()}
+
+        def done(drawn: dict[Crop, QImage]) -> None:
+            for crop, one in drawn.items():
+                image = QPixmap.fromImage(one)
+                image.setDevicePixelRatio(ratio)
+                self._pictures[crop].setPixmap(image)
+
+        def failed(error: AppError) -> None:
+            self._pictures["body"].setText(message_text(error.message))
+
+        self._drawing = True
+        self._session.tasks.run(
+            Message("work.character_picture"), work, done, failed, key="person_picture", ended=self._drawn
+        )
+
+    def _drawn(self) -> None:
+        self._drawing = False
+        if self._picture_requested:
+            self._picture_requested = False
+            self._soon.start()
+
+    def _agree(self) -> None:
+        self.agreed.emit(self.title.text(), self.person)
+        self.accept()
+
+    def retranslate(self) -> None:
+        chosen = self.like.currentIndex()
+        self.like.clear()
+        for id in bundled_people():
+            self.like.addItem(character_name(id), id)
+        self.like.setCurrentIndex(max(chosen, 0))
+
+
+def _without_name(person: Person) -> Person:
+    """A person of ours as one of the user's own, who has a title instead of names."""
+    return msgspec.structs.replace(person, name=PersonName("", ""), not_cast_for=[])
