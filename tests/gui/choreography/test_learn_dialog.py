@@ -251,6 +251,8 @@ def test_cancelled_it_leaves_the_file_as_it_was(
     press(dialog, "learn_start")
     assert not start.isEnabled()
     assert not dialog.form.isEnabled()
+    # Closing the window asks before it loses what is being learned.
+    assert [work.id for work in threaded.tasks.writing] == ["work.learn"]
     press(dialog, "learn_close")
     qtbot.waitUntil(start.isEnabled)
     assert (folder / "choreography.choreography").read_text(encoding="utf-8") == "before"

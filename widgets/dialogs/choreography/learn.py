@@ -283,7 +283,7 @@ class LearnDialog(WorkingDialog):
         work = learning(path, tuple(self._rows), states, self._seed.value(), self._stop, self._share)
         self._timer.start()
         self._session.tasks.run(
-            Message("work.learn", {"file": path.name}), work, self._done, self._failed, ended=self._ended
+            Message("work.learn", {"file": path.name}), work, self._done, self._failed, ended=self._ended, writes=True
         )
 
     def _ended(self) -> None:
