@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
-from scipy.ndimage import binary_opening, gaussian_filter1d, maximum_filter1d
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid, grid_of
@@ -29,9 +29,11 @@ from app.choreography.clip import MotionClip
 from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.choreography.dance import Dance, Manner, SegmentStep
 from app.choreography.dance_flaws import usual_change_rad_s
+from app.choreography.drums_of_dancers import TakeShares, take_shares
 from app.choreography.footfalls import Footfalls, on_beats
 from app.choreography.hands_out_of_body import out_of_body
 from app.choreography.hit_log_odds import Hearing, hearing
+from app.choreography.idling import idling_odds
 from app.choreography.joins import distances_m
 from app.choreography.limbs import unbroken
 from app.choreography.model import ChoreographyModel
@@ -43,6 +45,7 @@ from app.choreography.sequence import Constraints, SegmentCandidates, Weights, c
 from app.choreography.spins import hips_rad, without_haste
 from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
 from app.choreography.stitch import STAGE_M, Frames, Stitcher
+from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, without_twitches
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from app.rig import quaternion
 
@@ -58,14 +61,6 @@ PREFERRED: Final = 12.0
 """Log odds of a segment of the source that is preferred."""
 BEAT_S: Final = 0.5
 """Time from one footfall to the next, for a capture without steps."""
-IDLE: Final = 6.0
-"""Log odds a second against a segment in which the body idles."""
-HELD_S: Final = 0.3
-"""A body that is slow for less holds a pose within its motion."""
-IDLE_SHARE: Final = 0.4
-"""A body idles that is slower than this share of the median speed of its clip ..."""
-IDLE_S: Final = 0.25
-"""... averaged by a Gaussian of this standard deviation."""
 WANDERS_S: Final = 1.2
 """Standard deviation in time of what of a path is a way, and not sway and steps."""
 LEAST_ROOM: Final = 0.4
@@ -115,6 +110,7 @@ class Choreographer:
         self._stitcher = Stitcher(model)
         self._speeds = [joint_speed_m_s(clip) for clip in model.clips]
         self._usual_rad_s: dict[Fraction, float] = {}
+        self._usual_ends: dict[Fraction, UsualAccelerations] = {}
         captured = [hips_rad(model.clips[one.clip].span(one.start, one.end + 1)) for one in model.segments]
         fps = float(model.clips[0].fps)
         self._fastest_rad_s = max(FASTEST_HIPS_RAD_S, fps * max(float(one.max(initial=0.0)) for one in captured))
@@ -155,13 +151,8 @@ class Choreographer:
 
     @cached_property
     def _idle(self) -> FloatArray:
-        """(S,) seconds of each segment for which the body idles."""
-        slow = []
-        for speed, fps in zip(self._speeds, self._fps, strict=True):
-            mean = gaussian_filter1d(speed, IDLE_S * fps, mode="nearest")
-            held = np.ones(max(1, round(HELD_S * fps)), bool)
-            slow.append(binary_opening(mean < IDLE_SHARE * np.median(mean), held) / fps)
-        return np.array([slow[one.clip][one.start : one.end].sum() for one in self.model.segments])
+        """See `app.choreography.idling.idling_odds`."""
+        return idling_odds(self.model.segments, self._speeds, self._fps)
 
     @cached_property
     def _step_s(self) -> float:
@@ -229,6 +220,7 @@ class Choreographer:
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
         falls = self._on_beats(clip, stands(clip, contacts), first_s, grid_of(rhythm))
         clip = planted(clip, falls.standing, manner.weight, falls.shown)
+        clip = without_twitches(clip, falls.standing, self._usual_accelerations(fps))
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
 
     def usual_change_rad_s(self, fps: Fraction) -> float:
@@ -236,6 +228,12 @@ class Choreographer:
         if fps not in self._usual_rad_s:
             self._usual_rad_s[fps] = usual_change_rad_s(self.model.clips, fps)
         return self._usual_rad_s[fps]
+
+    def _usual_accelerations(self, fps: Fraction) -> UsualAccelerations:
+        """See `app.choreography.sudden_ends.usual_accelerations`: of the model's capture."""
+        if fps not in self._usual_ends:
+            self._usual_ends[fps] = usual_accelerations(self.model.clips, fps)
+        return self._usual_ends[fps]
 
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
@@ -261,12 +259,19 @@ class Choreographer:
             seed=manner.seed,
             weights=weights,
             constraints=constraints,
-            usual=preferred - IDLE * self._idle,
+            usual=preferred - self._idle,
             returns=returning_places(rhythm, grid.times_s),
+            takes=self._take_shares(rhythm, grid) if manner.source is None else None,
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )
         return self._timed(chosen, grid, manner.source or 0)
+
+    def _take_shares(self, rhythm: Rhythm, grid: AccentGrid) -> TakeShares:
+        """See `app.choreography.drums_of_dancers.take_shares`."""
+        takes = np.array([one.clip for one in self.model.segments], np.int64)
+        lasting = self.candidates.before_s + self.candidates.after_s
+        return take_shares(self.hearing.percussion.drums, rhythm, grid.times_s, takes, lasting)
 
     def _standing(self, frames: Sequence[int]) -> FloatArray:
         """Log odds of beginning or ending at frames of the segments' clips: both feet stand, one does, none does."""

@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from app.arrays import FloatArray, IntArray
+from app.choreography.drums_of_dancers import DancersDrums, beats_at, drums_of
 from app.choreography.hidden_markov import count
 from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import SYMBOLS, Rhythm
@@ -54,14 +55,21 @@ class SoundOdds:
         The mean of the segments of each clip: what its dancer was heard to dance to.
     of_motions : (S, 47) float64
         What each motion sounded to beyond that.
+    drums : DancersDrums
     """
 
     of_dancers: FloatArray
     of_motions: FloatArray
+    drums: DancersDrums
 
-    def both(self, *, any_dancer: bool) -> FloatArray:
-        """(S, 47) log odds where a dancer is to be found by the sounds, or is found already."""
-        return self.of_dancers + self.of_motions if any_dancer else self.of_motions
+    def of_hits(self, rhythm: Rhythm, *, any_dancer: bool) -> FloatArray:
+        """(H, S) log odds of each hit: where a dancer is to be found by sounds like those that one was learned with,
+        those of the dancers too."""
+        found = self.of_motions[:, rhythm.symbols].T
+        if not any_dancer or len(rhythm.beats_s) < 2:
+            return found
+        like = self.drums.likeness(rhythm)[0][beats_at(rhythm, rhythm.hits_s)]
+        return np.asarray(found + like[:, None] * self.of_dancers[:, rhythm.symbols].T)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,12 +96,11 @@ class Hearing:
         any_dancer : bool
             The sounds say whose motions are danced, not only which of one dancer's.
         """
-        struck = self.percussion.both(any_dancer=any_dancer)
-        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * struck[:, rhythm.symbols].T
+        struck = self.percussion.of_hits(rhythm, any_dancer=any_dancer)
+        times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * struck
         tune = rhythm.melody
         if tune is not None and melody:
-            struck = self.melody.both(any_dancer=any_dancer)
-            beside = melody * tune.strengths[:, None] * struck[:, tune.symbols].T
+            beside = melody * tune.strengths[:, None] * self.melody.of_hits(tune, any_dancer=any_dancer)
             order = np.argsort(np.concatenate([times_s, tune.hits_s]), kind="stable")
             times_s = np.concatenate([times_s, tune.hits_s])[order]
             scores = np.concatenate([scores, beside])[order]
@@ -144,7 +151,7 @@ def _odds(
     of_dancers = np.zeros(log_odds.shape)
     for clip in np.unique(clips):
         of_dancers[clips == clip] = log_odds[clips == clip].mean(axis=0)
-    return SoundOdds(of_dancers, trust * (log_odds - of_dancers))
+    return SoundOdds(of_dancers, trust * (log_odds - of_dancers), drums_of(clips, symbols, len(model.clips)))
 
 
 def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:

@@ -28,6 +28,7 @@ import numpy as np
 
 from app.arrays import FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
+from app.choreography.drums_of_dancers import TakeShares
 from app.choreography.hit_log_odds import HeardHits
 from app.choreography.phrases import ReturningPlaces
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
@@ -60,9 +61,11 @@ class Weights:
         Of a segment that was danced where the music was as it is again.
     meets : float
         Of an arrival of the body on a beat against one between beats; footfalls likewise.
+    take : float
+        Of a segment of the take whose turn it is.
     """
 
-    join_per_m: float = 40.0
+    join_per_m: float = 55.0
     speed: float = 1.5
     off_beat: float = 1.2
     model: float = 1.0
@@ -71,6 +74,7 @@ class Weights:
     lately: float = 4.5
     returns: float = 16.0
     meets: float = 6.0
+    take: float = 2.5
 
 
 LATELY_S: Final = 12.0
@@ -78,6 +82,10 @@ FEW: Final = 24.0
 """Number of segments of which each counts as danced lately by half: few must come again."""
 ANEW: Final = 0.05
 """Share of the bars of a section that are danced anew when it returns."""
+LEFT_OVER: Final = 0.85
+"""Part of what a take is owed that is still owed a phrase later: what is not danced now need not be danced later."""
+LEAST_SHARE: Final = 0.25
+"""No turn comes to a take that should be danced less than this part of the one that should be danced most."""
 PHRASE_BEATS: Final = 8
 """Beats that are searched at a time; the motions danced in them then count as danced lately."""
 
@@ -140,6 +148,7 @@ def choose(
     initial: FloatArray | None = None,
     final: FloatArray | None = None,
     returns: ReturningPlaces | None = None,
+    takes: TakeShares | None = None,
 ) -> list[tuple[int, int]]:
     """The best segments for a piece.
 
@@ -151,6 +160,8 @@ def choose(
     usual, initial, final : (S,) float64, optional
         Log odds of each segment wherever it is, as the first, and as the last.
     returns : ReturningPlaces, optional
+    takes : TakeShares, optional
+        How much of each take is danced; by the drums alone without it.
 
     Returns
     -------
@@ -166,6 +177,7 @@ def choose(
         returns = _varied(returns, random)
     weights = replace(weights, lately=weights.lately * segments / (segments + FEW))
     search = _Search(grid, candidates, heard, weights, constraints, usual, initial)
+    turns = None if takes is None else _Turns(takes, random)
     chosen: list[tuple[int, int]] = []
     phrases = np.flatnonzero(grid.on_beat)[::PHRASE_BEATS].tolist()
     for first, stop in pairwise((*phrases, count)):
@@ -182,6 +194,8 @@ def choose(
         if returns is not None:
             again = _danced_again(returns, chosen, range(first, seen), segments)
             extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
+        if turns is not None:
+            extra += weights.take * turns.favoured(grid, chosen, first, seen)
         found = search.phrase(before, first, seen, extra, ends)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:
@@ -214,6 +228,29 @@ def _danced_again(
     np.maximum.at(again, (row, own[row, bar]), worths)
     np.minimum.at(least, (row, own[row, bar]), worths)
     return np.where(again > 0.0, again, least)
+
+
+class _Turns:
+    """Takes in turn, phrase by phrase, so that each is danced as much as it should be."""
+
+    def __init__(self, takes: TakeShares, random: np.random.Generator) -> None:
+        self._takes = takes
+        self._owed = takes.shares[:1].sum(axis=0) * random.random(takes.shares.shape[1]) * PHRASE_BEATS
+        self._counted, self._place = 0, 0
+
+    def favoured(self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, seen: int) -> FloatArray:
+        """(S,) 1 for the segments of the take whose turn it is in the places ``first`` to ``seen``."""
+        beats = grid.beats
+        # An accent is danced about its place; what was danced since the last phrase is taken off.
+        for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
+            self._owed[self._takes.takes[segment]] -= max(0.0, beats[following] - beats[place])
+        self._counted = len(chosen)
+        share = self._takes.shares[first:seen].mean(axis=0)
+        self._owed = LEFT_OVER * self._owed + share * PHRASE_BEATS
+        return np.asarray(
+            self._takes.takes == int(np.where(share > LEAST_SHARE * share.max(), self._owed, -np.inf).argmax()),
+            np.float64,
+        )
 
 
 class _Search:

@@ -31,13 +31,15 @@ LEAST_S: Final = 0.1
 """Shortest time for which a foot stands; a shorter one is passing."""
 REACHED_M: Final = 0.08
 """Height over the floor up to which a foot has landed; a higher one, carried up by a join, is still coming down."""
-DRIFTS_M: Final = 0.10
+DRIFTS_M: Final = 0.18
 """A foot whose tip is carried farther than this while it should stand takes a step instead."""
 STEP_S: Final = 0.30
 STEP_HIGH_M: Final = 0.03
+"""Height of such a step that goes `STEP_FAR_M` or farther; of shorter ones less."""
+STEP_FAR_M: Final = 0.10
 SAME_M: Final = 0.04
 """Places nearer to each other than this are one, if the foot hardly leaves the floor between them."""
-SETTLE_S: Final = 0.20
+SETTLE_S: Final = 0.30
 """Within this time after it leaves the floor, and before it comes to stand, a foot goes over to its own path."""
 REACH_SHARE: Final = 0.985
 """Largest reach of a standing foot, as a share of the leg's length; the hips come down for a farther one."""
@@ -235,7 +237,7 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
         # A foot that should have stood all the time lifts for its step.
         if before is not None and after is not None and stop - start <= 1.5 * STEP_S * fps:
             way = np.linalg.norm(np.subtract(after.place_m, before.place_m))
-            low = np.maximum(0.0, STEP_HIGH_M - np.ptp(tip_m[start:stop, 1])) * min(1.0, way / DRIFTS_M)
+            low = np.maximum(0.0, STEP_HIGH_M - np.ptp(tip_m[start:stop, 1])) * min(1.0, way / STEP_FAR_M)
             result[start:stop, 1] += low * np.sin(np.pi * (times - start + 1) / (stop - start + 1)) ** 2
     return result
 

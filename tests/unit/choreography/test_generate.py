@@ -212,7 +212,8 @@ def test_what_idles_in_the_capture_is_hardly_danced(monkeypatch: pytest.MonkeyPa
         )
 
     cost = idles()
-    monkeypatch.setattr("app.choreography.generate.IDLE", 0.0)
+    for name in ("IDLE", "THIN"):
+        monkeypatch.setattr(f"app.choreography.idling.{name}", 0.0)
     assert cost < 0.3 * idles()
 
 

@@ -80,7 +80,8 @@ def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
     other = replace(SWINGS.rhythm, symbols=SWINGS.rhythm.symbols + 10)
     model = learn([SWINGS, replace(SWINGS, rhythm=other)], states=4, seed=0, name="")
     clips = np.array([one.clip for one in model.segments])
-    log_odds = hearing(model).percussion.both(any_dancer=True)
+    heard = hearing(model).percussion
+    log_odds = heard.of_dancers + heard.of_motions
     assert {one.state for one in model.segments if one.clip == 0} == {one.state for one in model.segments if one.clip}
     for symbol, own in ((1, 0), (2, 0), (11, 1), (12, 1)):
         best = np.sort(log_odds[clips == own, symbol])[-5:]
@@ -89,14 +90,14 @@ def test_a_dancer_hears_the_sounds_of_the_own_drums_most() -> None:
     assert np.ptp(log_odds[:, 30]) < 1e-6
     # Where the dancer is chosen, sounds tell motions only: no dancer's are likelier in the mean, and setting off is
     # told from arriving as before.
-    chosen = hearing(model).percussion.both(any_dancer=False)
+    chosen = heard.of_motions
     for clip in (0, 1):
         assert chosen[clips == clip].mean(axis=0) == pytest.approx(np.zeros(len(SYMBOLS)), abs=1e-12)
         between = log_odds - chosen
         assert np.ptp(between[clips == clip], axis=0) == pytest.approx(np.zeros(len(SYMBOLS)), abs=1e-12)
-    untrusted = hearing(model, 0.0)
-    assert untrusted.percussion.both(any_dancer=False).tolist() == np.zeros(log_odds.shape).tolist()
-    assert np.ptp(untrusted.percussion.both(any_dancer=True)[:, 1]) > 0.5
+    untrusted = hearing(model, 0.0).percussion
+    assert untrusted.of_motions.tolist() == np.zeros(log_odds.shape).tolist()
+    assert np.ptp(untrusted.of_dancers[:, 1]) > 0.5
 
 
 def test_two_melodies_over_the_same_drums_tell_two_dancers_apart() -> None:

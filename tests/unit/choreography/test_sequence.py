@@ -10,8 +10,9 @@ import pytest
 from hmmlearn.base import BaseHMM
 
 from app.choreography.accent_grid import AccentGrid, grid_of
+from app.choreography.drums_of_dancers import DancersDrums
 from app.choreography.hit_log_odds import HeardHits, Hearing, SoundOdds
-from app.choreography.rhythm import Rhythm
+from app.choreography.rhythm import SYMBOLS, Rhythm
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.transition_scores import MOST_STARTS, NEAR_S, SegmentMeets
 from tests.support.dances import beaten
@@ -46,7 +47,7 @@ def emission(count: int, seed: int) -> np.ndarray:
 
 def heard_by(log_odds: np.ndarray) -> Hearing:
     """Segments that hear by log odds (S, 47) of symbols."""
-    odds = SoundOdds(np.zeros(log_odds.shape), log_odds)
+    odds = SoundOdds(np.zeros(log_odds.shape), log_odds, DancersDrums(np.zeros((1, len(SYMBOLS)))))
     return Hearing(odds, odds)
 
 

@@ -1,0 +1,65 @@
+"""Feet and hands of dances that are no more sudden than captured ones."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.clip import MotionClip
+from app.choreography.contacts import foot_contacts, tips_m
+from app.choreography.features import height_m, points_m
+from app.choreography.standing_feet import planted, stands
+from app.choreography.sudden_ends import MOST, usual_accelerations, without_twitches
+from tests.support.dances import stepping
+
+FPS = Fraction(60)
+CLIP = stepping(16)
+
+
+def accelerations(clip: MotionClip, name: str) -> np.ndarray:
+    """(F - 2, 2) of a joint and its end, m/s^2."""
+    at = [SEGMENTS.index(name), len(SEGMENTS) + ENDS.index(name)]
+    change = np.diff(points_m(clip)[:, at], 2, axis=0)
+    return np.linalg.norm(change, axis=-1) * float(clip.fps) ** 2
+
+
+def twitching(name: str, frame: int) -> MotionClip:
+    """Steps in which a limb is bent by 15 degrees more in one frame."""
+    rotations = CLIP.rotations.copy()
+    part = SEGMENTS.index(name)
+    twitch = Rotation.from_rotvec(np.radians(15.0) * np.array((0.0, 1.0, 0.0) if "Arm" in name else (1.0, 0.0, 0.0)))
+    rotations[frame, part] = (twitch * Rotation.from_quat(rotations[frame, part])).as_quat()
+    return replace(CLIP, rotations=rotations)
+
+
+@pytest.mark.parametrize(("limb", "end"), [("leftLowerArm", "leftHand"), ("leftUpperLeg", "leftFoot")])
+def test_a_twitch_is_taken_away_and_all_else_stays(limb: str, end: str) -> None:
+    # The left foot is in the air in the first half second.
+    sudden = twitching(limb, 15)
+    usual = usual_accelerations([CLIP], FPS)
+    most = (
+        MOST * np.concatenate([usual.feet, usual.hands])[slice(0, 2) if "Foot" in end else slice(2, 4)] * height_m(CLIP)
+    )
+    assert (accelerations(sudden, end).max(axis=0) > 2.0 * most).all()
+    calm = without_twitches(sudden, (), usual)
+    assert (accelerations(calm, end).max(axis=0) < 1.1 * most).all()
+    assert np.abs(points_m(calm) - points_m(CLIP))[60:].max() < 1e-9
+    assert np.linalg.norm(points_m(calm) - points_m(CLIP), axis=-1).max() < 0.1
+
+
+def test_what_is_as_sudden_as_the_capture_is_left_as_it_is() -> None:
+    assert without_twitches(CLIP, (), usual_accelerations([CLIP], FPS)) is CLIP
+
+
+def test_standing_feet_stay_where_they_stand() -> None:
+    sudden = twitching("leftUpperLeg", 29)
+    standing = stands(sudden, foot_contacts(CLIP))
+    calm = without_twitches(planted(sudden, standing), standing, usual_accelerations([CLIP], FPS))
+    for stand in standing:
+        slid = tips_m(calm)[stand.start : stand.stop, stand.foot] - stand.place_m
+        assert np.abs(slid).max() < 1e-3
