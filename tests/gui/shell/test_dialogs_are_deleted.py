@@ -68,6 +68,7 @@ OPENED: dict[str, Open] = {
     "CharacterDialog": lambda program: characters._dialog(
         program.editor, FIGURE, read_figure(FIGURE), CharacterDraft("x"), give=True
     ),
+    "PersonDialog": lambda program: characters.make_person(program.editor),
     "ExportDialog": command("export.files"),
     "PlayblastDialog": command("export.playblast"),
     "EvaluationDialog": command("file.evaluation"),
