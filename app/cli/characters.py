@@ -5,16 +5,19 @@ from __future__ import annotations
 import argparse
 from collections.abc import Collection, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from app.cli.commands import add_actions
 from app.cli.options import bounded_number
 from app.cli.speech import ENGLISH, Speech, said, spoken
-from app.cli.terminal import say, say_json
+from app.cli.terminal import say, say_json, warn
 from app.cli.widths import on_left
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.rig.characters.character_library import LEAST_M, MOST_M
+
+if TYPE_CHECKING:
+    from app.rig.characters.load_character import CharacterFigure
 
 _weight = bounded_number(-10.0, 10.0, "quantity.weight", float)
 _height = bounded_number(LEAST_M, MOST_M, "quantity.height", float)
@@ -45,6 +48,7 @@ def _add_file(command: argparse.ArgumentParser) -> None:
     command.add_argument("--morph", action="append", default=[], metavar="SHAPE=MORPH[:WEIGHT][+...]")
     command.add_argument("--height", type=_height, default=0.0, metavar="METRES")
     command.add_argument("--hide", action="append", default=[], metavar="MESH")
+    command.add_argument("--keep-props", action="store_true")
 
 
 def list_characters(arguments: argparse.Namespace) -> None:
@@ -84,8 +88,9 @@ def check_character(arguments: argparse.Namespace) -> None:
         It cannot play.
     """
     joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
+    speech = ENGLISH if arguments.json else spoken()
     found = checked(
-        arguments.file, joints, morphs, arguments.height, arguments.hide, ENGLISH if arguments.json else spoken()
+        arguments.file, joints, morphs, arguments.height, arguments.hide, speech, keep_props=arguments.keep_props
     )
     if arguments.json:
         say_json(found)
@@ -100,7 +105,24 @@ def add_character(arguments: argparse.Namespace) -> None:
     from app.rig.characters.character_library import add_character as add
 
     joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
-    say(add(arguments.file, arguments.name, joints, morphs, arguments.height, arguments.hide))
+    hidden: Collection[str] = arguments.hide
+    if not arguments.keep_props:
+        from app.rig.characters.load_character import read_character
+
+        hidden, note = _left_out(read_character(arguments.file, joints, morphs), hidden)
+        if note is not None:
+            warn(spoken()(note))
+    say(add(arguments.file, arguments.name, joints, morphs, arguments.height, hidden))
+
+
+def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collection[str], Message | None]:
+    """The meshes that are not shown, with the props in the hands, and the note about these."""
+    from app.rig.characters.props import props_in_hands
+
+    props = [name for name in props_in_hands(reading.figure, reading.joints.bones) if name not in hidden]
+    if not props:
+        return hidden, None
+    return (*hidden, *props), Message("character.props", {"names": ", ".join(props), "count": len(props)})
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:
@@ -138,6 +160,8 @@ def checked(
     height_m: float = 0.0,
     hidden: Collection[str] = (),
     speech: Speech = ENGLISH,
+    *,
+    keep_props: bool = False,
 ) -> dict[str, Any]:
     """Mapping of a file's figure, as JSON, with notes in the words of ``speech``. Raises FileError where there is no
     figure in it."""
@@ -148,9 +172,10 @@ def checked(
 
     reading = read_character(path, joints, morphs)
     names = reading.figure.bone_names
+    hidden, note = (hidden, None) if keep_props else _left_out(reading, hidden)
     figure = at_height(reading.figure.without(hidden), height_m)
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
-    reported = list(figure.notes)
+    reported = [*figure.notes, *([] if note is None else [note])]
     if not lacking:
         character = figure_character(figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
         reported += _reported(character)

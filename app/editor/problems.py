@@ -17,6 +17,7 @@ _VIEWS: Final[dict[str, View]] = {
     "breath": "mouth",
     "character.lips_still": "mouth",
     "character.no_fingers": "hands",
+    "character.some_fingers": "hands",
     "character.no_hand": "hands",
     "character.no_lips": "mouth",
     "character.touches_missed": "hands",

@@ -134,6 +134,11 @@ def text(message: Message, language: str = "en", named: Callable[[float], str] =
         arguments["kind"] = wording(kind, language)
     if "touch" in arguments:
         arguments["touch"] = touch_name(str(arguments["touch"]), language)
+    if (side := f"body_side.{arguments.get('side')}") in WORDINGS:
+        arguments["side"] = wording(side, language)
+    if "fingers" in arguments:
+        names = [_finger_name(finger, language) for finger in str(arguments["fingers"]).split()]
+        arguments["fingers"] = ("、" if language == "ja" else ", ").join(names)
     if "why" in arguments:
         arguments["why"] = filled(wording(str(arguments["why"]), language), arguments)
     for name in (name for name in TEXTS & arguments.keys() if arguments[name] in WORDINGS):
@@ -150,6 +155,12 @@ def touch_name(part: str, language: str) -> str:
         return part
     side, name, place = (wording(id, language) for id in ids)
     return place.format(f"{side}の{name}" if language == "ja" else f"{side} {name}")
+
+
+def _finger_name(finger: str, language: str) -> str:
+    """The words for a finger as maps name it; what is unknown stays as it is."""
+    id = f"touch_part.{finger}"
+    return wording(id, language) if id in WORDINGS else finger
 
 
 def error_text(error: AppError) -> str:

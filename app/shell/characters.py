@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -31,7 +32,7 @@ from app.rig.people.person import Person
 from app.shell.editor import Editor
 from widgets.common.instrument_name import character_name
 from widgets.dialogs.character import CharacterDialog
-from widgets.dialogs.character_draft import CharacterDraft
+from widgets.dialogs.character_draft import CharacterDraft, found_by_itself
 from widgets.dialogs.characters import CharactersDialog
 from widgets.dialogs.person import PersonDialog
 
@@ -70,7 +71,8 @@ def bring_character(editor: Editor, path: Path) -> None:
 
     def done(figure: Figure) -> None:
         height_m = PERSON_M if has_odd_height(figure) else 0.0
-        dialog = _dialog(editor, path, figure, CharacterDraft(_title(path), height_m=height_m), give=True)
+        draft = replace(found_by_itself(figure, _title(path)), height_m=height_m)
+        dialog = _dialog(editor, path, figure, draft, give=True)
         dialog.agreed.connect(lambda draft, give: _keep(editor, path, draft, give))
 
     _read(session, path, done)

@@ -34,6 +34,7 @@ from widgets.dialogs.character_draft import (
     CharacterDraft,
     DraftHistory,
     character_of,
+    found_by_itself,
     joint_name,
     mapped,
     not_played,
@@ -109,9 +110,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._automatic = Button("character_dialog.automatic", lambda: self._give_bone(None), "joint_automatic")
         self._undo = Button("character_dialog.undo", self.undo, "character_undo")
         self._redo = Button("character_dialog.redo", self.redo, "character_redo")
-        self._reset = Button(
-            "character_dialog.reset_all", lambda: self.change(CharacterDraft(self.draft.title)), "character_reset"
-        )
+        self._reset = Button("character_dialog.reset_all", lambda: self.change(self._untouched()), "character_reset")
         self.give = named(QCheckBox(), "character_give")
         self._buttons = OkCancel("character_dialog.keep_character", "character_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=_SOON_MS)
@@ -122,6 +121,10 @@ class CharacterDialog(Retranslated, QDialog):
         self.retranslate()
         begin_with_size(self, QSize(1300, 760))
         self._choose_first()
+
+    def _untouched(self) -> CharacterDraft:
+        """The draft under its title as it is found without the user."""
+        return found_by_itself(self._figure, self.draft.title)
 
     # Building
 
@@ -292,7 +295,7 @@ class CharacterDialog(Retranslated, QDialog):
             text.setText(word)
         self._undo.setEnabled(self._steps.can_undo)
         self._redo.setEnabled(self._steps.can_redo)
-        self._reset.setEnabled(self.draft != CharacterDraft(self.draft.title))
+        self._reset.setEnabled(self.draft != self._untouched())
         shown = not nothing_shown(self._figure, self.draft)
         self._buttons.ok.setEnabled(not made.lacking and shown and bool(self.draft.title.strip()))
         self._show_choice()

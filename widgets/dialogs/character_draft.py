@@ -13,6 +13,7 @@ from app.rig.characters.face_map import FaceMapping, map_morphs
 from app.rig.characters.figure_build import figure_height, has_odd_height
 from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.joint_mapping import JointMapping, map_joints
+from app.rig.characters.props import props_in_hands
 from app.rig.figure import Figure
 from app.rig.model import Character
 from metadata.model import REQUIRED_JOINTS
@@ -55,6 +56,11 @@ class CharacterDraft:
         """The draft with other morphs for a shape of the face; empty for none, None for those found automatically."""
         morphs = {name: own for name, own in self.morphs.items() if name != face}
         return replace(self, morphs=morphs if parts is None else {**morphs, face: dict(parts)})
+
+
+def found_by_itself(figure: Figure, title: str) -> CharacterDraft:
+    """The draft without any entry of the user's: props in the hands are left out."""
+    return CharacterDraft(title, hidden=props_in_hands(figure, map_joints(figure).bones))
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,6 +174,7 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
     if has_odd_height(figure) and not made.draft.height_m:
         height_m = f"{figure_height(figure) or 0.0:.2f}"
         reported.append(tr("character_words.height_is_odd").format(height=height_m))
+    reported += _props(figure, made)
     without = [
         (side, finger)
         for side in ("left", "right")
@@ -193,6 +200,17 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
     if "cheekPuff" not in faces:
         reported.append(tr("character_words.no_cheeks"))
     return tuple(reported)
+
+
+def _props(figure: Figure, made: Mapped) -> list[str]:
+    """Sentences about the props in the hands: those that are left out, and those that are shown."""
+    props = props_in_hands(figure, made.joints.bones)
+    sentences = []
+    for id, hidden in (("character_words.props_left_out", True), ("character_words.props_shown", False)):
+        names = ", ".join(name for name in props if (name in made.draft.hidden) == hidden)
+        if names:
+            sentences.append(tr(id).format(names=names))
+    return sentences
 
 
 def joint_name(joint: str) -> str:

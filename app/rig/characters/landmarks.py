@@ -115,14 +115,13 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
     # Rings, nails and sleeves hang on a hand too; most of its skin is the hand.
     skin = skins[max(range(len(skins)), key=lambda place: (on_fingers[place], counts[place]))]
     hand = _own(skin, [wrist, *fingers], 0.5)
-    places: dict[str, IndexArray] = {}
+    places: dict[str, tuple[_Skin, IndexArray]] = {}
     for finger in FINGERS:
         for order, phalanx in ((0, "_proximal"), (1, "_middle"), (2, "")):
             if finger == "thumb" and order == 0:
                 continue
             joint = skeleton.index(names[finger][order])
-            weights = (0.8 if order == 2 else 0.6, *LEAST_WEIGHTS)
-            own = next((own for least in weights if len(own := _own(skin, [joint], least))), np.zeros(0, np.intp))
+            around, own = _of_phalanx(skin, skins, joint, 0.8 if order == 2 else 0.6)
             before = joint if order < 2 else skeleton.index(names[finger][1])
             following = skeleton.index(names[finger][order + 1]) if order < 2 else joint
             bone = rest[following] - rest[before]
@@ -140,19 +139,31 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
             reach = length
             if order == 2:
                 # A fingertip is about as long as the phalanx before it, where no skin says so.
-                reach = float(((skin.positions[own] - rest[joint]) @ bone).max()) if len(own) else 0.9 * length
+                reach = float(((around.positions[own] - rest[joint]) @ bone).max()) if len(own) else 0.9 * length
             middle = rest[joint] + bone * reach * (0.5 if order < 2 else 0.55)
             for place, direction, count in (("pad", palmar, PAD_VERTICES), ("side", thumbward, SIDE_VERTICES)):
                 towards = direction / np.linalg.norm(direction)
-                around = own if len(own) else hand
-                places[f"{finger}.{place}{phalanx}"] = _patch(skin, around, middle, towards, count)
+                rows = _patch(around, own if len(own) else hand, middle, towards, count)
+                places[f"{finger}.{place}{phalanx}"] = around, rows
     knuckle = rest[skeleton.index(f"{side}MiddleProximal")]
     down = np.array([0.0, -1.0, 0.0])
-    places["palm"] = _patch(skin, hand, rest[wrist] + 0.6 * (knuckle - rest[wrist]), down, PALM_VERTICES)
+    places["palm"] = skin, _patch(skin, hand, rest[wrist] + 0.6 * (knuckle - rest[wrist]), down, PALM_VERTICES)
     web = (rest[skeleton.index(f"{side}IndexProximal")] + rest[skeleton.index(f"{side}ThumbProximal")]) / 2
-    places["thumb_web"] = _nearest(skin, hand, web, WEB_VERTICES)
-    places["hand"] = hand
-    return {f"{side}.{name}": _landmark(skin, rows) for name, rows in places.items()}
+    places["thumb_web"] = skin, _nearest(skin, hand, web, WEB_VERTICES)
+    places["hand"] = skin, hand
+    return {f"{side}.{name}": _landmark(*place) for name, place in places.items()}
+
+
+def _of_phalanx(hand: _Skin, skins: list[_Skin], joint: int, least: float) -> tuple[_Skin, IndexArray]:
+    """The skin of a phalanx and its vertices there: that of the hand, or another one that has most of it, since gloves
+    without tips and sleeves with half a hand are meshes of their own. No vertices where nothing follows the joint."""
+    for weight in (least, *LEAST_WEIGHTS):
+        own = {id(skin): _own(skin, [joint], weight) for skin in skins}
+        most = max(skins, key=lambda skin: len(own[id(skin)]))
+        if len(own[id(most)]):
+            skin = hand if 2 * len(own[id(hand)]) >= len(own[id(most)]) else most
+            return skin, own[id(skin)]
+    return hand, np.zeros(0, np.intp)
 
 
 def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:

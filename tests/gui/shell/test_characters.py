@@ -35,6 +35,8 @@ from app.rig.characters.load_character import load_character, read_character
 from app.shell.app import Program
 from app.shell.characters import bring_character
 from tests.gui.shell.conftest import Answers, trigger
+from tests.support.anime_figure import anime_body, block
+from tests.support.estranged import foreign, write_glb
 from tests.support.windows import child
 from widgets.common.character_picture import picture, seen
 from widgets.common.number_slider import NumberSlider
@@ -241,6 +243,22 @@ def test_a_mesh_is_switched_off_and_stays_so(program: Program, tmp_path: Path, q
     character = character_named(id)
     assert character.own is not None
     assert [mesh.name for mesh in character.meshes] == [mesh.name for mesh in character.own.figure.meshes] == names[:1]
+
+
+def test_a_sword_is_left_out_from_the_start_and_said(program: Program, tmp_path: Path) -> None:
+    body = foreign(anime_body(), extra=False)
+    body.meshes[1:] = [block(body.meshes[0], "Sword", body.joints["rightHand"], 0.9)]
+    dialog = opened(program, write_glb(tmp_path / "knight.vrm", body, vrm=1))
+    reported = child(dialog, QLabel, "character_status")
+    assert dialog.draft.hidden == ("Sword",)
+    assert "Left out" in reported.text()
+    assert not child(dialog, QPushButton, "character_reset").isEnabled()
+    sword = dialog.meshes.list.topLevelItem(1)
+    assert sword.checkState(0) is Qt.CheckState.Unchecked
+    sword.setCheckState(0, Qt.CheckState.Checked)
+    assert "may hide the instrument" in reported.text()
+    QTest.mouseClick(button(dialog, "character_reset"), Qt.MouseButton.LeftButton)
+    assert dialog.draft.hidden == ("Sword",)
 
 
 def test_a_character_of_usual_size_keeps_the_height_of_its_file(program: Program) -> None:

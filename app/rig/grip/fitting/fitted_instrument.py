@@ -78,7 +78,7 @@ def _touched(character: Character, instrument: InstrumentMap) -> tuple[Instrumen
         stiff = frozenset(finger for finger in FINGERS if not _bends(character, side, finger))
         if stiff and any(_of(contact, side) in stiff for contact in contacts):
             contacts = _guided(contacts, side, stiff)
-            reported.append(Message("character.no_fingers", {"side": side}))
+            reported.append(_stiff(side, stiff))
     if "lips.contact" not in character.landmarks:
         reported.append(Message("character.no_lips", {}))
     elif not mouth_opens(character):
@@ -86,6 +86,14 @@ def _touched(character: Character, instrument: InstrumentMap) -> tuple[Instrumen
     if contacts is instrument.contacts and hands is instrument.hands:
         return instrument, tuple(reported)
     return msgspec.structs.replace(instrument, contacts=contacts, hands=hands), tuple(reported)
+
+
+def _stiff(side: Hand, stiff: frozenset[str]) -> Message:
+    """Warning about fingers that do not bend: all of a hand's, or some."""
+    if len(stiff) == len(FINGERS):
+        return Message("character.no_fingers", {"side": side})
+    lacking = [finger for finger in FINGERS if finger in stiff]
+    return Message("character.some_fingers", {"side": side, "count": len(lacking), "fingers": " ".join(lacking)})
 
 
 def _of(contact: Contact, side: str) -> str:

@@ -7,11 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.arrays import BoolArray
+from app.messages import text
 from app.motion.contacts.help_for_far_hands import forwards_axis
 from app.rig.characters.character_library import character_named, characters
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.grip.body_size import sized_body, sized_character, sized_model
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
+from app.rig.mesh import Mesh
 from app.rig.model import Character
 from app.rig.skeleton import forward
 from app.rig.skinning import landmark_positions
@@ -81,6 +84,65 @@ def test_fingers_that_do_not_bend_guide_the_hand() -> None:
     assert len({contact.part for contact in fingers}) == len(fingers)
     assert all(contact.control is None for contact in fingers)
     assert found.instrument.controls is MAPS["flute"].controls
+
+
+def test_a_hand_of_four_fingers_is_said_to_lack_one_and_keeps_the_others() -> None:
+    whole = odd_body("unmarked")
+    names, table = whole.skeleton.names, np.arange(len(whole.skeleton.names), dtype=np.int32)
+    for joint, name in enumerate(names):
+        if "Little" in name:
+            table[joint] = names.index(f"{name.partition('Little')[0]}Hand")
+    meshes = tuple(replace(mesh, joints=table[mesh.joints]) for mesh in whole.meshes)
+    body = replace(whole, meshes=meshes)
+    body = replace(body, landmarks=found_landmarks(body.skeleton, body.joint_from_mesh, meshes))
+    found = suit(body, "flute")
+    assert reported(found) == ["character.some_fingers", "character.some_fingers"]
+    assert "little finger" in text(found.reported[0])
+    grips = {contact.part: contact.grip for contact in found.instrument.contacts}
+    assert all((grip == "guide") == (".little." in part) for part, grip in grips.items() if ".palm" not in part)
+
+
+def test_fingertips_in_another_mesh_than_the_hand_bend() -> None:
+    """Gloves without tips: the tips belong to the body's mesh, the rest to the clothes'."""
+    whole = odd_body("unmarked")
+    body = next(mesh for mesh in whole.meshes if (mesh.name == whole.landmarks["left.hand"].mesh))
+    distal = [joint for joint, name in enumerate(whole.skeleton.names) if name.endswith("Distal")]
+    of_tip = np.where(np.isin(body.joints, distal), body.weights, 0.0).sum(axis=1) > 0.3
+    tips, rest = of_tip[body.triangles].all(axis=1), ~of_tip[body.triangles].any(axis=1)
+    split = [_part(body, name, rows) for name, rows in (("glove", rest), ("tips", tips))]
+    meshes = (*(mesh for mesh in whole.meshes if mesh is not body), *split)
+    marks = found_landmarks(whole.skeleton, whole.joint_from_mesh, meshes)
+    assert {marks[f"left.{finger}.pad"].mesh for finger in ("index", "middle", "ring", "little")} == {"tips"}
+    assert marks["left.palm"].mesh == "glove"
+    assert reported(suit(replace(whole, meshes=meshes, landmarks=marks), "trumpet_Bb")) == []
+
+
+def _part(mesh: Mesh, name: str, rows: BoolArray) -> Mesh:
+    """Some triangles of a mesh, with their vertices."""
+    used = np.unique(mesh.triangles[rows])
+    place = np.zeros(len(mesh.positions_m), np.int32)
+    place[used] = np.arange(len(used))
+    moved = {morph.name: np.isin(morph.vertices, used) for morph in mesh.morphs}
+    return replace(
+        mesh,
+        name=name,
+        positions_m=mesh.positions_m[used],
+        normals=mesh.normals[used],
+        uvs=mesh.uvs[used],
+        triangles=place[mesh.triangles[rows]],
+        triangle_materials=mesh.triangle_materials[rows],
+        joints=mesh.joints[used],
+        weights=mesh.weights[used],
+        morphs=tuple(
+            replace(
+                morph,
+                vertices=place[morph.vertices[moved[morph.name]]],
+                deltas_m=morph.deltas_m[moved[morph.name]],
+                normal_deltas=None,
+            )
+            for morph in mesh.morphs
+        ),
+    )
 
 
 def test_what_a_body_lacks_is_reported_and_nothing_raises() -> None:

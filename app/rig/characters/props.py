@@ -1,0 +1,73 @@
+"""Props that a figure's file puts into its hands: swords, shields and cups lie where an instrument is to be.
+
+What is said and left out is a mesh that moves with one hand as a whole, while the hand's own skin is another mesh. It
+hangs on a bone that is no joint (a slot for props), or reaches farther than any hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray
+from app.rig.figure import Figure
+from app.rig.mesh import Mesh
+
+WHOLLY: Final = 0.999
+"""Least weight of every vertex by the bones of one hand."""
+REACHES: Final = 1.2
+"""A prop is longer than so many forearms, wherever it hangs."""
+LEAST_SKIN: Final = 8
+"""Vertices that a hand's own skin has at least."""
+
+
+def props_in_hands(figure: Figure, joints: Mapping[str, int]) -> tuple[str, ...]:
+    """Find the meshes that are held.
+
+    Parameters
+    ----------
+    joints : mapping of str to int
+        Bones by VRM 1.0 joint.
+
+    Returns
+    -------
+    tuple of str
+        Names of meshes, in the file's order.
+    """
+    found: set[str] = set()
+    for side in ("left", "right"):
+        wrist, elbow = joints.get(f"{side}Hand"), joints.get(f"{side}LowerArm")
+        if wrist is None or elbow is None:
+            continue
+        of_hand = _below(figure, wrist)
+        slots = of_hand & ~np.isin(np.arange(len(of_hand)), list(joints.values()))
+        candidates = {mesh.name for mesh in figure.meshes if _held(mesh, of_hand).min(initial=1.0) >= WHOLLY}
+        skin = sum(int((_held(mesh, of_hand) > 0.5).sum()) for mesh in figure.meshes if mesh.name not in candidates)
+        if skin < LEAST_SKIN:
+            continue
+        forearm_m = float(np.linalg.norm(figure.translations_m[wrist]))
+        for mesh in figure.meshes:
+            if mesh.name in candidates and len(mesh.positions_m):
+                in_slot = _held(mesh, slots).min() >= WHOLLY
+                if in_slot or float(np.ptp(mesh.positions_m, axis=0).max()) > REACHES * forearm_m:
+                    found.add(mesh.name)
+    names = dict.fromkeys(mesh.name for mesh in figure.meshes)
+    return tuple(name for name in names if name in found) if len(found) < len(names) else ()
+
+
+def _below(figure: Figure, bone: int) -> BoolArray:
+    """The bones (B,) that are one or hang from it."""
+    below = np.zeros(len(figure.parents), dtype=np.bool_)
+    below[bone] = True
+    for other, parent in enumerate(figure.parents):
+        if parent >= 0 and below[parent]:
+            below[other] = True
+    return below
+
+
+def _held(mesh: Mesh, bones: BoolArray) -> np.ndarray:
+    """Weight of every vertex (V,) by some bones."""
+    weights: np.ndarray = np.where(bones[mesh.joints], mesh.weights, 0.0).sum(axis=1)
+    return weights
