@@ -1,4 +1,4 @@
-"""``suisou characters``: list the characters, check whether a file's figure can play, add one."""
+"""``suisou characters``: list the characters, check whether a file's figure can play, add one, make a person."""
 
 from __future__ import annotations
 
@@ -14,13 +14,19 @@ from app.cli.terminal import say, say_json, warn
 from app.cli.widths import on_left
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
-from app.rig.characters.character_library import LEAST_M, MOST_M
+from app.rig.characters.character_library import LEAST_M, MOST_M, CharacterEntry
+from app.rig.people.body_shapes import AGE_YEARS, age_of
+from app.rig.people.bundled_people import bundled_people, bundled_person, like
+from app.rig.people.person import HEIGHTS_M
 
 if TYPE_CHECKING:
     from app.rig.characters.load_character import CharacterFigure
 
 _weight = bounded_number(-10.0, 10.0, "quantity.weight", float)
 _height = bounded_number(LEAST_M, MOST_M, "quantity.height", float)
+_person_height = bounded_number(*HEIGHTS_M, "quantity.height", float)
+_years = bounded_number(*AGE_YEARS, "quantity.years", float)
+_percent = bounded_number(0.0, 100.0, "quantity.percent", float)
 
 
 class CannotPlayError(AppError):
@@ -40,6 +46,14 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
     _add_file(add)
     add.add_argument("--name", default="", metavar="NAME")
     add.set_defaults(run=add_character)
+    make = actions.add_parser("make", help="")
+    make.add_argument("name", metavar="NAME")
+    make.add_argument("--like", required=True, metavar="ID")
+    make.add_argument("--height", type=_person_height, metavar="METRES")
+    make.add_argument("--age", type=_years, metavar="YEARS")
+    make.add_argument("--muscle", type=_percent, metavar="PERCENT")
+    make.add_argument("--weight", type=_percent, metavar="PERCENT")
+    make.set_defaults(run=make_person)
 
 
 def _add_file(command: argparse.ArgumentParser) -> None:
@@ -56,16 +70,16 @@ def list_characters(arguments: argparse.Namespace) -> None:
     from app.rig.characters.character_library import character_library, character_problems
 
     known = character_library()
+    speech = ENGLISH if arguments.json else spoken()
     rows = [
         {
             "id": id,
-            "title": source.entry.title if source.entry else "",
+            "title": _title(id, source.entry, speech),
             "file": stored(source.path),
             "own": source.entry is not None,
         }
         for id, source in known.sources.items()
     ]
-    speech = ENGLISH if arguments.json else spoken()
     problems = {shown(id): speech(problem) for id, problem in character_problems().items()}
     if arguments.json:
         found = {"characters": rows, "folder": stored(known.folder), "problems": problems}
@@ -77,6 +91,13 @@ def list_characters(arguments: argparse.Namespace) -> None:
     say("", said("cli.own_folder", folder=str(known.folder)))
     for problem in problems.values():
         say(f"  {problem}")
+
+
+def _title(id: str, entry: CharacterEntry | None, speech: Speech) -> str:
+    """Name of a character; empty of one that has none but its id."""
+    if id in bundled_people():
+        return speech.name(bundled_person(id).name)
+    return entry.title if entry is not None else ""
 
 
 def check_character(arguments: argparse.Namespace) -> None:
@@ -123,6 +144,20 @@ def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collec
     if not props:
         return hidden, None
     return (*hidden, *props), Message("character.props", {"names": ", ".join(props), "count": len(props)})
+
+
+def make_person(arguments: argparse.Namespace) -> None:
+    """Make a person like one of ours, and print its id. Raises FileError, UsageError."""
+    from app.rig.characters.character_library import add_person
+
+    if arguments.like not in bundled_people():
+        raise UsageError("character.missing", id=arguments.like, known=", ".join(bundled_people()))
+    measures = {"height_m": arguments.height, "age": None if arguments.age is None else age_of(arguments.age)}
+    for name in ("muscle", "weight"):
+        given = getattr(arguments, name)
+        measures[name] = None if given is None else given / 100.0
+    said_so = {name: value for name, value in measures.items() if value is not None}
+    say(add_person(like(arguments.like, said_so), arguments.name))
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:

@@ -13,8 +13,8 @@ from app.editor.session import Session
 from app.errors import AppError, Message, Progress, StopRequested
 from app.rig.characters.character_library import MOST_TITLE, character_named
 from app.rig.people.body_shapes import AGE_YEARS, age_of, years_of
-from app.rig.people.bundled_people import bundled_people, bundled_person, person_of
-from app.rig.people.person import HEIGHTS_M, Person, PersonName
+from app.rig.people.bundled_people import bundled_people, like, person_of
+from app.rig.people.person import HEIGHTS_M, Person
 from widgets.common.character_picture import Crop, picture, seen
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, wrapped
 from widgets.common.help import with_help
@@ -54,7 +54,7 @@ class PersonDialog(Retranslated, QDialog):
         self.setObjectName("person")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._session = session
-        self.person = person or _without_name(bundled_person(next(iter(bundled_people()))))
+        self.person = person or like(next(iter(bundled_people())), {})
         self._drawing = self._picture_requested = False
         self.title = named(QLineEdit(title), "person_title")
         self.title.setMaxLength(MOST_TITLE)
@@ -107,7 +107,7 @@ class PersonDialog(Retranslated, QDialog):
         )
 
     def _be_like(self, id: str) -> None:
-        self.person = _without_name(bundled_person(id))
+        self.person = like(id, {})
         self._show()
 
     def _set(self, name: str, value: float) -> None:
@@ -166,8 +166,3 @@ class PersonDialog(Retranslated, QDialog):
         for id in bundled_people():
             self.like.addItem(character_name(id), id)
         self.like.setCurrentIndex(max(chosen, 0))
-
-
-def _without_name(person: Person) -> Person:
-    """A person of ours as one of the user's own, who has a title instead of names."""
-    return msgspec.structs.replace(person, name=PersonName("", ""), not_cast_for=[])

@@ -8,11 +8,13 @@ from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
 
+import msgspec
+
 from app.rig.model import Character
 from app.rig.people.body_shapes import body_m, body_shapes
 from app.rig.people.make_person import Original, original_of, person_character
 from app.rig.people.moved_joints import arm_after_m
-from app.rig.people.person import Person, phenotypes, read_person
+from app.rig.people.person import Person, PersonName, phenotypes, read_person
 
 
 @cache
@@ -26,6 +28,13 @@ def bundled_people() -> Mapping[str, Path]:
 def bundled_person(id: str) -> Person:
     """Return one of the people as its file says; KeyError where there is none."""
     return read_person(bundled_people()[id])
+
+
+def like(id: str, measures: Mapping[str, float]) -> Person:
+    """Return a person of the user's own who is like one of ours, with some measures of the phenotype changed."""
+    person = bundled_person(id)
+    phenotype = msgspec.structs.replace(person.phenotype, **measures)
+    return msgspec.structs.replace(person, name=PersonName("", ""), not_cast_for=[], phenotype=phenotype)
 
 
 def hands_id(id: str) -> str:

@@ -69,6 +69,20 @@ def test_a_correction_is_kept_with_the_character(folder: Path, capsys: pytest.Ca
     assert [row["id"] for row in found["characters"] if row["own"]] == ["the_baby"]
 
 
+def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    given = ["--like", "cast_thomas", "--height", "1.71", "--age", "40", "--weight", "70"]
+    assert main(["characters", "make", "Tom", *given]) == 0
+    assert capsys.readouterr().out.strip() == "tom"
+    person = character_library.character_library().own["tom"].person
+    assert person is not None
+    assert (person.phenotype.height_m, person.phenotype.weight, person.phenotype.muscle) == (1.71, 0.7, 0.55)
+    assert main(["characters", "--json"]) == 0
+    titles = {row["id"]: row["title"] for row in json.loads(capsys.readouterr().out)["characters"]}
+    assert (titles["tom"], titles["cast_thomas"]) == ("Tom", "Thomas")
+    assert main(["characters", "make", "Tom", "--like", "tom"]) == 2
+    assert main(["characters", "make", "Tom", "--like", "cast_thomas", "--age", "7"]) == 2
+
+
 def test_a_file_that_is_no_figure_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "x.vrm").write_bytes(b"glTF")
     assert main(["characters", "check", str(tmp_path / "x.vrm")]) == 1
