@@ -24,7 +24,7 @@ class Library(Shelf[InstrumentMap]):
 
     @cached_property
     def maps(self) -> Mapping[str, InstrumentMap]:
-        """By id, in the order of the ids."""
+        """All maps by id, in the order of the ids."""
         return dict(sorted(self.items.items()))
 
     @cached_property

@@ -21,7 +21,7 @@ from app.rig import quaternion
 from app.rig.skeleton import rest_positions
 
 POSES: Final = 3
-"""Start, accent, end."""
+"""Number of poses of a motion that are compared: at its start, its accent and its end."""
 LEAST_HEIGHT_M: Final = 0.1
 _UP = (0.0, 1.0, 0.0)
 _HEAD = SEGMENTS.index("head")

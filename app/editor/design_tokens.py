@@ -62,4 +62,4 @@ DARK, LIGHT = THEMES["dark"], THEMES["light"]
 LEAST_TEXT_PT = 9
 LEAST_TARGET_PX = 24
 SPLITTER_PX = 8
-"""Between panels: wide enough to be hit, and for a grip that is seen."""
+"""Width of the splitters between panels: enough to be hit, and for a visible grip."""

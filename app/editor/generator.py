@@ -54,7 +54,7 @@ class Generator(QObject):
     Signals
     -------
     motion_changed()
-        Poses are there that were not, or are other ones.
+        Poses were added or have changed.
     front_changed()
         The player in front does what an edit changed. It is drawn before the panels follow the new plans, which takes
         them longer than making it.

@@ -62,9 +62,9 @@ class Listening(State):
     Signals
     -------
     changed()
-        One of these is another.
+        One of these has changed.
     waveform_changed()
-        The recording is another, or was read.
+        Another recording was chosen, or it was read.
     """
 
     waveform_changed = Signal()
@@ -83,7 +83,7 @@ class Listening(State):
         self.take: RecordedTake | None = None
 
     def set(self, **values: Any) -> None:
-        """Change some attributes; `changed` once if any is another. Speed and volume are held within their bounds."""
+        """Change some attributes; `changed` once if any changes. Speed and volume are held within their bounds."""
         for name, (least, most) in {"speed": (LEAST_SPEED, MOST_SPEED), "volume": (0.0, 1.0)}.items():
             if name in values:
                 values[name] = min(max(values[name], least), most)

@@ -68,9 +68,9 @@ class RecordingState(State):
     Signals
     -------
     changed()
-        One of these is another, `breath` and `pitch` excepted.
+        One of these has changed, `breath` and `pitch` excepted.
     played()
-        `breath` or `pitch` is another.
+        `breath` or `pitch` has changed.
     received(object)
         An `app.capture.protocol.Events` came in; for the monitor and the live pose.
     """

@@ -65,14 +65,14 @@ class Session(QObject):
     Signals
     -------
     changed(Change)
-        The document's project is another value now.
+        The document's project has changed.
     performance_changed()
-        `performance` is another: new plans are there. It may lag behind the project by a moment.
+        `performance` has changed: there are new plans. It may lag behind the project by a moment.
     problems_changed()
-        `problems` of some players are others, and the plans are the same: the motion was made, and looked at.
+        `problems` of some players have changed, the plans have not: the motion was made and judged.
     selection_changed(), players_changed(), playhead_changed(float), playing_changed(bool), loop_changed(),
     grid_changed(), theme_changed(), time_display_changed(), follow_changed(), language_changed()
-        The value of that name is another one.
+        The value of that name has changed.
     problem_changed()
         Another problem is gone to, or none any more.
     dancer_changed()
@@ -80,17 +80,17 @@ class Session(QObject):
     folded_changed(), groups_players_changed()
         Another part of a panel is folded; the list of players is in sections, or no longer.
     preview_changed()
-        The face that is being made is another.
+        The face that is being made has changed.
     noticed(object, object)
         A notice for the user: a `Message` and a `Severity`.
     revealed(float)
         This time (seconds) should come into view.
     instruments_changed()
-        Some instrument is another one, or is there no more (`instrument_maps.library`).
+        Some instrument has changed or is gone (`instrument_maps.library`).
     instruments_saved()
         A map was written into the user's own folder.
     characters_changed()
-        Some character is another one, or is there no more (`app.rig.characters.character_library`).
+        Some character has changed or is gone (`app.rig.characters.character_library`).
     characters_saved()
         A character was written into the user's own folder, or removed from it.
     choreographies_changed()
@@ -98,7 +98,7 @@ class Session(QObject):
     media_agreed()
         The user agreed to computers that the project's files are on: what was left alone may be read now.
     metadata_changed()
-        Some style, habit or expression is another one, or is there no more (`metadata.library`).
+        Some style, habit or expression has changed or is gone (`metadata.library`).
     metadata_saved()
         One of them was written into the user's own folder, or removed from it.
     """

@@ -16,13 +16,13 @@ class State(QObject):
     Signals
     -------
     changed()
-        One of them is another.
+        One of them has changed.
     """
 
     changed = Signal()
 
     def set(self, **values: Any) -> None:
-        """Change some attributes; `changed` once if any is another."""
+        """Change some attributes; `changed` once if any changes."""
         different = [name for name, value in values.items() if getattr(self, name) != value]
         for name in different:
             setattr(self, name, values[name])
@@ -36,7 +36,7 @@ class Watched(Generic[T]):
     Parameters
     ----------
     signal : str
-        The object's signal that says that the value is another one.
+        The object's signal of a change of the value.
     initial : object
     is_sent : bool
         Whether the signal carries the value.

@@ -34,9 +34,9 @@ class VideoState(State):
     Signals
     -------
     changed()
-        Placement, opacity, ratio or fault is another.
+        Placement, opacity, ratio or fault has changed.
     pictured()
-        `picture` is another.
+        `picture` has changed.
     """
 
     pictured = Signal()

@@ -62,7 +62,7 @@ class AudioTrack(msgspec.Struct, frozen=True):
 
 
 def with_places(audio: AudioTrack, place: Callable[[int], int]) -> AudioTrack:
-    """The recording of a score whose ticks are other ones: pins go along; what was doubtful is to be found again."""
+    """The recording of a score whose ticks have changed: pins move along; doubtful bars have to be found again."""
     pins: list[BeatPin] = []
     for pin in audio.pins:
         tick = place(pin.tick)

@@ -70,11 +70,11 @@ class Content(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
     expressions: tuple[Expression, ...]
     score: Score
     edited_notes: dict[str, tuple[Note, ...]]
-    """By part that was read from a MIDI file: the file's version of the notes that are other ones here, or gone."""
+    """By part that was read from a MIDI file: the file's version of the notes that were edited or deleted here."""
     takes: dict[str, PlayerTakes]
     """By player."""
     edited_curves: dict[str, tuple[ControllerCurve, ...]]
-    """By part that was read from a MIDI file: the file's controllers where they are other ones here."""
+    """By part that was read from a MIDI file: the file's controllers where they were edited here."""
     read_timing: ReadTiming | None
     imported: ImportDecisions | None
     ignored_problems: dict[str, tuple[IgnoredProblem, ...]] = {}
@@ -206,7 +206,7 @@ def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, 
 
 
 def _edited_curves(project: Project) -> dict[str, tuple[ControllerCurve, ...]]:
-    """The MIDI file's controllers of parts that have other ones here."""
+    """The MIDI file's controllers of parts whose controllers were edited here."""
     here = {part.id: part.curves for part in project.score.parts}
     return {part_id: curves for part_id, curves in project.read_curves.items() if here.get(part_id) != curves}
 

@@ -42,7 +42,7 @@ ISLANDS = (
 PAINTED_PALER, PALER_UNDONE = (1, 2, 3, 4, 5), 0.85
 """Parts of `ISLANDS` that are brought near the face's colour, and how near."""
 KNEE_LINEAR = 0.80
-"""What is brighter nears white slowly instead of being cut off."""
+"""Brighter values near white slowly instead of being cut off."""
 
 
 @dataclass(frozen=True)

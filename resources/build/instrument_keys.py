@@ -166,7 +166,7 @@ class Rod:
         return self.a + share * span
 
     def standing(self) -> Pieces:
-        """The posts, which do not move."""
+        """Posts of the rod, which do not move."""
         if not self.posts:
             return []
         return [piece for end in (self.a, self.b) for piece in post(self.wall, end)]

@@ -178,7 +178,7 @@ def _fit(dialog: QDialog) -> None:
 
 
 def said(text_id: str, **arguments: object) -> Callable[[], str]:
-    """Return what makes the text of an id with these arguments in it, for `Retranslated.texted`."""
+    """Return a function that words a text id with arguments, for `Retranslated.texted`."""
     return lambda: tr(text_id).format(**arguments)
 
 

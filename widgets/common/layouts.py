@@ -29,7 +29,7 @@ Margins: TypeAlias = int | tuple[int, int, int, int]
 _FRAME: Final = QSize(40, 80)
 """Room left for a window's frame and the desktop's bars, pixels."""
 _LEAST_SCROLLED_PX: Final = 200
-"""Height of what scrolls, at least."""
+"""Least height of a scrolled area."""
 
 
 def in_row(

@@ -20,7 +20,7 @@ its seconds."""
 
 
 def choreographer_of(choreography: str) -> Choreographer:
-    """A choreography by name or path, read again when its file is another one. Raises FileError."""
+    """A choreography by name or path, read again when its file has changed. Raises FileError."""
     path = choreography_path(choreography)
     refuse_others(path)
     try:

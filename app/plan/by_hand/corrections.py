@@ -109,7 +109,7 @@ class SetCue(OfNote, frozen=True, tag="set_cue"):
         return self.beats <= 0.0
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether its note is gone; one without a note has its place."""
+        """Return whether the cue's note is gone; a cue without a note is kept by its place."""
         return self.tick is None and self.note_id not in note_ids
 
 

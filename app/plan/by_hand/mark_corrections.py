@@ -78,7 +78,7 @@ class SetMark(OfMark, frozen=True, tag="set_mark"):
 
     @property
     def mark(self) -> Mark:
-        """The mark."""
+        """The mark that the correction sets."""
         notes = self.note_id or "", self.last_note_id or ""
         return Mark(self.kind, *notes, self.start_tick or 0, self.end_tick or 0, self.text)
 

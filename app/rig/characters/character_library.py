@@ -179,7 +179,7 @@ def characters() -> Mapping[str, Path]:
 
 
 def character_revision(id: str) -> int:
-    """Return how often the character of an id became another one: what is kept for a character is kept for this too."""
+    """Number of times that the character of an id was replaced; caches are keyed by it too."""
     return character_library().revisions.get(id, 0)
 
 

@@ -16,7 +16,7 @@ from app.score.limits import MOST_BARS
 from app.score.musicxml.written import Bar
 
 _ANY: Final = "*"
-"""The name of a place that a word means, where no sound names it."""
+"""Name for the place of a sign or word whose measure has no sound element that names it."""
 
 _STRAINS: Final = 4
 """Repeated strains of a minuet with its trio."""
