@@ -203,6 +203,7 @@ def checked(
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.load_character import read_character
+    from app.rig.grip.fitting.fitted_instrument import notes_on_body
     from metadata.model import REQUIRED_JOINTS
 
     reading = read_character(path, joints, morphs)
@@ -213,7 +214,7 @@ def checked(
     reported = [*figure.notes, *([] if note is None else [note])]
     if not lacking:
         character = figure_character(figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
-        reported += _reported(character)
+        reported += notes_on_body(character)
     return {
         "file": stored(path),
         "kind": reading.figure.origin,
@@ -232,18 +233,6 @@ def checked(
         "missing_morphs": list(reading.face.missing),
         "notes": [speech(note) for note in reported],
     }
-
-
-def _reported(character: Any) -> tuple[Message, ...]:
-    """Notes for the animator on the character with an instrument."""
-    from app.rig.grip.fitting.fitted_instrument import fitted_to_body
-    from app.rig.instrument import load_instrument
-    from instrument_maps.library import find_map, model_path
-    from metadata.load import load_body
-
-    body = load_body()
-    played = find_map(body.checked_with)
-    return fitted_to_body(character, played, body, lambda: load_instrument(model_path(played), played)).reported
 
 
 def as_text(found: Mapping[str, Any]) -> list[str]:

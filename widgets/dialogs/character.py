@@ -20,6 +20,7 @@ from app.errors import AppError, Message, Progress, StopRequested
 from app.rig.characters.character_library import LEAST_M, MOST_M
 from app.rig.characters.figure_build import figure_height
 from app.rig.figure import Figure
+from app.rig.grip.fitting.fitted_instrument import notes_on_body
 from widgets.common.character_picture import Crop, Seen, picture, seen
 from widgets.common.controls import Button, ColumnList, OkCancel, Retranslated, named, selectable, wrapped
 from widgets.common.help import HelpButton
@@ -38,6 +39,7 @@ from widgets.dialogs.character_draft import (
     joint_name,
     mapped,
     not_played,
+    notes_beside_joints,
     nothing_shown,
 )
 from widgets.dialogs.face_map_page import FaceMapPage
@@ -86,7 +88,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._first, self._steps = draft, DraftHistory(draft)
         self._made = mapped(figure, draft)
         self._joint = ""
-        self._seen: tuple[tuple[object, ...], Seen] | None = None
+        self._seen: tuple[tuple[object, ...], Seen, tuple[Message, ...]] | None = None
         """A character ready to be drawn, and what it was made from."""
         self._drawing = False
         self._picture_requested = False
@@ -276,10 +278,7 @@ class CharacterDialog(Retranslated, QDialog):
         self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
         self.meshes.show_hidden(self.draft.hidden)
-        reported = not_played(self._figure, made)
-        self._reported.setText(
-            "\n".join(f"• {text}" for text in reported) if reported else self.tr("character_dialog.all_supported")
-        )
+        self._show_reported()
         self._reported.setStyleSheet(f"color: {tokens.error if made.lacking else tokens.text};")
         self._picture.setStyleSheet(
             f"#character_picture {{ background: {tokens.sunken}; border: 1px solid {tokens.line};"
@@ -300,6 +299,15 @@ class CharacterDialog(Retranslated, QDialog):
         self._buttons.ok.setEnabled(not made.lacking and shown and bool(self.draft.title.strip()))
         self._show_choice()
         self._ask_picture()
+
+    def _show_reported(self) -> None:
+        """Say what will not be played, and how the body that was drawn last holds an instrument."""
+        reported = list(not_played(self._figure, self._made))
+        if self._seen is not None:
+            reported += [message_text(note) for note in notes_beside_joints(self._made, self._seen[2])]
+        self._reported.setText(
+            "\n".join(f"• {text}" for text in reported) if reported else self.tr("character_dialog.all_supported")
+        )
 
     def _show_choice(self) -> None:
         self._none.setEnabled(self._joint in self._made.joints.bones)
@@ -335,13 +343,18 @@ class CharacterDialog(Retranslated, QDialog):
         face, ratio = self.faces.face if crop == "head" else "", self.devicePixelRatioF()
         width, height = round(PICTURE_PX.width() * ratio), round(PICTURE_PX.height() * ratio)
 
-        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Seen, QImage]:
-            shown = known[1] if known is not None and known[0] == key else seen(character_of(figure, made))
-            return shown, picture(shown, width, height, crop, {face: 1.0} if face else None)
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[Seen, tuple[Message, ...], QImage]:
+            if known is not None and known[0] == key:
+                _, shown, notes = known
+            else:
+                character = character_of(figure, made)
+                shown, notes = seen(character), notes_on_body(character)
+            return shown, notes, picture(shown, width, height, crop, {face: 1.0} if face else None)
 
-        def done(drawn: tuple[Seen, QImage]) -> None:
-            self._seen = (key, drawn[0])
-            image = QPixmap.fromImage(drawn[1])
+        def done(drawn: tuple[Seen, tuple[Message, ...], QImage]) -> None:
+            self._seen = (key, *drawn[:2])
+            self._show_reported()
+            image = QPixmap.fromImage(drawn[2])
             image.setDevicePixelRatio(ratio)
             self._picture.setPixmap(image)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final, Literal
 
 from PySide6.QtCore import QCoreApplication
 
 from app.editor.translated import tr
+from app.errors import Message
 from app.rig.characters.face_map import FaceMapping, map_morphs
 from app.rig.characters.figure_build import figure_height, has_odd_height
 from app.rig.characters.figure_to_character import figure_character
@@ -21,6 +22,7 @@ from metadata.model import REQUIRED_JOINTS
 State = Literal["mapped", "doubtful", "missing"]
 
 _FINGERS: Final = ("Thumb", "Index", "Middle", "Ring", "Little")
+_SIDES: Final = ("left", "right")
 _LIPS: Final = ("mouthPucker", "mouthFunnel", "mouthClose", "mouthPressLeft", "mouthPressRight")
 _MOST_STEPS: Final = 200
 
@@ -177,7 +179,7 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
     reported += _props(figure, made)
     without = [
         (side, finger)
-        for side in ("left", "right")
+        for side in _SIDES
         for finger in _FINGERS
         if not any(joint.startswith(side + finger) for joint in bones)
     ]
@@ -200,6 +202,14 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
     if "cheekPuff" not in faces:
         reported.append(tr("character_words.no_cheeks"))
     return tuple(reported)
+
+
+def notes_beside_joints(made: Mapped, notes: Sequence[Message]) -> tuple[Message, ...]:
+    """Notes on a body that `not_played` does not say from bones and morphs: sizes, and skin that follows no bone."""
+    bones = made.joints.bones
+    fingers = all(any(bone.startswith(side + finger) for bone in bones) for side in _SIDES for finger in _FINGERS)
+    said = {"character.lips_still"} | (set() if fingers else {"character.no_fingers", "character.some_fingers"})
+    return tuple(note for note in notes if note.id not in said)
 
 
 def _props(figure: Figure, made: Mapped) -> list[str]:

@@ -261,6 +261,12 @@ def test_a_sword_is_left_out_from_the_start_and_said(program: Program, tmp_path:
     assert dialog.draft.hidden == ("Sword",)
 
 
+def test_the_size_of_the_instrument_is_said_beside_the_picture(program: Program, qtbot: QtBot) -> None:
+    """A toddler's trumpet is smaller than a grown-up's."""
+    reported = child(opened(program), QLabel, "character_status")
+    qtbot.waitUntil(lambda: "the instrument is scaled to" in reported.text(), timeout=20_000)
+
+
 def test_a_character_of_usual_size_keeps_the_height_of_its_file(program: Program) -> None:
     dialog = opened(program)
     assert child(dialog, QCheckBox, "character_height_automatic").isChecked()

@@ -18,14 +18,16 @@ from app.rig.grip.fitting.grip_files import usual_wrists
 from app.rig.grip.fitting.hand_problem import seed_turn
 from app.rig.grip.fitting.touch_targets import travel
 from app.rig.grip.lips import fit_lips
+from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import landmark_joints, landmark_positions, mesh_named
 from instrument_maps.hold import Carriage, Contact, HandSeed
+from instrument_maps.library import find_map, model_path
 from instrument_maps.map_table import Hand
 from instrument_maps.model import FINGERS, InstrumentMap
 from instrument_maps.size import scaled
-from metadata.load import load_skeleton
+from metadata.load import load_body, load_skeleton
 from metadata.model import Body
 
 REACH_SHARE, CARRIED_SHARE = 0.95, 1.70
@@ -63,6 +65,15 @@ def fitted_to_body(
     if held.size != 1.0:
         reported = (Message("character.instrument_size", {"percent": round(100.0 * held.size)}), *reported)
     return FittedInstrument(held, reported)
+
+
+def notes_on_body(character: Character) -> tuple[Message, ...]:
+    """Notes for the animator on a character with the instrument that bodies are checked with."""
+    body = load_body()
+    instrument = find_map(body.checked_with)
+    return fitted_to_body(
+        character, instrument, body, lambda: load_instrument(model_path(instrument), instrument)
+    ).reported
 
 
 def _touched(character: Character, instrument: InstrumentMap) -> tuple[InstrumentMap, tuple[Message, ...]]:
