@@ -11,7 +11,7 @@ from types import MappingProxyType
 import msgspec
 
 from app.rig.model import Character
-from app.rig.people.body_shapes import body_m, body_shapes
+from app.rig.people.body_shapes import Phenotype, body_m, body_shapes
 from app.rig.people.make_person import Original, original_of, person_character
 from app.rig.people.moved_joints import arm_after_m
 from app.rig.people.person import Person, PersonName, phenotypes, read_person
@@ -57,15 +57,21 @@ def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Cha
     """
     worn = {mesh: _original(named(owner), owner) for mesh, owner in person.worn.items()}
     original = _original(named(person.original), person.original)
-    return person_character(id, original, body_shapes(), person.phenotype, person.colors, worn)
+    return person_character(id, original, body_shapes(), _whole(person), person.colors, worn)
 
 
 def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
     """Return the length of a person's arm, upper and lower, before the person is made."""
     shapes = body_shapes()
-    bodies = (body_m(shapes, one) for one in (person.phenotype, phenotypes()[person.original]))
+    bodies = (body_m(shapes, one) for one in (_whole(person), phenotypes()[person.original]))
     after, before = (body[len(shapes.vertices) :] for body in bodies)
     return arm_after_m(named(person.original), dict(zip(shapes.joints, after - before, strict=True)))
+
+
+def _whole(person: Person) -> Phenotype:
+    """The phenotype of a person, who has the local changes of the finished body where there are no others."""
+    local = {**phenotypes()[person.original].local, **person.phenotype.local}
+    return msgspec.structs.replace(person.phenotype, local=local)
 
 
 @lru_cache(maxsize=4)
