@@ -3,7 +3,8 @@
 A file's zero pose need not be a standing body: programs lay every bone along an axis of its own. But in each bone some
 directions are fixed, whatever the zero pose is: to the next joint, between the hip joints or the shoulders, about which
 a knee or an elbow bends, away from the floor a foot stands on. They say how the bone is turned in the T-pose. Where the
-zero pose is a standing body, trunk, head, hands and feet are as it has them, and the frames say how limbs are twisted.
+zero pose is a standing body and far from what the frames say, trunk, head, hands and feet are as it has them: frames
+may show too little. Where it is near it is not used, so that a motion is the same to the last digits on any rig.
 
 A twist is that of the hinge as in `app.rig.characters.t_pose`: the motion of a knee or an elbow shows more of it than a
 pose.
@@ -22,12 +23,12 @@ from app.choreography.body_check import ASKEW_DEG, SURE
 from app.choreography.captured_joints import ARM, LEG, SIDES, Captured, X, Y, Z, angle_deg, unit
 from app.rig import quaternion
 
+NEAR_DEG: Final = 10.0
+"""A bone of a standing zero pose that is nearer than this to how the motion shows it in the T-pose is as shown."""
 MOST_TWIST_DEG: Final = 75.0
 """A hinge farther from where a standing zero pose has it is none."""
 ALIKE_DEG: Final = 40.0
 """Lines of neighbouring bones are taken for the same if the motion has them nearer than this in the mean."""
-SPINE_ALIKE_DEG: Final = 6.0
-"""Largest usual angle between two lines of the spine that count as one."""
 LEANS_DEG: Final = {"hips": -3.0, "spine": -2.0, "chest": -4.0}
 """Lean, ahead positive, of the way to the next joint of the trunk in a body that stands: the mean of rigs whose zero
 pose does (CMU, Mixamo, MakeHuman)."""
@@ -50,6 +51,8 @@ SLOW_PART: Final = 3
 """Share of the frames, the slowest ones, in which a foot is taken to stand."""
 FLAT_DEG: Final = 8.0
 """and flat in most of these, to this."""
+SETTLES: Final = 10
+"""Times that the mean of frames in which a foot is flat is taken again, of those that are near to it."""
 MOST_STANCES: Final = 400
 EDGE_DEG: Final = 20.0
 """Soles that stand flat are level to the sides as the knee's hinge is, to this."""
@@ -63,6 +66,30 @@ def t_pose(body: Captured, rest: Mapping[str, FloatArray] | None) -> dict[str, F
     rest : mapping of str to ndarray, shape (4,), or None
         The same by the zero pose, if that is a standing body.
     """
+    shown = _by(body, None)
+    if rest is None:
+        return shown
+    standing = _by(body, rest)
+    if not _shows_knees(body):
+        return standing
+    # How a chest leans is known of rigs that have a neck.
+    usual = [name for name in SEGMENTS if name != "chest" or "neck" in body.joints]
+    return standing | {name: shown[name] for name in usual if _near(standing[name], shown[name])}
+
+
+def _shows_knees(body: Captured) -> bool:
+    """Return whether both knees bend surely: a body that hardly moves shows nothing that its zero pose does not."""
+    legs = [([side + name for name in LEG], sign) for side, sign in SIDES]
+    return all(body.hinge(limb[0], body.bend(limb, sign))[1] > SURE for limb, sign in legs)
+
+
+def _near(turn: FloatArray, other: FloatArray) -> bool:
+    off = quaternion.multiply(turn, quaternion.conjugate(other))
+    return bool(np.degrees(np.linalg.norm(quaternion.to_rotation_vector(off))) < NEAR_DEG)
+
+
+def _by(body: Captured, rest: Mapping[str, FloatArray] | None) -> dict[str, FloatArray]:
+    """See `t_pose`: by the zero pose where there is one, else by the motion alone."""
     found = dict(rest) if rest is not None else _trunk(body)
     if rest is not None:
         found |= {name: _toes_ahead(rest[name], body.tips[name]) for name in FEET}
@@ -82,7 +109,6 @@ def _trunk(body: Captured) -> dict[str, FloatArray]:
     nexts["spine"] = body.start("chest")
     found = {}
     across = {name: body.mean(name, line) for name, line in lines.items()}
-    across["spine"] = _carried(across["chest"], across["spine"], SPINE_ALIKE_DEG)
     for name in lines:
         found[name] = _column(body, name, across[name], nexts[name] - body.start(name))
     if body.segments["spine"] in (body.segments["hips"], body.segments["chest"]):
@@ -108,13 +134,13 @@ def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> 
     return quaternion.multiply(quaternion.from_axis_angle(X, np.radians(LEANS_DEG[name] - lean_deg)), plain)
 
 
-def _carried(line: FloatArray, seen: FloatArray, alike_deg: float = ALIKE_DEG) -> FloatArray:
+def _carried(line: FloatArray, seen: FloatArray) -> FloatArray:
     """Return a line of the bone below in the axes of the next, if these are alike; else as it is seen in the mean.
 
     Programs that lay bones along an axis turn neighbours about it alike: their zero pose does not show how they
     lean, but which way they face.
     """
-    return line if angle_deg(line, seen) < alike_deg else seen
+    return line if angle_deg(line, seen) < ALIKE_DEG else seen
 
 
 def _head(body: Captured, chest_line: FloatArray, chest_ways: FloatArray) -> FloatArray:
@@ -261,6 +287,9 @@ def _sole_up(body: Captured, name: str) -> FloatArray:
     ups = body.within(name, body.up)[stances]
     near = ups @ ups.T > np.cos(np.radians(FLAT_DEG))
     mean: FloatArray = ups[near[int(near.sum(axis=1).argmax())]].mean(axis=0)
+    for _ in range(SETTLES):
+        # Of several frames that are as good, any leads to the same mean.
+        mean = ups[ups @ unit(mean) > np.cos(np.radians(FLAT_DEG))].mean(axis=0)
     return mean
 
 

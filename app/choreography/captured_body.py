@@ -196,7 +196,7 @@ class _Motion:
         exchanges = joints_by_side(body, named, kept) != mapping.bones
         if exchanges or not stands(body, zero, legs):
             return ()
-        return self._checked(body, up, mapping, zero, (rest.positions_m[None], rest.rotations[None]))
+        return self._checked(body, up, mapping, zero)
 
     def by_motion(
         self, mapping: JointMapping, named: bool, kept: Collection[str] = ()
@@ -208,7 +208,7 @@ class _Motion:
         joints = joints_by_side(body, named, kept)
         if joints != mapping.bones:
             body, up = self._captured(joints)
-        return self._checked(body, up, mapping, None, (self.places, self._rotations))
+        return self._checked(body, up, mapping, None)
 
     def by_lengths(self) -> JointMapping:
         """Joints by the lengths of bones, their sides as the names say that are known, or as the motion does."""
@@ -226,7 +226,6 @@ class _Motion:
         up: str,
         mapping: JointMapping,
         zero: Mapping[str, FloatArray] | None,
-        poses: tuple[FloatArray, FloatArray],
     ) -> CapturedBody | tuple[str, ...]:
         turns = t_pose(body, zero)
         found = checked(body, turns)
@@ -234,6 +233,7 @@ class _Motion:
         wrong = {joint: joint for joint in unlike(body, self._bvh.parents)} | wrong
         if wrong:
             return tuple(wrong.values())
+        poses = self.places, self._rotations
         hanging = {name: _hanging(self._bvh, *poses, body.segments[name]) for name in ENDS}
         guesses = () if zero is not None else (Message("motion.rest"), *_by_the_mean(body))
         bones = JointMapping(mapping.profile, body.joints, (), mapping.doubtful)

@@ -17,7 +17,7 @@ import numpy as np
 from app.arrays import ComplexArray, FloatArray
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import MotionClip
-from app.choreography.features import height_m, points_m
+from app.choreography.features import joint_points_m, size_m
 
 AROUND_S: Final = (-0.1, 0.0, 0.1)
 """Times about a join at which bodies are compared."""
@@ -43,7 +43,7 @@ class Clouds:
     """
 
     def __init__(self, clips: Sequence[MotionClip], places: Sequence[tuple[int, int]]) -> None:
-        points = [points_m(clip) * (STATURE_M / height_m(clip)) for clip in clips]
+        points = [joint_points_m(clip) * (STATURE_M / size_m(clip)) for clip in clips]
         found = []
         for clip, frame in places:
             steps = [frame + round(offset_s * float(clips[clip].fps)) for offset_s in AROUND_S]

@@ -15,7 +15,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from app.arrays import FloatArray, IntArray
 from app.choreography.clip import MotionClip
-from app.choreography.features import points_m
+from app.choreography.features import joint_points_m
 from app.choreography.peaks import prominent_peaks
 from app.choreography.rhythm import Rhythm
 
@@ -92,7 +92,7 @@ def motion_beats(clip: MotionClip) -> tuple[IntArray, FloatArray]:
 
 def summed_speed_m_s(clip: MotionClip) -> FloatArray:
     """(F,) speed of all points of the body together."""
-    return np.asarray(np.linalg.norm(np.gradient(points_m(clip), axis=0), axis=-1).sum(axis=-1) * float(clip.fps))
+    return np.asarray(np.linalg.norm(np.gradient(joint_points_m(clip), axis=0), axis=-1).sum(axis=-1) * float(clip.fps))
 
 
 def speed_minima(speed: FloatArray, fps: float, smoothing_s: float) -> tuple[IntArray, FloatArray]:

@@ -11,7 +11,7 @@ import pytest
 from app.choreography.body import ENDS, SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.cuts import Cut
-from app.choreography.features import facing, features, height_m, points_m
+from app.choreography.features import facing, features, height_m, joint_points_m, points_m, size_m
 from app.rig import quaternion
 
 SIDE = {"left": 1.0, "right": -1.0}
@@ -59,7 +59,7 @@ def test_height_pose_and_turn_do_matter() -> None:
     clip = random_clip(1)
     jump = replace(clip, hips_m=clip.hips_m + np.array((0.0, 0.17, 0.0)))
     change = (features(jump, CUTS) - features(clip, CUTS)).reshape(2, 3, 21, 3)
-    assert change == pytest.approx(np.broadcast_to((0.0, 0.1, 0.0), change.shape), abs=1e-9)
+    assert change == pytest.approx(np.broadcast_to((0.0, 0.17 / size_m(clip), 0.0), change.shape), abs=1e-9)
     turning = clip.rotations.copy()
     turning[:, 0] = quaternion.multiply(
         quaternion.from_axis_angle((0.0, 1.0, 0.0), np.linspace(0.0, 1.5, len(clip))), turning[:, 0]
@@ -74,11 +74,28 @@ def test_a_pose_in_numbers() -> None:
     still[:, 0] = quaternion.from_axis_angle((0.0, 1.0, 0.0), np.pi / 2.0)
     clip = MotionClip(shape(), Fraction(60), np.tile((5.0, 0.9, 2.0), (61, 1)), still)
     assert height_m(clip) == pytest.approx(1.7)
+    assert size_m(clip) == pytest.approx(1.7, abs=0.01)
     toes = points_m(clip)[0, len(SEGMENTS) + ENDS.index("leftFoot")]
     assert toes == pytest.approx((5.2, 0.0, 1.9))
     seen = features(clip, CUTS).reshape(2, 3, 21, 3)[1, 2, len(SEGMENTS) + ENDS.index("leftFoot")]
-    assert seen * 1.7 == pytest.approx((0.1, 0.0, 0.2))
+    assert seen * size_m(clip) == pytest.approx((0.1, 0.0, 0.2))
     assert quaternion.rotate(facing(clip), (0.0, 0.0, 1.0))[0] == pytest.approx((1.0, 0.0, 0.0))
+
+
+def test_turned_hands_and_heads_do_not_matter() -> None:
+    """Nothing in a file without eyes and fingers shows how they are turned; the dance must not depend on it."""
+    clip = random_clip(1)
+    turned, ends = clip.rotations.copy(), clip.shape.ends_m.copy()
+    for end, name in enumerate(("head", "leftHand", "rightHand")):
+        turn = quaternion.from_axis_angle((0.6, 0.0, 0.8), 0.5)
+        at = SEGMENTS.index(name)
+        turned[:, at] = quaternion.multiply(turned[:, at], turn)
+        ends[end] = quaternion.rotate(turn, ends[end])
+    other = replace(clip, rotations=turned, shape=BodyShape.of(clip.shape.offsets_m, ends))
+    assert features(other, CUTS) == pytest.approx(features(clip, CUTS), abs=1e-9)
+    # A straight arm's fingertips are where they are.
+    straight = replace(clip, rotations=np.tile(quaternion.IDENTITY, (len(clip), len(SEGMENTS), 1)))
+    assert joint_points_m(straight) == pytest.approx(points_m(straight), abs=1e-9)
 
 
 def test_no_motions_have_no_features() -> None:

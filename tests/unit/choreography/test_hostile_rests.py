@@ -17,6 +17,8 @@ from scipy.spatial.transform import Rotation
 from app.arrays import FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
+from app.choreography.cuts import Cut
+from app.choreography.features import features
 from app.choreography.read_motion import guesses, motion_of
 from app.errors import FileError
 from app.formats.bvh.clip import BvhClip
@@ -85,6 +87,24 @@ def test_the_dance_is_the_same_whatever_the_zero_pose_and_the_names_are(rest: st
     bvh = NAMES[names](rerigged(SALSA, REST_POSES[rest]))
     require_same(bvh)
     assert "motion.rest" in {guess.id for guess in guesses(motion_of(bvh, "a.bvh"))}
+
+
+@pytest.mark.parametrize("rest", ["random", "rolled"])
+def test_no_decision_depends_on_the_zero_pose_or_the_unit(rest: str) -> None:
+    """Dances are put together by choices, which last digits would turn: the bodies are the same but for rounding."""
+    other = rerigged(SALSA, REST_POSES[rest])
+    other = replace(
+        other,
+        offsets_cm=other.offsets_cm / 2.54,
+        root_translation_cm=other.root_translation_cm / 2.54,
+        end_sites_cm={joint: end / 2.54 for joint, end in other.end_sites_cm.items()},
+    )
+    read, expected = motion_of(other, "a.bvh").clip, motion_of(SALSA, "b.bvh").clip
+    off = off_deg(read, expected)
+    assert max(off[name] for name in SEGMENTS if name not in ("leftFoot", "rightFoot")) < 0.01
+    assert max(off["leftFoot"], off["rightFoot"]) < MOST_DEG
+    cuts = (Cut(0, 6, 12), Cut(6, 12, 18))
+    assert features(read, cuts) == pytest.approx(features(expected, cuts), abs=1e-4)
 
 
 @settings(max_examples=12, deadline=None)
