@@ -37,6 +37,8 @@ UPS: Final = {
     "-X": Rotation.from_euler("z", -90.0, degrees=True),
 }
 """Turns that take an axis of a file to +Y."""
+TURNS: Final = 1e-4
+"""Change of a quaternion's numbers beyond which a joint turns."""
 THUMB: Final = ("Metacarpal", "Proximal", "Distal")
 
 
@@ -213,7 +215,8 @@ class _Motion:
     def by_lengths(self) -> JointMapping:
         """Joints by the lengths of bones, their sides as the names say that are known, or as the motion does."""
         ends = {joint: float(np.linalg.norm(end)) for joint, end in self._bvh.end_sites_cm.items()}
-        bones = joints_by_lengths(self._bvh.parents, self.places, ends)
+        turning = set(np.flatnonzero(np.ptp(self._bvh.rotations_xyzw, axis=0).max(axis=1) > TURNS).tolist())
+        bones = joints_by_lengths(self._bvh.parents, self.places, ends, turning)
         if not _missing(bones):
             known = _by_names(self.figure).bones.items()
             sides = [one for one in (bones, exchanged(bones)) if any(one.get(joint) == bone for joint, bone in known)]

@@ -7,7 +7,7 @@ arbitrary here: `app.choreography.sides` finds them in the motion.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Final
@@ -42,7 +42,10 @@ class _Limb:
 
 
 def joints_by_lengths(
-    parents: Sequence[int], positions: FloatArray, end_lengths: Mapping[int, float]
+    parents: Sequence[int],
+    positions: FloatArray,
+    end_lengths: Mapping[int, float],
+    turning: Collection[int] = (),
 ) -> dict[str, int]:
     """Bones by VRM 1.0 joint; empty where there is no body.
 
@@ -52,18 +55,22 @@ def joints_by_lengths(
         Joints in the world.
     end_lengths : mapping of int to float
         Length of the bones that end nowhere, by joint.
+    turning : collection of int
+        Joints that turn: the last one above the neck is a head then, and no crown.
     """
     frames = np.linspace(0, len(positions) - 1, min(POSES, len(positions))).round().astype(int)
     poses = positions[frames]
     tree = tree_of(parents, poses[0], frozenset())
-    return _Body(tree, poses, end_lengths).joints()
+    return _Body(tree, poses, end_lengths, turning).joints()
 
 
 class _Body:
     """Lengths of the bones of a tree, and what they make of it."""
 
-    def __init__(self, tree: Tree, poses: FloatArray, end_lengths: Mapping[int, float]) -> None:
-        self._tree, self._poses = tree, poses
+    def __init__(
+        self, tree: Tree, poses: FloatArray, end_lengths: Mapping[int, float], turning: Collection[int]
+    ) -> None:
+        self._tree, self._poses, self._turning = tree, poses, turning
         above = np.maximum(tree.parents, 0)
         self._bone = np.median(np.linalg.norm(poses - poses[:, above], axis=2), axis=0)
         self._reach = np.zeros(len(tree.parents))
@@ -167,6 +174,6 @@ class _Body:
         while len(children) == 1 or (children and not path):
             path.append(max(children, key=lambda one: float(self._bone[one] + self._reach[one])))
             children = list(self._tree.children[path[-1]])
-        if len(path) > 1 and not children and not self._reach[path[-1]]:
+        if len(path) > 1 and not children and not self._reach[path[-1]] and path[-1] not in self._turning:
             path.pop()  # The crown, as files without end sites have it.
         return path

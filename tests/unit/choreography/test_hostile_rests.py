@@ -131,6 +131,17 @@ def test_parts_that_only_their_mean_turns_are_named(lost: str, joints: str) -> N
         assert max(off["leftHand"], off["rightHand"]) < 10.0
 
 
+def test_a_head_at_which_the_file_ends_is_no_crown() -> None:
+    """Neither eyes nor an end nor names: it turns, as the top of a head does not."""
+    bvh = without_names(without_joints(SALSA, lambda name: re.search("Eye", name) is not None))
+    head = SALSA.names.index("head")
+    ended = replace(bvh, end_sites_cm={**bvh.end_sites_cm, head: np.zeros(3)})
+    read, expected = motion_of(ended, "a.bvh"), motion_of(SALSA, "b.bvh")
+    assert off_deg(read.clip, expected.clip)["head"] < 10.0
+    places = [one.clip.world().positions_m[:, 1 + SEGMENTS.index("head")] for one in (read, expected)]
+    assert places[0] == pytest.approx(places[1], abs=0.03)
+
+
 @pytest.mark.parametrize("names", NAMES)
 def test_a_standing_zero_pose_is_used_whatever_the_names_are(names: str) -> None:
     read, expected = motion_of(NAMES[names](SALSA), "a.bvh"), motion_of(SALSA, "b.bvh")
