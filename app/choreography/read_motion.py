@@ -245,7 +245,7 @@ def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
 
 
 def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
-    """Clip with other positions of the hips and what they hang from."""
+    """Return a clip with the positions of the hips and of all joints above them multiplied by a change of unit."""
     above = {hips}
     while (parent := bvh.parents[min(above)]) >= 0:
         above.add(parent)

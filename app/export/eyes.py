@@ -31,14 +31,14 @@ _AHEAD: Final = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class EyesOfFile:
-    """Motion of a character whose eyes are turned as in a file.
+    """Motion of a character whose eyes are turned partly by joints and partly by morph targets, as files need it.
 
     Attributes
     ----------
     motion : Motion
-        With the turn of the joints of eyes that shapes leave, and the weights of the shapes.
+        Holds the weights of the morph targets; the eyes' joints turn by what those do not make.
     turned : mapping of str to (F, 4) float64
-        By joint: the rotation that shapes make beside it, so that their product is the whole turn.
+        By joint: the rotation that the morph targets make. The joint's own rotation times this one is the whole turn.
     """
 
     motion: Motion

@@ -59,7 +59,7 @@ def measure_joints(
 
 
 def _limits(joints: JointPlayback, body: Body, profile: SkeletonProfile) -> Mapping[int, JointLimits]:
-    """By the index of the joint."""
+    """Return the anatomical limits of the joints that have some, by their index in the playback."""
     known = {joint.name: joint.kind for joint in profile.joints}
     kinds = {bone: known.get(name, "") for bone, name in enumerate(joints.names)}
     return {bone: body.limits[kind] for bone, kind in kinds.items() if kind in body.limits}

@@ -88,7 +88,7 @@ class LaunchOptions:
 
 
 def make_application() -> QApplication:
-    """The application of Qt; before it what must be said before it."""
+    """Make the application of Qt, after the attributes that have to be set before it exists."""
     # Docking and floating keep the viewport's context only if contexts are shared.
     QCoreApplication.setAttribute(Qt.ApplicationAttribute.AA_ShareOpenGLContexts)
     QGuiApplication.setHighDpiScaleFactorRoundingPolicy(Qt.HighDpiScaleFactorRoundingPolicy.PassThrough)

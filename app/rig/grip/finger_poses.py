@@ -310,7 +310,7 @@ def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> F
 
 
 def _tip(table: FingerTable, rotations: FloatArray, tip_m: FloatArray, joint: int) -> FloatArray:
-    """Place (K, 3) of a joint's point in the wrist's frame."""
+    """Place (K, 3) of a joint's point in the wrist's frame, in K poses."""
     assert table.chain is not None
     point = tip_m
     for index in range(joint, -1, -1):
