@@ -19,10 +19,10 @@ IDLE_SHARE: Final = 0.4
 """A body idles that is slower than this share of the median speed of its clip ..."""
 IDLE_S: Final = 0.25
 """... averaged by a Gaussian of this standard deviation."""
-THIN: Final = 3.0
+THIN: Final = 5.0
 """Log odds a second against a segment in which the body hardly moves; of one that moves little, by how little."""
 THIN_SHARE: Final = 0.8
-"""A body moves little that is slower than this share of the median speed."""
+"""A body moves little that is slower than this share of the median speed of all clips."""
 
 
 def idling_odds(segments: Sequence[MotionSegment], speeds: Sequence[FloatArray], rates: Sequence[float]) -> FloatArray:
@@ -33,11 +33,12 @@ def idling_odds(segments: Sequence[MotionSegment], speeds: Sequence[FloatArray],
     speeds, rates : sequence
         By clip: mean speed of the joints in each frame, and frames per second.
     """
+    means = [gaussian_filter1d(speed, IDLE_S * fps, mode="nearest") for speed, fps in zip(speeds, rates, strict=True)]
+    of_all = float(np.median(np.concatenate(means)))
     slow = []
-    for speed, fps in zip(speeds, rates, strict=True):
-        mean = gaussian_filter1d(speed, IDLE_S * fps, mode="nearest")
-        usual = float(np.median(mean))
-        idle = binary_opening(mean < IDLE_SHARE * usual, np.ones(max(1, round(HELD_S * fps)), bool))
-        little = np.maximum(0.0, 1.0 - mean / max(THIN_SHARE * usual, 1e-9))
+    for mean, fps in zip(means, rates, strict=True):
+        held = np.ones(max(1, round(HELD_S * fps)), bool)
+        idle = binary_opening(mean < IDLE_SHARE * np.median(mean), held)
+        little = np.maximum(0.0, 1.0 - mean / max(THIN_SHARE * of_all, 1e-9))
         slow.append((IDLE * idle + THIN * little) / fps)
     return np.array([slow[one.clip][one.start : one.end].sum() for one in segments])
