@@ -46,7 +46,7 @@ TOES_CHANCE: Final = 0.4
 PHRASE_BEATS: Final = 8
 USUAL: Final = 0.9
 """Share of the steps that go no farther than `AHEAD_M` and `OUT_M` when a dance is made smaller."""
-AHEAD_M, BACK_M, OUT_M, IN_M = 0.11, 0.02, 0.11, 0.03
+AHEAD_M, BACK_M, OUT_M, IN_M = 0.11, 0.0, 0.08, 0.03
 """Farthest places of a foot: ahead, back (with its heel down under a bent knee), to its own side, and towards the other
 foot."""
 SPREAD: Final = 0.35

@@ -34,7 +34,7 @@ SEATED_TOES_RAD: Final = float(np.deg2rad(18.0))
 """Angle of the lifted toes of a player whose feet keep their place."""
 SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
 """Angle of a lifted heel of a player whose feet keep their place: instruments lie on thighs."""
-EASED_RAD: Final = float(np.deg2rad(4.0))
+EASED_RAD: Final = float(np.deg2rad(14.0))
 """Angle of the heel of the foot behind while the other one takes the weight: its ankle bends no farther."""
 EASED_S: Final = (0.22, 0.13, 0.35)
 """Time from the beginning of that to the beat, from the beat to its height, and from there to its end."""
@@ -46,13 +46,13 @@ OVER_M: Final = 0.08
 """Way of the hips over the foot that carries the weight."""
 OVER_S: Final = 0.3
 """Time in which the weight goes there, and back."""
-ROLL_RAD, TURN_RAD = float(np.deg2rad(8.0)), float(np.deg2rad(8.0))
+ROLL_RAD, TURN_RAD = float(np.deg2rad(5.0)), float(np.deg2rad(8.0))
 """Angles by which the hips are lower and farther ahead on the side of the foot that carries nothing."""
 LEAN_RAD, COUNTER_RAD = float(np.deg2rad(7.0)), float(np.deg2rad(6.0))
 """Lean of the chest to the foot that carries the weight, and its turn away from it, against that of the hips."""
 LIGHT: Final = 0.6
 """Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
-SINKS_M: Final = 0.033
+SINKS_M: Final = 0.026
 """Way of the hips down as a foot takes the weight on a beat."""
 SINK_S: Final = (0.1, 0.32)
 """Time from the beginning of that way to the beat, and from the beat to its end; a third of this is the way down."""
