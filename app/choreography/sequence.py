@@ -69,11 +69,11 @@ class Weights:
     speed: float = 1.5
     off_beat: float = 1.2
     model: float = 1.0
-    heard: float = 1.3
+    heard: float = 2.2
     chance: float = 0.6
     lately: float = 4.5
-    returns: float = 16.0
-    meets: float = 6.0
+    returns: float = 24.0
+    meets: float = 8.0
     take: float = 2.5
 
 
@@ -86,6 +86,8 @@ LEFT_OVER: Final = 0.85
 """Part of what a take is owed that is still owed a phrase later: what is not danced now need not be danced later."""
 LEAST_SHARE: Final = 0.25
 """No turn comes to a take that should be danced less than this part of the one that should be danced most."""
+SAME_TAKE: Final = 80.0
+"""Beats for which a take may be danced more than its share where music returns to which it was danced."""
 PHRASE_BEATS: Final = 8
 """Beats that are searched at a time; the motions danced in them then count as danced lately."""
 
@@ -191,11 +193,12 @@ def choose(
         before = chosen[-1] if chosen and search.reaches(chosen[-1][0], first) else None
         ends = np.zeros(segments) if final is None or seen < count else weights.model * final
         extra = noise - weights.lately * lately
+        again = np.zeros((seen - first, segments))
         if returns is not None:
             again = _danced_again(returns, chosen, range(first, seen), segments)
             extra += weights.returns * again + weights.lately * lately * np.maximum(again, 0.0)
         if turns is not None:
-            extra += weights.take * turns.favoured(grid, chosen, first, seen)
+            extra += weights.take * turns.favoured(grid, chosen, first, again)
         found = search.phrase(before, first, seen, extra, ends)
         chosen += [row for row in found if row[0] < stop or seen == count]
         if seen == count:
@@ -236,21 +239,25 @@ class _Turns:
     def __init__(self, takes: TakeShares, random: np.random.Generator) -> None:
         self._takes = takes
         self._owed = takes.shares[:1].sum(axis=0) * random.random(takes.shares.shape[1]) * PHRASE_BEATS
-        self._counted, self._place = 0, 0
+        self._counted = 0
 
-    def favoured(self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, seen: int) -> FloatArray:
-        """(S,) 1 for the segments of the take whose turn it is in the places ``first`` to ``seen``."""
-        beats = grid.beats
+    def favoured(
+        self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, again: FloatArray
+    ) -> FloatArray:
+        """(S,) 1 for the segments of the take whose turn it is from a place on; ``again`` as of `_danced_again`: music
+        that returns is the turn of the take that was danced to it, other music that of another."""
+        beats, takes = grid.beats, self._takes.takes
         # An accent is danced about its place; what was danced since the last phrase is taken off.
         for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
-            self._owed[self._takes.takes[segment]] -= max(0.0, beats[following] - beats[place])
+            self._owed[takes[segment]] -= max(0.0, beats[following] - beats[place])
         self._counted = len(chosen)
-        share = self._takes.shares[first:seen].mean(axis=0)
+        share = self._takes.shares[first : first + len(again)].mean(axis=0)
         self._owed = LEFT_OVER * self._owed + share * PHRASE_BEATS
-        return np.asarray(
-            self._takes.takes == int(np.where(share > LEAST_SHARE * share.max(), self._owed, -np.inf).argmax()),
-            np.float64,
-        )
+        turn = np.where(share > LEAST_SHARE * share.max(), self._owed, -np.inf)
+        for take in np.unique(takes).tolist():
+            own = again[:, takes == take]
+            turn[take] += SAME_TAKE * float((own.max(axis=1) + own.min(axis=1)).mean())
+        return np.asarray(takes == int(turn.argmax()), np.float64)
 
 
 class _Search:
