@@ -22,7 +22,9 @@ def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
     if pixels is None:
         return None
     height, width = pixels.shape[:2]
-    places = (np.asarray(uvs, np.float64) * use.scale + use.offset) % 1.0
+    places = np.asarray(uvs, np.float64) * use.scale + use.offset
+    # The end of a picture is not its beginning.
+    places = np.where((places < 0.0) | (places > 1.0), places % 1.0, places)
     rows = np.minimum((places[:, 1] * height).astype(np.intp), height - 1)
     columns = np.minimum((places[:, 0] * width).astype(np.intp), width - 1)
     values: FloatArray = pixels[rows, columns].astype(np.float64)

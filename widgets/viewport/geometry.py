@@ -14,11 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import FloatArray, IntArray, SingleArray
+from app.formats.scene import Material
+from app.formats.texture_colors import linear, sampled
 from app.rig.mesh import Mesh, plain_materials
 from app.rig.model import Character, InstrumentModel
 from widgets.viewport.normals_across_seams import SplitMesh, Weld, row_keys, split_mesh
 from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
+from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
 """Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
@@ -27,6 +30,8 @@ PLAIN_FACTOR, PLAIN_LEAST_M = 1.4, 0.08
 """Factor by which cloth and hair may be coarser than skin, and the thickness below which a mesh (eyes) may not."""
 THIN_SHARES = (0.0, 0.1, 0.34)
 """Coarsest size of thin things (brows, eyes) by level, as a share of their smallest side."""
+LEAST_CELL_M = 1e-5
+"""Finest size of what is flat."""
 LEVELS = len(BODY_CELLS_M)
 _MOST_SHORT = 2**16 - 1
 """Vertices whose numbers have 16 bits."""
@@ -195,11 +200,12 @@ def _levels(meshes: Sequence[Mesh], cells_m: Sequence[float], plain_factor: floa
     def make() -> tuple[Geometry, ...]:
         whole = _Whole([split_mesh(mesh) for mesh in meshes], plain_factor)
         return tuple(
-            whole.level(cell_m, share, morphs=index < len(cells_m) - 1)
+            whole.level(cell_m, share, far=index == len(cells_m) - 1)
             for index, (cell_m, share) in enumerate(zip(cells_m, THIN_SHARES, strict=True))
         )
 
-    return kept(meshes, (tuple(cells_m), plain_factor), make)
+    looks = textured_looks(meshes)
+    return tuple(replace(level, looks=looks) for level in kept(meshes, (tuple(cells_m), plain_factor), make))
 
 
 class _Whole:
@@ -219,6 +225,10 @@ class _Whole:
         self._part = np.repeat(np.arange(len(splits)), counts)
         self._thickness = np.repeat([_thickness_m(split.mesh) for split in splits], counts)
         self._two_sided = np.zeros(total, dtype=bool)
+        self._uvs, self._look = np.zeros((total, 2), np.float32), np.full(total, -1, np.int32)
+        self._shades = np.ones((total, 3), np.float32)
+        """Colour of a texture at a vertex, beside its mean."""
+        looks = textured_looks([split.mesh for split in splits])
         self._coarser = np.repeat([plain_factor if _is_plain(split.mesh) else 1.0 for split in splits], counts)
         for split, start in zip(splits, self._starts, strict=False):
             own = slice(int(start), int(start) + len(split.vertices))
@@ -233,16 +243,36 @@ class _Whole:
             metallic = np.array([material.metallic for material in plain], np.float32)
             self._surface["a_color"][own] = colors[split.materials]
             self._surface["a_metallic"][own] = metallic[split.materials]
+            self._texture(own, split, looks)
             two_sided = np.array([material.double_sided for material in mesh.materials])
             self._two_sided[own] = two_sided[split.materials]
         colors = np.ascontiguousarray(self._surface["a_color"]).view(np.int32)
-        self._looks = np.unique(row_keys(self._part, *colors.T), return_inverse=True)[1].reshape(-1)
-        """The same number for vertices of one mesh and colour."""
+        islands = uv_islands(self._triangles, self._look >= 0)
+        self._looks = np.unique(row_keys(self._part, islands, *colors.T), return_inverse=True)[1].reshape(-1)
+        """The same number for vertices of one mesh and colour and, where they have textures, of one part of these."""
+        self._surface["a_color"][:, :3] *= self._shades
         self._morphs = self._all_morphs()
 
-    def level(self, cell_m: float, thin_share: float, morphs: bool) -> Geometry:
+    def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...]) -> None:
+        """Note texture coordinates, looks and colours of a mesh's vertices."""
+        mesh, uvs = split.mesh, split.mesh.uvs[split.vertices]
+        self._uvs[own] = uvs
+        for number, (material, plain) in enumerate(zip(mesh.materials, plain_materials(mesh), strict=True)):
+            if material not in looks:
+                continue
+            here = np.flatnonzero(split.materials == number)
+            self._look[own][here] = looks.index(material)
+            found = None
+            if material.textures.color is not None and material.alpha_mode == "opaque":
+                found = sampled(material.textures.color, uvs[here])
+            if found is not None:
+                shade = linear(found[:, :3]) * material.base_color[:3] / np.maximum(plain.base_color[:3], 1e-4)
+                self._shades[own][here] = shade
+
+    def level(self, cell_m: float, thin_share: float, far: bool) -> Geometry:
+        """One level of detail; the ``far`` one has no morphs and no textures but their colours."""
         kept, triangles = self._clustered(cell_m, thin_share)
-        names = tuple(self._morphs) if morphs else ()
+        names = () if far else tuple(self._morphs)
         moved = np.zeros(len(self._shape), dtype=bool)
         for name in names:
             moved[self._morphs[name][0]] = True
@@ -255,10 +285,20 @@ class _Whole:
         face = self._face(names, shape, place, count) if count else None
         # Vertices of different materials are never one, so that the first corner decides for the triangle.
         last = self._two_sided[triangles[:, 0]]
-        sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
+        look = self._look[triangles[:, 0]]
+        textured = not far and bool((look >= 0).any())
+        if textured:
+            ranked = np.lexsort((look, last))
+            sorted_triangles = triangles[ranked]
+        else:
+            sorted_triangles = np.concatenate([triangles[~last], triangles[last]])
         surfaces, surface_of = self._surfaces(order)
-        corners = place[sorted_triangles].astype(np.uint16 if len(order) <= _MOST_SHORT else np.uint32)
-        return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of)
+        numbered = place[sorted_triangles]
+        corners = numbered.astype(np.uint16) if len(order) <= _MOST_SHORT else numbered.astype(np.uint32)
+        if not textured:
+            return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of)
+        groups = texture_groups(look[ranked], last[ranked])
+        return Geometry(shape, surfaces, corners, int((~last).sum()), face, surface_of, self._uvs[order], groups)
 
     def _surfaces(self, order: IntArray) -> tuple[npt.NDArray[np.void], npt.NDArray[np.uint16] | None]:
         """`Geometry.surfaces` of some vertices, and `Geometry.surface_of`."""
@@ -285,7 +325,7 @@ class _Whole:
         """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""
         if cell_m <= 0.0:
             return np.arange(len(self._shape)), self._triangles
-        wide = np.minimum(cell_m * self._coarser, thin_share * self._thickness)[:, None]
+        wide = np.maximum(np.minimum(cell_m * self._coarser, thin_share * self._thickness), LEAST_CELL_M)[:, None]
         cells = np.floor(self._shape["a_position"].astype(np.float64) / wide).astype(np.int64)
         # Surfaces that face away from one another are not merged through a thin wall.
         facing = np.argmax(np.abs(self._shape["a_normal"]), axis=1)

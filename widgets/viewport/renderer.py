@@ -27,6 +27,7 @@ from widgets.viewport.geometry import (
 from widgets.viewport.limb_capsules import HELD, LIMBS, SHADING, LimbCapsules
 from widgets.viewport.shape_model import Geometry
 from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
+from widgets.viewport.texture_maps import TextureMaps
 
 FINE_PX_PER_M = 620.0
 """Size on screen above which a player is drawn from all vertices."""
@@ -38,6 +39,8 @@ HASTY_FACTOR = 1.7
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
 """Parts of the names of renderers that have no card."""
 GL_MULTISAMPLE = 0x809D
+_ALL = 2**30
+_NO_LOOK = (0.0, 0.0, 0.0, 0.0)
 MIDDLE_M = np.array([0.0, 1.0, 0.0])
 """About where the chest of a player is."""
 SPREAD_M = 1.25
@@ -74,6 +77,7 @@ class Renderer:
         corners = np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)], np.float32)
         self._backdrop["a_corner"] = corners
         self._ring["a_corner"] = corners
+        self._maps = TextureMaps()
         self._video = _program("video")
         self._video["a_corner"] = corners
         self._video_picture: Picture | None = None
@@ -132,6 +136,11 @@ class Renderer:
             program["u_limbs"] = self._limb_texture
             program["u_limbs_size"] = (float(self._limb_rows.shape[1]), float(count))
             program["u_shaded"] = 0.0
+            self._maps.undress(program)
+            program["a_uv"] = (0.0, 0.0)
+            program["u_factor"], program["u_surface"], program["u_shared"] = _NO_LOOK, _NO_LOOK, (0.0, 0.0, 1.0)
+            for place in ("u_color_place", "u_surface_place", "u_normal_place"):
+                program[place] = _NO_LOOK
         self._figures["a_row"] = 0.0
         self._shadows["u_limbs"] = self._limb_texture
         self._shadows["u_limbs_size"] = (float(self._limb_rows.shape[1]), float(count))
@@ -147,6 +156,7 @@ class Renderer:
         picture."""
         self._stage = self._shapes = self._limbs = None
         self._solids.clear()
+        self._maps.clear()
         self._morphed.clear()
         self._sent.clear()
 
@@ -184,6 +194,8 @@ class Renderer:
         stage, shapes, limbs = self._stage, self._shapes, self._limbs
         if stage is None or shapes is None or limbs is None or not stage.members or not stage.shown.any():
             return
+        # Who turns the camera waits for no image; a picture that stands has them all.
+        self._maps.left = 1 if emphasis.in_motion else _ALL
         level = self._levels(stage, camera, matrix, height / HASTY_FACTOR if hasty else height)
         self._upload(stage, limbs, level, emphasis)
         clip = matrix.T.astype(np.float32)
@@ -313,7 +325,7 @@ class Renderer:
         program["u_shaded"] = 1.0
         bodies = [row for row in near if stage.members[row].has_body]
         for row in sorted(bodies, key=lambda row: (stage.members[row].assets.character.id, level[row])):
-            solid = self._solid(shapes.characters[stage.members[row].assets.character.id][level[row]])
+            solid = self._solid(shapes.characters[stage.members[row].assets.character.id][level[row]], level[row] == 0)
             program.bind(self._shape(stage, row, int(level[row]), solid))
             program.bind(solid.surface)
             self._draw_solid(solid, row, mode)
@@ -322,7 +334,7 @@ class Renderer:
         bound: Solid | None = None
         holding = [row for row in near if stage.members[row].assets.held is not None]
         for row in sorted(holding, key=lambda row: (stage.members[row].assets.map.id, level[row])):
-            solid = self._solid(shapes.instruments[stage.members[row].assets.map.id][level[row]])
+            solid = self._solid(shapes.instruments[stage.members[row].assets.map.id][level[row]], level[row] == 0)
             bound = self._draw_shared(solid, bound, row, mode)
         for row in near:
             if stage.members[row].seat_m is not None:
@@ -341,9 +353,25 @@ class Renderer:
     def _draw_solid(self, solid: Solid, row: int, mode: str) -> None:
         self._figures["u_row"] = float(row)
         if mode == "triangles":
-            draw_sides(self._figures, solid.triangles)
+            self._draw_looks(solid)
         else:
             self._figures.draw(mode, solid.edges)
+
+    def _draw_looks(self, solid: Solid) -> None:
+        """Draw a solid in its textures; one without has the colours of its vertices."""
+        program, looks = self._figures, solid.geometry.looks
+        if solid.uvs is not None:
+            program["a_uv"] = solid.uvs
+        for culled, look, triangles in solid.triangles:
+            if look >= 0:
+                # Only the finest of a figure's levels is seen from so near that its surface has a relief.
+                self._maps.dress(program, looks[look], solid.fine)
+            gloo.set_state(cull_face=culled)
+            program.draw("triangles", triangles)
+            if look >= 0:
+                self._maps.undress(program)
+        if solid.uvs is not None:
+            program["a_uv"] = (0.0, 0.0)
 
     def _draw_wires(
         self,
@@ -366,10 +394,10 @@ class Renderer:
             program["u_line"] = (0.0, 0.0, 0.0, 0.0)
             program["u_lift"] = 0.0
 
-    def _solid(self, geometry: Geometry) -> Solid:
+    def _solid(self, geometry: Geometry, fine: bool = False) -> Solid:
         solid = self._solids.get(id(geometry))
         if solid is None:
-            solid = self._solids[id(geometry)] = Solid(geometry)
+            solid = self._solids[id(geometry)] = Solid(geometry, fine)
         return solid
 
     def _shape(self, stage: Stage, row: int, level: int, solid: Solid) -> Any:

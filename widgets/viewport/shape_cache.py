@@ -61,6 +61,8 @@ class _Level(msgspec.Struct, frozen=True):
     one_sided: int
     face: _Face | None
     surface_of: _Array | None
+    uvs: _Array | None
+    groups: _Array | None
 
 
 class _Head(msgspec.Struct, frozen=True):
@@ -136,6 +138,8 @@ def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
             level.one_sided,
             None if level.face is None else put_face(level.face),
             None if level.surface_of is None else put(level.surface_of),
+            None if level.uvs is None else put(level.uvs),
+            None if level.groups is None else put(level.groups),
         )
         for level in levels
     )
@@ -180,6 +184,8 @@ def _read(path: Path) -> tuple[Geometry, ...] | None:
             level.one_sided,
             None if level.face is None else face_of(level.face),
             None if level.surface_of is None else got(level.surface_of),
+            None if level.uvs is None else got(level.uvs),
+            None if level.groups is None else got(level.groups),
         )
         for level in head.levels
     )

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arrays import SingleArray
+from app.formats.scene import Material
 
 BONES_PER_VERTEX = 4
 
@@ -67,6 +68,13 @@ class Geometry:
     face : MorphTargets or None
     surface_of : (V,) uint16 or None
         Which of the surfaces each vertex has: those of what does not bend are few. None: each its own.
+    uvs : (V, 2) float32 or None
+        Where anything has textures; v points down.
+    groups : (G, 3) int32 or None
+        Triangles of one look, which follow one another: the first, how many, and which of the looks; -1: the colours of
+        the vertices. None: all have these.
+    looks : tuple of Material
+        With textures.
     """
 
     shape: npt.NDArray[np.void]
@@ -75,6 +83,9 @@ class Geometry:
     one_sided: int
     face: MorphTargets | None = None
     surface_of: npt.NDArray[np.uint16] | None = None
+    uvs: SingleArray | None = None
+    groups: npt.NDArray[np.int32] | None = None
+    looks: tuple[Material, ...] = ()
 
     @property
     def surface(self) -> npt.NDArray[np.void]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from vispy import gloo
 
 from widgets.viewport.cast import Member, Stage
@@ -82,6 +83,17 @@ def sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
     return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
 
 
+def looks(geometry: Geometry) -> tuple[tuple[bool, int, Any], ...]:
+    """Triangles of one look each: whether their backs are left out, the number of the look, and indices."""
+    if geometry.groups is None:
+        return tuple((culled, -1, indices) for culled, indices in sides(geometry))
+    groups = ((int(first), int(count), int(look)) for first, count, look in geometry.groups)
+    return tuple(
+        (first < geometry.one_sided, look, gloo.IndexBuffer(geometry.triangles[first : first + count]))
+        for first, count, look in groups
+    )
+
+
 def draw_sides(program: Any, sides: tuple[tuple[bool, Any], ...]) -> None:
     for culled, triangles in sides:
         gloo.set_state(cull_face=culled)
@@ -89,12 +101,19 @@ def draw_sides(program: Any, sides: tuple[tuple[bool, Any], ...]) -> None:
 
 
 class Solid:
-    """A geometry on the graphics card."""
+    """A geometry on the graphics card.
 
-    def __init__(self, geometry: Geometry) -> None:
-        self.geometry = geometry
+    Parameters
+    ----------
+    fine : bool
+        Whether it is the finest level of its figure.
+    """
+
+    def __init__(self, geometry: Geometry, fine: bool = False) -> None:
+        self.geometry, self.fine = geometry, fine
         self.surface = gloo.VertexBuffer(geometry.surface)
-        self.triangles = sides(geometry)
+        self.triangles = looks(geometry)
+        self.uvs = None if geometry.uvs is None else gloo.VertexBuffer(np.ascontiguousarray(geometry.uvs))
         self._shape: Any = None
         self._edges: Any = None
 

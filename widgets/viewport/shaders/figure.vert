@@ -17,12 +17,14 @@ attribute vec4 a_weights;
 attribute vec4 a_color;
 attribute float a_metallic;
 attribute float a_row;
+attribute vec2 a_uv;
 varying vec3 v_position;
 varying vec3 v_normal;
 varying vec4 v_color;
 varying float v_metallic;
 varying vec2 v_open;
 varying float v_solid;
+varying vec2 v_uv;
 
 vec4 texel(float column, float row) {
     return texture2DLod(u_bones, (vec2(column, row) + 0.5) / u_bones_size, 0.0);
@@ -84,6 +86,7 @@ void main() {
     v_normal = vec3(dot(x.xyz, a_normal), dot(y.xyz, a_normal), dot(z.xyz, a_normal));
     v_color = a_color;
     v_metallic = a_metallic;
+    v_uv = a_uv;
     v_solid = 1.0 - state.z;
     v_open = u_shaded > 0.5 ? shaded(v_position, normalize(v_normal), row) : vec2(1.0);
     vec3 shown = v_position + u_lift * normalize(u_eye - v_position);
