@@ -99,8 +99,6 @@ class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         A strain grows in the first and passes in the second.
     lid_per_rad : float
         Lids go down by this weight when the eyes look down by a radian.
-    relaxed : dict of str to float
-        Always: lids of eyes that are open, but not wide.
     working : dict of str to float
         At once with the load of a note.
     strain : dict of str to float
@@ -126,7 +124,6 @@ class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     rise_s: Positive
     decay_s: Positive
     lid_per_rad: NotNegative
-    relaxed: Weights
     working: Weights
     strain: Weights
     rising: Weights

@@ -16,6 +16,7 @@ from pathlib import Path
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
+from character_anatomy import load_person
 from character_body import ear_vertices, tongue, visible_body
 from character_breath import add_breath
 from character_brows import deepen_brows
@@ -26,7 +27,7 @@ from character_hair import bun_hair, short_hair
 from character_landmarks import landmarks
 from character_shoes import shoes, soles
 from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
-from character_source import Phenotype, Source, load_model, load_source
+from character_source import Phenotype, Source, load_model
 from character_surface import Surface
 from character_teeth import teeth
 
@@ -113,7 +114,7 @@ CHARACTERS = (
                 "asian": 0.4,
                 "caucasian": 0.6,
             },
-            HANDS_AS_MEASURED,
+            HANDS_AS_MEASURED | {"measure-lowerarm-length-incr": 0.45},
             1.68,
         ),
         _materials((0.61, 0.36, 0.25), (0.51, 0.225, 0.18), (0.035, 0.016, 0.008)),
@@ -136,8 +137,8 @@ CHARACTERS = (
                 "asian": 0.3,
                 "caucasian": 0.7,
             },
-            HANDS_AS_MEASURED,
-            1.80,
+            HANDS_AS_MEASURED | {"hip-scale-horiz-incr": -0.4},
+            1.797,
         ),
         _materials((0.53, 0.30, 0.20), (0.43, 0.205, 0.155), (0.018, 0.010, 0.006)),
         brow_thickness=1.1,
@@ -186,7 +187,7 @@ def main() -> None:
     model = load_model()
     for character in CHARACTERS:
         path = folder / f"{character.name}.glb"
-        build(character, load_source(model, character.phenotype), path)
+        build(character, load_person(model, character.phenotype), path)
         print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
 
 

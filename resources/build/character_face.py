@@ -19,7 +19,7 @@ def eyes(source: Source, fit: SkeletonFit) -> Surface:
         joint = fit.index(side + "Eye")
         centre = fit.world_from_joint_rest[joint, :3, 3]
         helper = source.vertices[np.unique(source.groups[f"helper-{letter}-eye"].vertices)]
-        radius = float(np.ptp(helper[:, 0]) / 2)
+        radius = float(np.linalg.norm(helper - centre, axis=1).mean())
         edges = np.arcsin(
             np.array([0.0, PUPIL_M * 0.5, PUPIL_M, (PUPIL_M + IRIS_M) / 2, IRIS_M, LIMBUS_M, LIMBUS_M * 1.15]) / radius
         )

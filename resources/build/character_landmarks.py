@@ -8,6 +8,8 @@ from character_surface import Surface
 
 FINGER_MATERIAL, NAIL_MATERIAL, LIP_MATERIAL = "skin", "nails", "lips"
 PAD_VERTICES = 6
+BARE_MIDDLE = (0.62, 0.5, 0.55)
+"""Middles of what is bare of the phalanges, as shares of their lengths: the web covers half of the first."""
 
 
 def _entry(surface: Surface, vertices: np.ndarray) -> dict[str, object]:
@@ -62,7 +64,7 @@ def _finger(
         dorsal = nail_direction - axis * (nail_direction @ axis)
         dorsal /= np.linalg.norm(dorsal)
         thumb_side = np.cross(dorsal, axis) * -sign
-        middle = frame[:3, 3] + axis * length * (0.5 if order < 2 else 0.55)
+        middle = frame[:3, 3] + axis * length * BARE_MIDDLE[order]
         own = np.flatnonzero(body.weights[:, fit.index(joint)] > (0.9 if order == 2 else 0.6))
         places["pad" + names[order]] = _patch(body, own, middle, -dorsal, PAD_VERTICES)
         places["side" + names[order]] = _patch(body, own, middle, thumb_side, 4)

@@ -40,8 +40,6 @@ def upper_face(
         (wandering.nose, face.nose),
     )
     drivers: list[Driver] = [(size * driver, weights) for driver, weights in followed if weights]
-    if face.relaxed:
-        drivers.append((np.ones(len(looking_down_rad)), face.relaxed))
     if face.lid_per_rad:
         down_rad = np.maximum(looking_down_rad, 0.0)
         drivers.append((face.lid_per_rad * down_rad, {"eyeBlinkLeft": 1.0, "eyeBlinkRight": 1.0}))

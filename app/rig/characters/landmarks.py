@@ -27,6 +27,10 @@ COINCIDE_M = 1e-6
 PATCH_M = 0.006
 """Radius over the skin of a place's vertices, or little more than the distance of its nearest one: a mean over
 vertices all around a finger would lie deep in its flesh."""
+BARE_MIDDLE = (0.62, 0.5, 0.55)
+"""Middles of what is bare of the phalanges, as shares of their lengths: the web covers half of the first."""
+PALM_M = 0.014
+"""The same of a palm, whose skin is flat and has few vertices."""
 FACING = (0.7, 0.5)
 """A place's skin looks its way by this (the cosine), or by that where none does."""
 LEAST_WEIGHTS = (0.5, 0.25)
@@ -83,7 +87,9 @@ def _own(skin: _Skin, joints: list[int], least: float) -> IndexArray:
     return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
 
 
-def _patch(skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArray, count: int) -> IndexArray:
+def _patch(
+    skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArray, count: int, within_m: float = PATCH_M
+) -> IndexArray:
     """Vertices about the place where a ray from inside a limb leaves its skin, or nearest to there where none faces
     that way."""
     off = skin.positions[own] - origin
@@ -92,15 +98,15 @@ def _patch(skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArr
     ahead = skin.normals[own] @ direction
     facing = next((found for least in FACING if (found := (ahead > least) & (along > 0.0)).any()), None)
     if facing is None:
-        return _nearest(skin, own, origin, count)
+        return _nearest(skin, own, origin, count, within_m)
     place = origin + direction * along[facing][np.argmin(across[facing])]
-    return _nearest(skin, own[facing], place, count)
+    return _nearest(skin, own[facing], place, count, within_m)
 
 
-def _nearest(skin: _Skin, own: IndexArray, place: FloatArray, count: int) -> IndexArray:
+def _nearest(skin: _Skin, own: IndexArray, place: FloatArray, count: int, within_m: float = PATCH_M) -> IndexArray:
     far = np.linalg.norm(skin.positions[own] - place, axis=1)
     order = np.argsort(far, kind="stable")[:count]
-    return np.sort(own[order[far[order] <= max(PATCH_M, 1.25 * far[order[0]])]])
+    return np.sort(own[order[far[order] <= max(within_m, 1.25 * far[order[0]])]])
 
 
 def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
@@ -140,14 +146,14 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
             if order == 2:
                 # A fingertip is about as long as the phalanx before it, where no skin says so.
                 reach = float(((around.positions[own] - rest[joint]) @ bone).max()) if len(own) else 0.9 * length
-            middle = rest[joint] + bone * reach * (0.5 if order < 2 else 0.55)
+            middle = rest[joint] + bone * reach * BARE_MIDDLE[order]
             for place, direction, count in (("pad", palmar, PAD_VERTICES), ("side", thumbward, SIDE_VERTICES)):
                 towards = direction / np.linalg.norm(direction)
                 rows = _patch(around, own if len(own) else hand, middle, towards, count)
                 places[f"{finger}.{place}{phalanx}"] = around, rows
     knuckle = rest[skeleton.index(f"{side}MiddleProximal")]
     down = np.array([0.0, -1.0, 0.0])
-    places["palm"] = skin, _patch(skin, hand, rest[wrist] + 0.6 * (knuckle - rest[wrist]), down, PALM_VERTICES)
+    places["palm"] = skin, _patch(skin, hand, rest[wrist] + 0.6 * (knuckle - rest[wrist]), down, PALM_VERTICES, PALM_M)
     web = (rest[skeleton.index(f"{side}IndexProximal")] + rest[skeleton.index(f"{side}ThumbProximal")]) / 2
     places["thumb_web"] = skin, _nearest(skin, hand, web, WEB_VERTICES)
     places["hand"] = skin, hand

@@ -19,31 +19,31 @@ OWN_VERTEX: Final = 0.5
 """A vertex belongs to the joints that hold more than this share of it."""
 HAND_M: Final = (
     {
-        "ThumbMetacarpal": (0.040, -0.003, 0.025),
-        "ThumbProximal": (0.063, -0.003, 0.048),
-        "ThumbDistal": (0.090, -0.003, 0.075),
+        "ThumbMetacarpal": (0.028, -0.002, 0.018),
+        "ThumbProximal": (0.060, -0.002, 0.050),
+        "ThumbDistal": (0.086, -0.002, 0.075),
     },
     {
-        "IndexProximal": (0.108, -0.005, 0.027),
-        "IndexIntermediate": (0.135, -0.005, 0.027),
-        "IndexDistal": (0.159, -0.005, 0.027),
+        "IndexProximal": (0.093, -0.005, 0.026),
+        "IndexIntermediate": (0.138, -0.005, 0.026),
+        "IndexDistal": (0.163, -0.005, 0.026),
     },
-    {"MiddleProximal": (0.107, 0.0, 0.0), "MiddleIntermediate": (0.143, 0.0, 0.0), "MiddleDistal": (0.171, 0.0, 0.0)},
+    {"MiddleProximal": (0.093, 0.0, 0.0), "MiddleIntermediate": (0.142, 0.0, 0.0), "MiddleDistal": (0.172, 0.0, 0.0)},
     {
-        "RingProximal": (0.101, 0.0, -0.020),
-        "RingIntermediate": (0.132, 0.0, -0.020),
-        "RingDistal": (0.158, 0.0, -0.020),
+        "RingProximal": (0.085, 0.0, -0.020),
+        "RingIntermediate": (0.131, 0.0, -0.020),
+        "RingDistal": (0.160, 0.0, -0.020),
     },
     {
-        "LittleProximal": (0.091, -0.005, -0.039),
-        "LittleIntermediate": (0.113, -0.005, -0.039),
-        "LittleDistal": (0.129, -0.005, -0.039),
+        "LittleProximal": (0.069, -0.005, -0.033),
+        "LittleIntermediate": (0.106, -0.005, -0.033),
+        "LittleDistal": (0.127, -0.005, -0.033),
     },
 )
 """Our own adult's left fingers in the T-pose, from the wrist."""
 HAND_REACH_M: Final = 0.195
 """From its wrist to the tip of the middle finger."""
-EYE_M: Final = np.array([0.031, 0.042, 0.087])
+EYE_M: Final = np.array([0.031, 0.042, 0.091])
 HEAD_TOP_M: Final = 0.13
 """From the head's joint: its left eye and its crown."""
 TOES_M: Final = np.array([0.0, -0.048, 0.153])

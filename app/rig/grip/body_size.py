@@ -23,7 +23,7 @@ Range = tuple[float, float]
 
 # Of grown-ups, metres: from the wrist to the last joint of the middle finger, across the knuckles, upper and lower arm,
 # height of the hips, between the eyes. Our woman and man; of arms, legs and faces a little beyond either.
-HAND_M, KNUCKLES_M, ARM_M, LEGS_M, EYES_M = (0.155, 0.173), (0.062, 0.070), (0.45, 0.57), (0.86, 1.06), (0.057, 0.064)
+HAND_M, KNUCKLES_M, ARM_M, LEGS_M, EYES_M = (0.155, 0.173), (0.058, 0.070), (0.45, 0.57), (0.86, 1.06), (0.057, 0.064)
 
 _Value = TypeVar("_Value")
 

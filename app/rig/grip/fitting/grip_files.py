@@ -25,14 +25,17 @@ from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
+from app.rig.grip.body_size import face_size
 from app.rig.grip.carriage import usual_posture
 from app.rig.grip.finger_stations import asked_together, only_at
 from app.rig.grip.fitting.fit_terms import FIT_VERSION, PLACES_VERSION, no_progress, require_landmarks
 from app.rig.grip.grip_pose import GripPose, HandHold, Lips
-from app.rig.grip.lips import fit_lips
+from app.rig.grip.lips import fit_lips, needed_landmarks
 from app.rig.model import Character, InstrumentModel
+from app.rig.skeleton import ancestors, closure
+from app.rig.skinning import mesh_named
 from instrument_maps.model import Control, InstrumentMap
-from metadata.model import BREATH_MORPHS, Body
+from metadata.model import Body
 
 MOST_BYTES = 2**22
 """Largest size of a file; those that come with the program have a twentieth of it."""
@@ -56,19 +59,10 @@ class _StoredHold(msgspec.Struct, frozen=True):
 def digest_of(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> str:
     """Return the hexadecimal digest of all that the hands of `fit_hold` depend on."""
     digest = hashlib.blake2b(digest_size=16)
-    digest.update(f"{FIT_VERSION}\n{character.skeleton.names}\n{character.skeleton.parents}\n".encode())
-    arrays: list[npt.NDArray[Any]] = [character.skeleton.offsets_m, character.joint_from_mesh, model.node_positions_m]
-    for mesh in character.meshes:
-        arrays += [mesh.positions_m, mesh.triangles, mesh.joints, mesh.weights]
-        for morph in mesh.morphs:
-            if morph.name in BREATH_MORPHS:
-                # They move no hand and no lip.
-                continue
-            digest.update(morph.name.encode())
-            arrays += [morph.vertices, morph.deltas_m]
-    for name, landmark in sorted(character.landmarks.items()):
-        digest.update(f"{name} {landmark.mesh}\n".encode())
-        arrays.append(landmark.vertices)
+    digest.update(f"{FIT_VERSION}\n".encode())
+    texts, arrays = _of_body(character, instrument)
+    digest.update("\n".join(texts).encode())
+    arrays.append(model.node_positions_m)
     if any(place is not None for place in only_at(instrument)):
         digest.update(f"{PLACES_VERSION}\n{asked_together(instrument)}\n".encode())
     for array in arrays:
@@ -92,6 +86,43 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
     ranges = {name: (limit.flexion_deg, limit.sideways_deg, limit.twist_deg) for name, limit in body.limits.items()}
     digest.update(msgspec.json.encode((hands, ranges, body.postures), order="sorted"))
     return digest.hexdigest()
+
+
+def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str], list[npt.NDArray[Any]]]:
+    """Return all that a fit reads of a body: joints on the way to its hands and its head, and skin of hands and lips.
+
+    Hair, eyes, clothes and the shapes of a face are none of it.
+    """
+    skeleton = character.skeleton
+    marks = {
+        name: mark
+        for name, mark in sorted(character.landmarks.items())
+        if name.startswith(("left.", "right.", "lips.")) and ".foot." not in name
+    }
+    ends = [skeleton.index("head")]
+    texts, arrays = [], list[npt.NDArray[Any]]()
+    for name, mark in marks.items():
+        mesh = mesh_named(character, mark.mesh)
+        rows = mark.vertices
+        joints, weights = mesh.joints[rows], mesh.weights[rows]
+        used = np.unique(joints[weights > 0.0])
+        dense = np.stack([np.where(joints == joint, weights, 0.0).sum(axis=1) for joint in used], axis=1)
+        texts.append(f"{name} {[skeleton.names[joint] for joint in used]}")
+        arrays += [
+            mesh.positions_m[rows],
+            mesh.normals[rows],
+            dense.astype(np.float32),
+            character.joint_from_mesh[used],
+        ]
+        ends += used.tolist()
+    hands = {skeleton.names.index(f"{side}Hand") for side in ("left", "right") if f"{side}Hand" in skeleton.names}
+    ends += [joint for joint in range(len(skeleton.names)) if hands & set(ancestors(skeleton, joint))]
+    chain = closure(skeleton, ends)
+    texts += [f"{skeleton.names[joint]} of {skeleton.names[skeleton.parents[joint]]}" for joint in chain[1:]]
+    arrays.append(skeleton.offsets_m[list(chain)])
+    if not needed_landmarks(instrument) <= marks.keys():
+        texts.append(f"face {face_size(character):.6f}")
+    return texts, arrays
 
 
 def _untimed(control: Control) -> Control:

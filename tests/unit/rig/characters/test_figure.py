@@ -243,8 +243,8 @@ def test_what_is_missing_is_supplied_so_that_the_bones_can_follow_exactly(
             ("Proximal", "Intermediate", "Distal", "Metacarpal", "Eye", "Toes")
         ):
             off = supplied[skeleton.index(name)] - known[ours.skeleton.index(name)]
-            # As far as the next joint where it lies on that.
-            assert np.linalg.norm(off) < (0.04 if len(missing) == 3 else 0.02), name
+            # As far as the next joint where it lies on that: a thumb's metacarpal of 45 mm.
+            assert np.linalg.norm(off) < (0.046 if len(missing) == 3 else 0.02), name
     marks = found_landmarks(skeleton, again.joint_from_mesh, again.meshes)
     assert {"left.index.pad", "left.index.pad_proximal", "left.palm", "left.foot.sole"} <= set(marks) or len(
         missing

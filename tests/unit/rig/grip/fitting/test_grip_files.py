@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +99,37 @@ def test_the_digest_knows_what_the_hands_touch() -> None:
     carriage = msgspec.structs.replace(instrument.hold.standing, pitch_down_deg=(0.0, 20.0, 25.0))
     carried = msgspec.structs.replace(instrument.hold, standing=carriage)
     assert digest_of(character, model, msgspec.structs.replace(instrument, hold=carried), body) != digest
+
+
+def test_the_digest_has_hands_and_lips_and_nothing_of_looks() -> None:
+    character, model, instrument, body = inputs("woman_adult", "flute")
+    digest = digest_of(character, model, instrument, body)
+    skin = next(mesh for mesh in character.meshes if mesh.name == "body")
+    touched = {
+        name: np.concatenate([mark.vertices for key, mark in character.landmarks.items() if key.startswith(name)])
+        for name in ("left.hand", "right.hand", "lips.")
+    }
+
+    def with_skin(vertices: Any, shift_m: float) -> Any:
+        positions = skin.positions_m.copy()
+        positions[vertices] += np.float32(shift_m)
+        changed = replace(skin, positions_m=positions, morphs=())
+        others = tuple(mesh for mesh in character.meshes if mesh.name not in ("body", "hair", "eyes", "brows"))
+        return replace(character, meshes=(changed, *others))
+
+    everything = np.arange(len(skin.positions_m))
+    looks = np.setdiff1d(everything, np.concatenate(list(touched.values())))
+    assert len(looks) > 2000
+    assert digest_of(with_skin(looks, 0.001), model, instrument, body) == digest
+    for vertices in touched.values():
+        assert digest_of(with_skin(vertices[:1], 0.001), model, instrument, body) != digest
+    offsets = character.skeleton.offsets_m.copy()
+    for name, other in (("leftEye", False), ("leftLowerLeg", False), ("leftIndexDistal", True), ("chest", True)):
+        moved = offsets.copy()
+        moved[character.skeleton.index(name)] += 0.001
+        skeleton = replace(character.skeleton, offsets_m=moved)
+        changed = digest_of(replace(character, skeleton=skeleton), model, instrument, body) != digest
+        assert changed is other, name
 
 
 def test_the_digest_knows_what_fingerings_ask_of_two_fingers_at_once() -> None:
