@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.choreography.features import height_m, points_m
+from app.choreography.features import joint_points_m, size_m
 from app.choreography.hidden_markov import count
 from app.choreography.hit_log_odds import learned_symbols
 from app.choreography.overview import basic_motions
@@ -35,8 +35,8 @@ def test_the_poses_are_those_of_a_segment_of_the_state() -> None:
             clip = learned.clips[one.clip]
             frames = [one.start, one.accent, min(one.end, len(clip) - 1)]
             # This body always faces +Z.
-            points = points_m(clip)[frames] - (clip.hips_m[frames] * (1, 0, 1))[:, None]
-            found.append(points[..., :2] / height_m(clip))
+            points = joint_points_m(clip)[frames] - (clip.hips_m[frames] * (1, 0, 1))[:, None]
+            found.append(points[..., :2] / size_m(clip))
         off = [float(np.abs(poses - motion.poses).max()) for poses in found]
         assert min(off) < 1e-9
         middle = np.mean(found, axis=0)
