@@ -15,7 +15,7 @@ from app.rig.skeleton import JointTransforms
 
 STANDS_M_S: Final = 0.20
 """A foot whose tip is slower than this stands ..."""
-LEAVES_M_S: Final = 0.27
+LEAVES_M_S: Final = 0.29
 """... until it is faster than this."""
 NEAR_M: Final = 0.03
 """And is no higher than this over where it is lowest within `AROUND_S`."""

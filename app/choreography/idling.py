@@ -19,7 +19,7 @@ IDLE_SHARE: Final = 0.4
 """A body idles that is slower than this share of the median speed of its clip ..."""
 IDLE_S: Final = 0.25
 """... averaged by a Gaussian of this standard deviation."""
-THIN: Final = 5.0
+THIN: Final = 3.0
 """Log odds a second against a segment in which the body hardly moves; of one that moves little, by how little."""
 THIN_SHARE: Final = 0.8
 """A body moves little that is slower than this share of the median speed of all clips."""
