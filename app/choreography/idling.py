@@ -11,7 +11,7 @@ from scipy.ndimage import binary_opening, gaussian_filter1d
 from app.arrays import FloatArray
 from app.choreography.model import MotionSegment
 
-IDLE: Final = 6.0
+IDLE: Final = 10.0
 """Log odds a second against a segment in which the body idles."""
 HELD_S: Final = 0.3
 """A body that is slow for less holds a pose within its motion."""
@@ -19,7 +19,7 @@ IDLE_SHARE: Final = 0.4
 """A body idles that is slower than this share of the median speed of its clip ..."""
 IDLE_S: Final = 0.25
 """... averaged by a Gaussian of this standard deviation."""
-THIN: Final = 3.0
+THIN: Final = 8.0
 """Log odds a second against a segment in which the body hardly moves; of one that moves little, by how little."""
 THIN_SHARE: Final = 0.8
 """A body moves little that is slower than this share of the median speed of all clips."""
