@@ -22,10 +22,10 @@ from app.rig import quaternion
 
 STAGE_M: Final = 1.2
 """A dancer keeps this near to the place."""
-FACES_RAD: Final = math.radians(12.0)
+FACES_RAD: Final = math.radians(6.0)
 """And turned no farther from the audience, in the mean of each motion; spins and turns of the capture stay whole."""
-TURN_BACK: Final = 0.9
-MOST_TURN_RAD: Final = math.radians(45.0)
+TURN_BACK: Final = 1.0
+MOST_TURN_RAD: Final = math.radians(70.0)
 STEP_BACK: Final = 0.2
 MOST_STEP_M: Final = 0.08
 """Part of an excess over these that each join takes back, and how much at most."""
