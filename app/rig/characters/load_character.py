@@ -122,7 +122,7 @@ def _ours(source: GltfSource, id: str) -> Character:
             mesh, _ = build_mesh(source, entry.mesh, source.gltf.meshes[entry.mesh].name)
             weights = mesh.weights / np.maximum(mesh.weights.sum(axis=1, keepdims=True), 1e-9)
             meshes.append(replace(mesh, joints=table[mesh.joints], weights=weights.astype(np.float32)))
-    places = source.gltf.scene_extras["suisou"]["landmarks"]
+    places = source.gltf.scene_extras["suisou"].get("landmarks", {})
     marks = {
         name: Landmark(place["mesh"], np.asarray(place["vertices"], dtype=np.int32)) for name, place in places.items()
     }

@@ -10,11 +10,13 @@ from types import MappingProxyType
 
 import msgspec
 
+from app.formats.textures import Texture, texture_of
+from app.rig.characters.load_character import load_character
 from app.rig.model import Character
 from app.rig.people.body_shapes import Phenotype, body_m, body_shapes
 from app.rig.people.make_person import Original, original_of, person_character
 from app.rig.people.moved_joints import arm_after_m
-from app.rig.people.person import Person, PersonName, phenotypes, read_person
+from app.rig.people.person import Person, PersonName, hair_styles, phenotypes, read_person, skins
 
 
 @cache
@@ -56,8 +58,11 @@ def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Cha
         Gives a finished body by its id.
     """
     worn = {mesh: _original(named(owner), owner) for mesh, owner in person.worn.items()}
+    if person.hair:
+        worn["hair"] = _style(person.hair)
     original = _original(named(person.original), person.original)
-    return person_character(id, original, body_shapes(), _whole(person), person.colors, worn)
+    skin = _skin(person.skin) if person.skin else None
+    return person_character(id, original, body_shapes(), _whole(person), person.colors, worn, skin)
 
 
 def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
@@ -77,6 +82,18 @@ def _whole(person: Person) -> Phenotype:
 @lru_cache(maxsize=4)
 def _original(character: Character, id: str) -> Original:
     return original_of(character, body_shapes(), phenotypes()[id])
+
+
+@lru_cache(maxsize=16)
+def _style(name: str) -> Original:
+    """Hair by itself on the finished body that it is fitted to."""
+    path = hair_styles()[name]
+    return original_of(load_character(path), body_shapes(), phenotypes()[path.parent.name])
+
+
+@lru_cache(maxsize=16)
+def _skin(name: str) -> Texture:
+    return texture_of(f"skin_{name}_color", skins()[name].read_bytes())
 
 
 def _folder() -> Path:

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Final
 
 import numpy as np
 
 from app.arrays import FloatArray, IndexArray
 from app.formats.scene import Material
+from app.formats.textures import Texture
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
@@ -28,6 +30,9 @@ LID_M = (0.002, 0.008)
 """Lids keep their distance from the eyeball up to the first height over it, and none from the second on."""
 SKIN = "body"
 """The mesh whose shapes make the face."""
+SKIN_MATERIAL: Final = "skin"
+NEUTRAL_MEANS: Final[Mapping[str, float]] = {"skin": 0.70, "hair": 0.32, "brows": 0.32, "iris": 0.35}
+"""Means of the neutral textures of materials: a colour divided by it tints them (resources/build/README.md)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +113,7 @@ def person_character(
     phenotype: Phenotype,
     colors: Mapping[str, Color] | None = None,
     worn: Mapping[str, Original] | None = None,
+    skin_colors: Texture | None = None,
 ) -> Character:
     """Make a person.
 
@@ -117,6 +123,8 @@ def person_character(
         By material: linear base colour.
     worn : mapping of str to Original, optional
         By mesh: the finished body that it is taken from, with joints of the same names.
+    skin_colors : Texture, optional
+        Picture of the skin, instead of the finished body's.
     """
     body = body_m(shapes, phenotype)
     joints = _joints(original, shapes, body)
@@ -126,7 +134,7 @@ def person_character(
     meshes = []
     for mesh, owner in _chosen(original, worn or {}):
         own = joints if owner is original else _joints(owner, shapes, body)
-        meshes.append(_recolored(_changed(owner, mesh, body, own, face), colors or {}))
+        meshes.append(_recolored(_changed(owner, mesh, body, own, face), colors or {}, skin_colors))
     return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=before), joints)
 
 
@@ -216,13 +224,17 @@ def _ball_m(character: Character, eye: int) -> float:
     return float(max(radii))
 
 
-def _recolored(mesh: Mesh, colors: Mapping[str, Color]) -> Mesh:
-    if not any(material.name in colors for material in mesh.materials):
-        return mesh
-
+def _recolored(mesh: Mesh, colors: Mapping[str, Color], skin: Texture | None) -> Mesh:
     def own(material: Material) -> Material:
-        color = colors.get(material.name)
-        return material if color is None else replace(material, base_color=(*color, material.base_color[3]))
+        textures, color = material.textures, colors.get(material.name)
+        if skin is not None and material.name == SKIN_MATERIAL and textures.color is not None:
+            material = replace(material, textures=replace(textures, color=replace(textures.color, texture=skin)))
+        if color is None:
+            return material
+        if textures.color is not None:
+            mean = NEUTRAL_MEANS.get(material.name, 1.0)
+            color = (min(1.0, color[0] / mean), min(1.0, color[1] / mean), min(1.0, color[2] / mean))
+        return replace(material, base_color=(*color, material.base_color[3]))
 
     return replace(mesh, materials=tuple(own(material) for material in mesh.materials))
 

@@ -41,6 +41,10 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
         By material: linear base colour.
     worn : dict of str to str
         By mesh (``hair``, ``shirt`` ...) the finished body that it is taken from.
+    hair : str
+        Style of hair by itself, a file of ``resources/characters/hair``; empty: the finished body's.
+    skin : str
+        Picture of the skin in ``resources/characters/skin``; empty: the finished body's.
     not_cast_for : list of str
         Ids of instruments that the body plays only beyond the bounds: it is too small for them.
     """
@@ -50,6 +54,8 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
     name: PersonName = PersonName("", "")
     colors: dict[str, Color] = {}
     worn: dict[str, str] = {}
+    hair: str = ""
+    skin: str = ""
     not_cast_for: list[str] = []
 
 
@@ -66,13 +72,33 @@ def checked(person: Person, file: str) -> Person:
     for name in (person.original, *person.worn.values()):
         if name not in phenotypes():
             raise MapError("table.invalid", file=file, place="original", detail="the id of a finished body")
+    if person.hair and person.hair not in hair_styles():
+        raise MapError("table.invalid", file=file, place="hair", detail="a style of hair that comes with the program")
+    if person.skin and person.skin not in skins():
+        raise MapError("table.invalid", file=file, place="skin", detail="a skin that comes with the program")
     return person
+
+
+@cache
+def hair_styles() -> Mapping[str, Path]:
+    """Return the styles of hair by themselves: id and file; its folder has the finished body's name."""
+    return MappingProxyType({path.stem: path for path in sorted((_folder() / "hair").glob("*/*.glb"))})
+
+
+@cache
+def skins() -> Mapping[str, Path]:
+    """Return the pictures of skin by themselves: id and file."""
+    return MappingProxyType({path.stem: path for path in sorted((_folder() / "skin").glob("*.jpg"))})
+
+
+def _folder() -> Path:
+    return Path(str(files("resources"))) / "characters"
 
 
 @cache
 def phenotypes() -> Mapping[str, Phenotype]:
     """Return the phenotypes of the finished bodies, by id."""
-    path = Path(str(files("resources"))) / "characters" / "originals.toml"
+    path = _folder() / "originals.toml"
     return MappingProxyType(shaped(read_toml(path), dict[str, Phenotype], str(path)))
 
 

@@ -27,7 +27,9 @@ def test_the_table_names_what_each_step_makes() -> None:
 
 
 def test_every_script_of_the_folder_is_a_step() -> None:
-    arguments = Namespace(captures=Path("captures"), characters_python=Path("python"), soundfont=Path("sound.sf2"))
+    arguments = Namespace(
+        assets=Path("assets"), captures=Path("captures"), characters_python=Path("python"), soundfont=Path("sound.sf2")
+    )
     commands = " ".join(" ".join(command) for step in build_all.STEPS for command in step.commands(arguments))
     for script in ROOT.glob("resources/build/*_*.py"):
         is_made = script.name.startswith(("build_", "arrange_", "compose_")) and script.stem != "build_all"

@@ -173,6 +173,7 @@ def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) ->
     strands, textures = build_module("character_strands"), build_module("character_textures")
     painted = np.zeros((64, 64, 4))
     painted[8:56, 8:56] = (0.5, 0.2, 0.1, 1.0)
+    painted[2:4, 20:22] = (0.5, 0.2, 0.1, 1.0)
     painted[8:56, 8:56, :3] *= np.random.default_rng(4).uniform(0.6, 1, (48, 48, 1))
     used = np.zeros((128, 128), dtype=bool)
     used[:, :64] = True
@@ -182,6 +183,7 @@ def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) ->
     assert np.array_equal(pixels[..., 0], pixels[..., 2])
     assert (pixels[:, 64:, 3] == 0).all()
     assert (pixels[40:88, 24:60, 3] > 0.8).all()
+    assert (pixels[3:9, 39:45, 3] < strands.ALPHA_CUTOFF).all(), "a fleck by itself"
     middle = textures.to_linear(pixels[40:88, 24:60, 0]).mean()
     assert middle == pytest.approx(strands.STRANDS_MEAN_LINEAR, rel=0.25)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -9,8 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 from pygltflib import GLTF2
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, cKDTree
 
 FOLDER = Path(__file__).resolve().parents[3] / "resources" / "characters"
 STATURE_M = {"woman_adult": 1.68, "man_adult": 1.80}
@@ -359,8 +361,8 @@ def test_mouth_shapes_do_what_they_say(character: Character) -> None:
     assert jaw_drop.min() < -0.015
     assert np.isclose(jaw_drop.max(), 0, atol=1e-4)
     assert body.morphs["jawLeft"][lower, 0].mean() > 0.003
-    lips = np.unique(body.triangles["lips"])
-    corner = lips[np.argmax(body.positions[lips, 0])]
+    corner = int(np.linalg.norm(body.morphs["mouthDimpleLeft"], axis=1).argmax())
+    assert body.positions[corner, 0] > 0.02
     assert body.morphs["mouthPucker"][corner, 0] < -0.003
     assert body.morphs["mouthSmileLeft"][corner, 1] > 0.003
     # Closing undoes opening at the lips.
@@ -388,10 +390,10 @@ def test_finger_landmarks(character: Character, side: str, sign: float) -> None:
     web = character.at(f"{side}.thumb_web").mean(axis=0)
     assert character.joints[side + "ThumbMetacarpal"][2] < web[2] < character.joints[side + "ThumbDistal"][2]
     # The thumb's pad looks towards the other fingers or the palm, its nail away from them.
-    nails = np.unique(body.triangles["nails"])
-    thumb = character.joint_names.index(side + "ThumbDistal")
-    nail = body.t_pose[nails[body.weights[nails, thumb] > 0.5]].mean(axis=0)
-    pad = character.at(f"{side}.thumb.pad").mean(axis=0)
+    thumb = np.flatnonzero(body.weights[:, character.joint_names.index(side + "ThumbDistal")] > 0.9)
+    pads = character.landmarks[f"{side}.thumb.pad"]["vertices"]
+    nail = body.t_pose[thumb[body.normals[thumb] @ body.normals[pads].mean(axis=0) < -0.8]].mean(axis=0)
+    pad = body.t_pose[pads].mean(axis=0)
     index = character.joints[side + "IndexDistal"]
     assert np.linalg.norm(pad - index) < np.linalg.norm(nail - index) or pad[1] < nail[1]
 
@@ -403,12 +405,52 @@ def test_left_and_right_mirror_each_other(character: Character) -> None:
             assert np.allclose(place * [-1, 1, 1], other, atol=1e-3), name
 
 
+def test_materials_are_few_and_show_skin_hair_and_eyes(character: Character) -> None:
+    materials = {material.name: material for material in character.gltf.materials}
+    own = {"skin", "mouth_eyes", "iris", "brows", "hair"}
+    assert set(materials) - {"shirt", "trousers", "belt", "shoes", "buttons"} == own
+    for name in own:
+        assert materials[name].pbrMetallicRoughness.baseColorTexture is not None
+    assert materials["skin"].normalTexture is not None
+    assert materials["skin"].pbrMetallicRoughness.metallicRoughnessTexture is not None
+    for name in ("brows", "hair"):
+        assert materials[name].alphaMode == "MASK"
+    blob = character.gltf.binary_blob()
+    for image in character.gltf.images:
+        view = character.gltf.bufferViews[image.bufferView]
+        width, height = Image.open(io.BytesIO(blob[view.byteOffset :][: view.byteLength])).size
+        assert {width & (width - 1), height & (height - 1)} == {0}
+        assert max(width, height) <= 1024
+    assert sum(len(faces) for faces in character.meshes["hair"].triangles.values()) < 8000
+
+
+def test_brows_lie_on_the_skin_and_follow_its_shapes(character: Character) -> None:
+    body, brows, lashes = (character.meshes[name] for name in ("body", "brows", "lashes"))
+    near = cKDTree(body.positions).query(brows.positions)
+    assert near[0].max() < 0.006
+    for label in ("browInnerUp", "browDownLeft", "browOuterUpRight"):
+        assert np.linalg.norm(brows.morphs[label] - body.morphs[label][near[1]], axis=1).max() < 0.004, label
+    assert brows.morphs["browInnerUp"][:, 1].max() > 0.008
+    assert lashes.morphs["eyeBlinkLeft"][:, 1].min() < -0.004
+
+
+def test_eyes_show_their_pupil_ahead_and_turn_with_their_joints(character: Character) -> None:
+    eyes = character.meshes["eyes"]
+    for side in ("left", "right"):
+        own = eyes.weights[:, character.joint_names.index(side + "Eye")] > 0.99
+        pupil = np.intersect1d(np.flatnonzero(own), eyes.triangles["iris"])
+        pupil = pupil[np.linalg.norm(eyes.uvs[pupil] - 0.5, axis=1) < 0.01]
+        ahead = eyes.t_pose[pupil] - character.joints[side + "Eye"]
+        assert (ahead[:, 2] > 0.011).all()
+        assert np.abs(ahead[:, :2]).max() < 0.001
+
+
 def test_licences_are_named_and_files_small(character: Character) -> None:
     vrm = character.gltf.extensions["VRMC_vrm"]
     assert vrm["specVersion"] == "1.0"
     assert "Apache-2.0" in vrm["meta"]["copyrightInformation"]
     assert "CC0" in vrm["meta"]["copyrightInformation"]
-    assert (FOLDER / f"{character.name}.glb").stat().st_size < 4.5e6
+    assert (FOLDER / f"{character.name}.glb").stat().st_size < 5e6
     readme = (FOLDER / "README.md").read_text(encoding="utf-8")
     assert f"{character.name}.glb" in readme
 
