@@ -204,8 +204,8 @@ def test_each_turn_is_made_once(eyes: Eyes, skeleton: str) -> None:
                 (morph,) = [one for one in mesh.morphs if one.name == shape_name(side, way)]
                 here = np.isin(morph.vertex_indices, ball)
                 furthest = np.linalg.norm(morph.position_deltas_cm[here], axis=1).max(initial=0.0)
-                # The pupil is 16 mm from the joint, and a shape takes it along the chord.
-                assert furthest == pytest.approx(3.2 * np.sin(0.5 * angle) if turn == "shapes" else 0.0, abs=0.15)
+                # The pupil is 13 mm from the joint, and a shape takes it along the chord.
+                assert furthest == pytest.approx(2.65 * np.sin(0.5 * angle) if turn == "shapes" else 0.0, abs=0.15)
                 assert scene.clip.morph_weights[morph.name].max() <= 1.0
         assert max(scene.clip.morph_weights[name].max() for name in EYE_SHAPES) > 0.2
         # BVH has no shapes: there the bones have the whole turn.
