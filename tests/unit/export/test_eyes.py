@@ -82,9 +82,12 @@ def sights(scene: Scene, character: Character) -> tuple[dict[str, np.ndarray], d
     assert mesh.face_materials is not None
     for side, sign in (("left", 1.0), ("right", -1.0)):
         found = []
-        for material in ("eye_white", "pupil"):
+        iris = np.unique(mesh.faces[mesh.face_materials == names.index("iris")])
+        for material in ("mouth_eyes", "iris"):
             vertices = np.unique(mesh.faces[mesh.face_materials == names.index(material)])
-            vertices = vertices[np.sign(mesh.vertices_cm[vertices, 0]) == sign]
+            # Teeth have the material of the whites, and lie lower.
+            high = np.abs(mesh.vertices_cm[vertices, 1] - mesh.vertices_cm[iris, 1].mean()) < 2.0
+            vertices = vertices[high & (np.sign(mesh.vertices_cm[vertices, 0]) == sign)]
             found.append(Surface(playback, mesh, vertices).positions_m(world, 0, scene.clip.frames).mean(axis=1))
         places[side], ways[side] = found[0], found[1] - found[0]
         ways[side] /= np.linalg.norm(ways[side], axis=1, keepdims=True)
