@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Final
 
@@ -40,7 +41,7 @@ class TextureFiles:
             target = folder / TEXTURES_FOLDER / name
             try:
                 target.parent.mkdir(exist_ok=True)
-                there = target.stat().st_size if target.is_file() else -1
+                there = target.stat().st_size if os.path.isfile(target) else -1
             except OSError as error:
                 raise cannot_write(target, error) from error
             # The name says what is in it; several processes may write the same.

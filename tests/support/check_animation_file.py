@@ -659,6 +659,7 @@ const imp = p => import(pathToFileURL(path.join(dir, p)));
 const T = await imp('build/three.module.js'); const file = cfg.file, ext = cfg.ext;
 const buf = fs.readFileSync(file); let root, clip, clips;
 if (ext === '.fbx') { const {FBXLoader} = await imp('examples/jsm/loaders/FBXLoader.js');
+  T.TextureLoader.prototype.load = () => new T.Texture();  // Pictures need a page, which there is none of here.
   root = new FBXLoader().parse(buf.buffer.slice(buf.byteOffset, buf.byteOffset + buf.byteLength), ''); clip = root.animations[0]; }
 else if (ext === '.bvh') { const {BVHLoader} = await imp('examples/jsm/loaders/BVHLoader.js');
   const r = new BVHLoader().parse(buf.toString('utf8')); root = new T.Group(); root.add(r.skeleton.bones[0]); clip = r.clip; }

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from app.arrays import AnyIntArray, IntArray
 from app.formats.scene import Material
@@ -28,6 +26,9 @@ def uv_islands(triangles: AnyIntArray, textured: npt.NDArray[np.bool_]) -> IntAr
     count = len(textured)
     if not textured.any():
         return np.zeros(count, np.int64)
+    from scipy.sparse import coo_matrix  # heavy; not needed before the first figure with textures
+    from scipy.sparse.csgraph import connected_components
+
     own = triangles[textured[triangles[:, 0]]]
     ends = np.concatenate([own[:, [0, 1]], own[:, [1, 2]]])
     links = coo_matrix((np.ones(len(ends), bool), (ends[:, 0], ends[:, 1])), shape=(count, count))

@@ -13,6 +13,7 @@ from app.errors import FileError
 from app.formats.fbx.foreign import FbxContent, FbxMaterial, FbxTexture
 from app.formats.files import read_file
 from app.formats.images import ImageReader, packed_surface, with_opacity
+from app.formats.other_computers import is_file
 from app.formats.scene import Material
 from app.formats.textures import MaterialTextures, Texture, TextureUse
 
@@ -88,7 +89,7 @@ class FbxTextures:
         for below in (f"{self._path.stem}.fbm", *FOLDERS):
             try:
                 file = (folder / below / name).resolve()
-                if not file.is_file() or not file.is_relative_to(folder):
+                if not is_file(file) or not file.is_relative_to(folder):
                     continue
                 content = read_file(file, self._left)
             except (OSError, RuntimeError, ValueError, FileError):

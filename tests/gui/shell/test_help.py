@@ -151,7 +151,8 @@ def test_every_panel_lane_section_tab_and_menu_has_a_place(program: Program) -> 
 DIALOGS = {
     *("about", "licences", "preferences", "instruments", "piece_settings", "import_midi", "reimport_midi"),
     *("export_files", "playblast", "stream", "midi_devices", "latency", "follow_recording", "characters", "character"),
-    *("rules", "metadata_differences", "choreography", "learn_choreography", "evaluation", "evaluation_results"),
+    *("person", "rules", "metadata_differences"),
+    *("choreography", "learn_choreography", "evaluation", "evaluation_results"),
 }
 
 

@@ -77,7 +77,7 @@ def test_a_project_that_is_exported(run: Run, folder: Path) -> None:
     status, out, _ = run("export", project, "--to", target, *requested)
     assert status == 0
     assert f"{NAME}/{NAME}.out: " in readable(out)
-    written = {path.name for path in target.iterdir()}
+    written = {path.name for path in target.iterdir() if path.is_file()}
     assert f"{NAME}.wav" in written
     assert {Path(name).suffix for name in written} == {".bvh", ".fbx", ".glb", ".usdc", ".wav", ".json"}
     assert json.loads((target / "report.json").read_text())["source"] == f"{NAME}.suisou"

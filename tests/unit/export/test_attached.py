@@ -88,5 +88,8 @@ def test_more_than_one_process_writes_the_same(tmp_path: Path) -> None:
     arguments += ["--format", "fbx", "--instrument", "socket", "--rest-pose", "t"]
     for jobs in ("1", "2"):
         assert main(["export", str(QUARTET), "--to", str(tmp_path / jobs), "--jobs", jobs, *arguments]) == 0
-    one, two = ({path.name: path.read_bytes() for path in (tmp_path / jobs).iterdir()} for jobs in ("1", "2"))
+    one, two = (
+        {str(path.relative_to(tmp_path / jobs)): path.read_bytes() for path in (tmp_path / jobs).rglob("*.*")}
+        for jobs in ("1", "2")
+    )
     assert one == two

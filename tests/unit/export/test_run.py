@@ -69,7 +69,9 @@ def report(folder: Path) -> dict[str, Any]:
 def test_the_files_are_those_the_report_names(folder: Path, report: dict[str, Any]) -> None:
     assert [player["name"] for player in report["players"]] == list(PLAYERS)
     named = {file for player in report["players"] for file in player["files"].values()}
-    assert {path.name for path in folder.iterdir()} == named | {"report.json"}
+    textures = set(report["textures"])
+    written = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+    assert written == named | textures | {"report.json"}
     assert named == {
         "Trumpet 1.fbx", "Trumpet 1_trumpet_Bb.fbx", "Trumpet 1.bvh",
         "Trombone 2.fbx", "Trombone 2_trombone_tenor_F_attachment.fbx", "Trombone 2.bvh",
@@ -185,8 +187,8 @@ def test_a_second_run_has_the_same_bits_and_a_cut_the_wholes_frames(
     folder: Path, report: dict[str, Any], tmp_path: Path
 ) -> None:
     export(tmp_path / "again", *ARGUMENTS)
-    for path in folder.iterdir():
-        assert (tmp_path / "again" / path.name).read_bytes() == path.read_bytes(), path.name
+    for path in (path for path in folder.rglob("*") if path.is_file()):
+        assert (tmp_path / "again" / path.relative_to(folder)).read_bytes() == path.read_bytes(), path.name
     whole = export(tmp_path / "whole", "--fps", "30", "--player", PLAYERS[0], "--format", "fbx")
     assert not list((tmp_path / "whole").glob("*.bvh"))
     first = round((report["first_frame_s"] - whole["first_frame_s"]) * 30)

@@ -16,6 +16,7 @@ OUR_OWN = {
     "app/audio/rendering.py": {"read_bytes"},
     "app/export/unreal/plugin.py": {"read_bytes"},
     "app/formats/table_cache.py": {"read_bytes"},
+    "app/rig/people/bundled_people.py": {"read_bytes"},
     "app/evaluation/page.py": {"read_text", "read_bytes"},  # and clips that were drawn a moment ago
     "app/messages/details/__init__.py": {"read_text", "tomllib"},
     "app/messages/wordings.py": {"read_text", "tomllib"},

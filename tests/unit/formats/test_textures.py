@@ -192,7 +192,7 @@ def test_a_usd_file_shows_its_textures(tmp_path: Path) -> None:
         file = inputs(name)["file"].path  # type: ignore[attr-defined]
         assert file.startswith("./Textures/")
         assert (tmp_path / file).is_file()
-    assert tuple(inputs("Normal_place")["scale"]) == pytest.approx((4.0, 3.0))  # type: ignore[arg-type]
+    assert tuple(inputs("Normal_place")["scale"]) == pytest.approx((4.0, 3.0))
     assert inputs("Surface")["opacityThreshold"] == pytest.approx(0.4)
     surface = shaders["Surface"]
     linked = {one.GetBaseName() for one in surface.GetInputs() if one.HasConnectedSource()}
