@@ -39,7 +39,7 @@ from app.choreography.limbs import unbroken
 from app.choreography.model import ChoreographyModel
 from app.choreography.music_motion_dependence import trust_in
 from app.choreography.phrases import returning_places
-from app.choreography.rhythm import Rhythm, felt_at
+from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
 from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.spins import hips_rad, without_haste
@@ -119,7 +119,7 @@ class Choreographer:
     def _beat_s(self) -> float:
         """Usual time from one footfall to the next in the capture."""
         gaps_s = np.concatenate([np.diff(falls) for falls in self._falls_s])
-        return float(np.median(gaps_s)) if len(gaps_s) else BEAT_S
+        return own_beat_s(gaps_s) if len(gaps_s) else BEAT_S
 
     @cached_property
     def _stands(self) -> list[tuple[FootPlant, ...]]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from app.choreography.accent_grid import grid_of
 from app.choreography.dance import Manner
 from app.choreography.generate import Choreographer
 from app.choreography.phrases import likeness_of_bars, returning_places, returns_of_bars
-from app.choreography.rhythm import Rhythm, felt_at
+from app.choreography.rhythm import Rhythm, felt_at, own_beat_s
 from app.choreography.sequence import Weights
 from tests.support.dances import model
 
@@ -101,6 +102,18 @@ def test_far_tempi_are_felt_at_half_or_double_time() -> None:
         assert felt_at(near, 0.5) is near
     for rhythm in (slow, fast):
         assert felt_at(rhythm, 0.5) is rhythm
+
+
+@pytest.mark.parametrize("gaps", [(15, 16), (14, 15, 16), (15, 15)])
+def test_a_footfall_found_a_frame_later_changes_no_felt_tempo(gaps: tuple[int, ...]) -> None:
+    frames = np.cumsum([0, *gaps * (48 // len(gaps))])
+    for rhythm in (played("A", 1.0), played("A", 0.25)):
+        felt = set()
+        for fall in range(len(frames)):
+            for later in (-1, 0, 1):
+                falls_s = (frames + later * (np.arange(len(frames)) == fall)) / 30.0
+                felt.add(len(felt_at(rhythm, own_beat_s(np.diff(falls_s))).beats_s))
+        assert len(felt) == 1
 
 
 def test_between_the_beats_of_a_slow_piece_feet_come_down_but_bodies_do_not_arrive() -> None:
