@@ -6,12 +6,13 @@ a frame or by lowering its arms.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
-from app.arrays import BoolArray
+from app.arrays import BoolArray, FloatArray
 from app.choreography.body import SEGMENTS
 from app.choreography.body_speeds import angle, runs
 from app.choreography.clip import MotionClip
@@ -56,6 +57,10 @@ _TRUNK: Final = ("hips", "spine", "chest")
 _LIMBS: Final = tuple(
     f"{side}{part}" for side in ("left", "right") for part in ("UpperArm", "LowerArm", "UpperLeg", "LowerLeg")
 )
+_ABOUT: Final = {"hips": (0.0, 1.0, 0.0)} | {
+    limb: (1.0, 0.0, 0.0) if limb.endswith("Arm") else (0.0, 1.0, 0.0) for limb in _LIMBS
+}
+"""Axes that parts of the T-pose may be turned about."""
 _BODY: Final = [SEGMENTS.index(name) for name in (*_TRUNK, *_LIMBS)]
 
 
@@ -121,9 +126,19 @@ def _settled(clip: MotionClip, frame: int) -> int:
 
 
 def _in_t_pose(clip: MotionClip, within_rad: float = T_POSE_RAD) -> BoolArray:
-    turns = clip.rotations[:, _BODY].copy()
-    turns[:, 0] = quaternion.swing_twist(turns[:, 0], (0.0, 1.0, 0.0))[0]
-    return np.asarray(angle(turns, quaternion.IDENTITY).max(axis=1) < within_rad)
+    return np.asarray(_off_t_pose(clip.rotations, _BODY).max(axis=1) < within_rad)
+
+
+def _off_t_pose(rotations: FloatArray, segments: Sequence[int]) -> FloatArray:
+    """(F, S) angles of segments from the T-pose. A turn of the hips about +Y and of a limb about itself is none: where
+    a body faces is no pose, and of straight limbs it is not known."""
+    found = np.zeros((len(rotations), len(segments)))
+    for at, segment in enumerate(segments):
+        turns = rotations[:, segment]
+        if (axis := _ABOUT.get(SEGMENTS[segment])) is not None:
+            turns = quaternion.swing_twist(turns, axis)[0]
+        found[:, at] = angle(turns, quaternion.IDENTITY)
+    return found
 
 
 def _still(clip: MotionClip) -> BoolArray:
@@ -149,6 +164,6 @@ def _arms_down(clip: MotionClip, frame: int) -> int:
     if len(some) < 3:
         return 0
     speeds = angle(some[:-1], some[1:]).max(axis=1)
-    down = angle(some[:-1], quaternion.IDENTITY).min(axis=1) > DOWN_RAD
+    down = _off_t_pose(clip.rotations[frame : frame + len(some) - 1], arms).min(axis=1) > DOWN_RAD
     slower = np.flatnonzero(down & (speeds < SLOWER * np.maximum.accumulate(speeds)))
     return frame + int(slower[0]) if len(slower) else frame * int(down.any())
