@@ -7,6 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 from vispy import gloo
+from vispy.gloo import gl
 
 from app.formats.images import Pixels, decoded, small
 from app.formats.scene import Material
@@ -15,9 +16,13 @@ from app.formats.textures import Texture, TextureUse
 NEAR_PX: Final = 1024
 """Longest side of a texture that is seen from near; from afar it is that of `app.formats.images.small`."""
 MOST_BYTES: Final = 192 * 2**20
-"""Most of all textures on the card; those that were not drawn for the longest time go."""
+"""Most of all textures on the card, and a third more for their smaller copies; those that were not drawn for the
+longest time go."""
 BLENDED: Final = 2.0
 """The cutoff that stands for a screen of pixels."""
+MULTISAMPLED, IN_HASTE = 0.02, 0.5
+"""Least share of a pixel that what is cut out has to cover: its samples show how much, where there are some."""
+_GL_LINEAR_MIPMAP_LINEAR: Final = 0x2703
 _WHITE: Final = np.full((1, 1, 4), 255, np.uint8)
 _FLAT: Final = np.array([[[128, 128, 255, 255]]], np.uint8)
 
@@ -28,7 +33,7 @@ class TextureMaps:
     def __init__(self) -> None:
         self._maps: OrderedDict[tuple[str, bool], Any] = OrderedDict()
         self._bytes = 0
-        self._white, self._flat = _map(_WHITE), _map(_FLAT)
+        self._white, self._flat = texture_of_pixels(_WHITE), texture_of_pixels(_FLAT)
         self.left = 0
         """Number of textures that may still be read for this picture."""
 
@@ -64,6 +69,7 @@ class TextureMaps:
             textures.occlusion_strength if occluded else 0.0,
             float(max(relief.shape[:2])),
         )
+        program["u_color_px"] = float(max(program["u_color_map"].shape[:2]))
 
     def _map(self, use: TextureUse | None, near: bool, otherwise: Any) -> Any:
         if use is None:
@@ -74,7 +80,7 @@ class TextureMaps:
                 return self._map(use, False, otherwise)
             self.left -= near
             pixels = _pixels(use.texture, near)
-            self._maps[key] = otherwise if pixels is None else _map(pixels)
+            self._maps[key] = otherwise if pixels is None else texture_of_pixels(pixels)
             self._bytes += 0 if pixels is None else pixels.nbytes
             while self._bytes > MOST_BYTES and len(self._maps) > 1:
                 _, oldest = self._maps.popitem(last=False)
@@ -87,5 +93,10 @@ def _pixels(texture: Texture, near: bool) -> Pixels | None:
     return decoded(texture, NEAR_PX) if near else small(texture)
 
 
-def _map(pixels: Pixels) -> Any:
-    return gloo.Texture2D(np.ascontiguousarray(pixels), interpolation="linear", wrapping="repeat")
+def texture_of_pixels(pixels: Pixels) -> Any:
+    """A texture with smaller copies of itself: what is finer than the screen's pixels would glitter."""
+    texture = gloo.Texture2D(np.ascontiguousarray(pixels), interpolation="linear", wrapping="repeat")
+    # vispy has no name for them. Its last command leaves the texture bound.
+    texture.glir.command("INTERPOLATION", texture.id, _GL_LINEAR_MIPMAP_LINEAR, "linear")
+    texture.glir.command("FUNC", "glGenerateMipmap", gl.GL_TEXTURE_2D)
+    return texture

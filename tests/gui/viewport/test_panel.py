@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
 from pathlib import Path
+from typing import cast
 
 import msgspec
 import numpy as np
@@ -16,8 +17,10 @@ import numpy.typing as npt
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, QTimer
 from PySide6.QtGui import QImage, QMouseEvent, QWheelEvent
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QApplication, QMenu, QToolButton, QWidget
 from pytestqt.qtbot import QtBot
+from vispy import gloo
 
 from app.choreography.model_file import write_model
 from app.editor.design_tokens import LIGHT
@@ -41,6 +44,7 @@ from tests.support.dances import model
 from tests.support.windows import child, show
 from widgets.viewport.canvas import Canvas, pixels
 from widgets.viewport.panel import ViewportPanel
+from widgets.viewport.texture_maps import texture_of_pixels
 
 ROOT = Path(__file__).parents[3]
 Shot = Callable[..., npt.NDArray[np.uint8]]
@@ -170,6 +174,32 @@ def test_the_picture_on_the_screen_is_that_of_the_file(viewport: ViewportPanel, 
         ]
     )
     assert np.median(np.abs(shown.astype(int) - picture[::16, ::16, :3].astype(int))) <= 4
+
+
+def drawn_small(viewport: ViewportPanel, texture: object) -> npt.NDArray[np.uint8]:
+    """Return a texture (16, 16, 4) as drawn in a few pixels."""
+    vertex = "attribute vec2 at; varying vec2 uv; void main() {uv = at * 0.5 + 0.5; gl_Position = vec4(at, 0.0, 1.0);}"
+    fragment = "uniform sampler2D map; varying vec2 uv; void main() {gl_FragColor = texture2D(map, uv);}"
+    program = gloo.Program(vertex, fragment)
+    program["at"], program["map"] = [(-1, -1), (1, -1), (-1, 1), (1, 1)], texture
+    native = cast(QOpenGLWidget, canvas(viewport))
+    native.makeCurrent()
+    target = gloo.FrameBuffer(gloo.Texture2D((16, 16, 4)))
+    with target:
+        gloo.set_viewport(0, 0, 16, 16)
+        gloo.set_state(depth_test=False, blend=False, cull_face=False)
+        program.draw("triangle_strip")
+        shown: npt.NDArray[np.uint8] = target.read()
+    native.doneCurrent()
+    return shown
+
+
+def test_a_texture_finer_than_the_picture_is_seen_as_its_mean(viewport: ViewportPanel) -> None:
+    # Columns of which a picture without smaller copies meets only some: brows and hair would be flecks.
+    stripes = np.zeros((256, 256, 4), np.uint8)
+    stripes[:, ::16] = 255
+    shown = drawn_small(viewport, texture_of_pixels(stripes))
+    assert np.abs(shown.astype(int) - 255 // 16).max() <= 3
 
 
 def test_a_picture_of_another_moment_leaves_the_window_as_it_was(viewport: ViewportPanel) -> None:

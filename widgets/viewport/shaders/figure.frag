@@ -26,6 +26,9 @@ uniform vec4 u_surface_place;
 uniform vec4 u_factor;
 // Roughness, metal, strength of the normal map, and least alpha: below 0 none, above 1 a screen of pixels.
 uniform vec4 u_surface;
+// Longest side of the colour map in pixels, and the least share of a pixel that what is cut out has to cover.
+uniform float u_color_px;
+uniform float u_least;
 // Share of roughness and metal, and of occlusion, that the map has; and the longest side of the normal map in pixels.
 uniform vec3 u_shared;
 
@@ -64,6 +67,15 @@ vec3 leaning(vec3 n, vec3 lean, vec2 at) {
     return normalize(t * (scale * lean.x) - b * (scale * lean.y) + n * lean.z);
 }
 
+// The share of a pixel that is left of what is cut out: from near its edge is as wide as a pixel (Golus, "Anti-aliased
+// Alpha Test", 2017); from afar, where a pixel holds many of the picture's, it is about their mean.
+float covered(float alpha, float cutoff, vec2 at) {
+    float edge = clamp((alpha - cutoff) / max(fwidth(alpha), 1e-3) + 0.5, 0.0, 1.0);
+    float mean = clamp((alpha - cutoff) * 2.0 + 0.5, 0.0, 1.0);
+    float texels = max(length(dFdx(at)), length(dFdy(at))) * u_color_px;
+    return mix(edge, mean, smoothstep(1.0, 2.5, texels));
+}
+
 void main() {
     // Who stands in the way is seen through: a screen of pixels needs no sorting.
     if (v_solid < 1.0 && v_solid < threshold(gl_FragCoord.xy)) discard;
@@ -76,14 +88,20 @@ void main() {
     float rough = v_color.a;
     float metallic = v_metallic;
     float hollow = 1.0;
+    float share = 1.0;
     if (u_textured > 0.5) {
-        vec4 color = texture2D(u_color_map, v_uv * u_color_place.xy + u_color_place.zw);
+        vec2 on = v_uv * u_color_place.xy + u_color_place.zw;
+        vec4 color = texture2D(u_color_map, on);
         vec4 surface = texture2D(u_surface_map, v_uv * u_surface_place.xy + u_surface_place.zw);
         vec2 at = v_uv * u_normal_place.xy + u_normal_place.zw;
         vec3 lean = texture2D(u_normal_map, at).xyz * 2.0 - 1.0;
         n = leaning(n, vec3(lean.xy * u_surface.z, lean.z), at);
         float alpha = color.a * u_factor.a;
-        if (alpha < (u_surface.w > 1.0 ? threshold(gl_FragCoord.xy) : u_surface.w)) discard;
+        if (u_surface.w > 1.0 && alpha < threshold(gl_FragCoord.xy)) discard;
+        if (u_surface.w >= 0.0 && u_surface.w <= 1.0) {
+            share = covered(alpha, u_surface.w, on);
+            if (share < u_least) discard;
+        }
         albedo = pow(color.rgb, vec3(2.2)) * u_factor.rgb;
         rough = u_surface.x * mix(1.0, surface.g, u_shared.x);
         metallic = u_surface.y * mix(1.0, surface.b, u_shared.x);
@@ -128,5 +146,5 @@ void main() {
     // Highlights roll off instead of clipping (ACES, Narkowicz's fit, 2015); then the display's curve.
     result *= 0.92;
     result = (result * (2.51 * result + 0.03)) / (result * (2.43 * result + 0.59) + 0.14);
-    gl_FragColor = vec4(pow(clamp(result, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+    gl_FragColor = vec4(pow(clamp(result, 0.0, 1.0), vec3(1.0 / 2.2)), share);
 }
