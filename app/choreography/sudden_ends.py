@@ -18,8 +18,8 @@ from scipy.ndimage import maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray
 from app.choreography.body import ENDS, SEGMENTS
+from app.choreography.body_speeds import runs
 from app.choreography.clip import MotionClip
-from app.choreography.damage import runs
 from app.choreography.features import height_m
 from app.choreography.hands_out_of_body import ELBOW
 from app.choreography.limbs import bend
