@@ -97,8 +97,10 @@ class DanceLane(RowLane):
         dance = self.dances.get(dancer_id)
         if dance is None or not dance.steps:
             return None
-        spans = dance.spans
-        number = next((at for at, (start, end) in enumerate(spans) if start <= tick < end), None)
+        # A step that begins after its accent: the one before it is danced there, but it is not the one that was chosen.
+        if tick in dance.ticks:
+            return dancer_id, dance.ticks.index(tick)
+        number = next((at for at, (start, end) in enumerate(dance.spans) if start <= tick < end), None)
         return None if number is None else (dancer_id, number)
 
     def project_changed(self, change: Change) -> None:
