@@ -16,7 +16,7 @@ from character_skin import read_picture
 from character_surface import Surface
 from character_textures import Texture, jpeg, normals_of, png, sampled, spread, to_linear, to_srgb
 from PIL import Image, ImageDraw
-from scipy.ndimage import gaussian_filter, label, map_coordinates
+from scipy.ndimage import distance_transform_edt, gaussian_filter, label, map_coordinates, maximum
 
 if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
@@ -30,6 +30,11 @@ ALPHA_CUTOFF = 0.4
 LASH_GREY_LINEAR, LOWER_LASHES = 0.05, 0.6
 LOCK_HEIGHT, STRAND_SLOPE = 0.5, 0.16
 FLECK_PX = 150
+CAP_HALF_PX, HAIRLINE_PX, EDGE_PX = 40, 40, 10
+"""Half the width of what covers the scalp and is no lock, how far faint hairs are painted before its edge, and how far
+behind it shades are evened: painted edges are pale."""
+FAINT, EDGE_SHADE = 0.25, 0.85
+"""Alpha of hairs before the edge that are too faint to be seen but as scraps, and the shade of the others."""
 GREYS, ALPHAS = 48, 8
 """Steps of grey and of alpha that are kept: pictures half as large."""
 
@@ -91,6 +96,27 @@ def _flecks(seen: np.ndarray) -> np.ndarray:
     return seen & (sizes[spots] < FLECK_PX)
 
 
+def _caps(alpha: np.ndarray) -> np.ndarray:
+    """(H, W) what covers the scalp: parts wider than any lock."""
+    parts, count = label(alpha > 0.5)
+    half = maximum(distance_transform_edt(parts > 0), parts, np.arange(count + 1))
+    return (parts > 0) & (half >= CAP_HALF_PX)[parts]
+
+
+def _hairline(grey: np.ndarray, alpha: np.ndarray, fine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Grey and alpha with an even shade and no scraps along the edges of what covers the scalp."""
+    caps = _caps(alpha)
+    if not caps.any():
+        return grey, alpha
+    outside = distance_transform_edt(~caps)
+    near = (outside > 0) & (outside < HAIRLINE_PX) & (alpha < 0.5)
+    even = np.clip(STRANDS_MEAN_LINEAR * EDGE_SHADE * (1 + 0.34 * fine), 0.02, 0.95)
+    own = np.clip(distance_transform_edt(caps) / EDGE_PX, 0.0, 1.0)
+    shaded = np.where(caps, grey * own + even * (1 - own), np.where(near, even, grey))
+    seen = np.clip((alpha - FAINT) * ALPHA_CUTOFF / (ALPHA_CUTOFF - FAINT), 0.0, 1.0)
+    return shaded, np.where(near, seen, alpha)
+
+
 def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Texture, Texture]:
     """Grey strands with alpha, and their normals, from a painted (H, W, 4) picture; what no face uses is left empty."""
     size = len(used)
@@ -108,8 +134,10 @@ def hair_textures(style: str, painted: np.ndarray, used: np.ndarray) -> tuple[Te
     grey = np.clip(grey / grey[solid].mean() * STRANDS_MEAN_LINEAR, 0.02, 0.95)
     # Strands end apart: the edge of a lock is where its alpha falls, sooner between strands.
     alpha = np.clip(alpha * 1.35 + 0.15 * fine * (alpha > 0.02) * (alpha < 0.95), 0.0, 1.0)
-    alpha[_flecks(alpha > ALPHA_CUTOFF)] = 0.0
-    shade = _steps(to_srgb(spread(grey, solid)), GREYS)
+    grey, alpha = _hairline(spread(grey, solid), alpha, fine)
+    for least in (0.0, ALPHA_CUTOFF):
+        alpha[_flecks(alpha > least)] = 0.0
+    shade = _steps(to_srgb(grey), GREYS)
     colour = png(f"hair_{style}_color", np.stack([shade, shade, shade, _steps(alpha, ALPHAS)], axis=-1))
     # Normals at half the size: locks from what is painted, strands from the noise.
     rows = slice(None, None, 2)

@@ -188,6 +188,21 @@ def test_hair_is_grey_with_alpha_where_it_is_used_alone(build_module: Module) ->
     assert middle == pytest.approx(strands.STRANDS_MEAN_LINEAR, rel=0.25)
 
 
+def test_a_hairline_has_no_pale_edge_and_no_scraps_before_it(build_module: Module) -> None:
+    strands, textures = build_module("character_strands"), build_module("character_textures")
+    rows, columns = np.mgrid[:256, :256]
+    painted = np.zeros((256, 256, 4))
+    painted[..., :3] = np.where(columns < 124, 0.5, 0.9)[..., None]
+    painted[..., 3] = np.where(columns < 128, 1.0, np.where((columns < 144) & (rows % 6 < 3), 0.12, 0.0))
+    painted[:6, :, 3] = 0.0
+    colour, _ = strands.hair_textures("cap", painted, np.ones((1024, 1024), dtype=bool))
+    pixels = _pixels(colour.content)
+    shade = textures.to_linear(pixels[200:900, :, 0])
+    assert shade[:, 508:516].mean() < 1.1 * shade[:, 300:450].mean()
+    assert (pixels[200:900, 300:490, 3] == 1).all()
+    assert (pixels[200:900, 530:, 3] > 0).mean() < 0.035
+
+
 def test_brows_and_lashes_share_a_picture_and_lower_lashes_are_thin(build_module: Module, tmp_path: Path) -> None:
     strands, assets = build_module("character_strands"), build_module("character_assets")
     picture = np.zeros((64, 64, 4), dtype=np.uint8)
