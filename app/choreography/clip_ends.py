@@ -31,7 +31,7 @@ AFTER_S: Final = 0.5
 CALM: Final = 2.0
 CALM_RAD_S: Final = 1.0
 """It is over when the body is no faster than this many times its median speed in the time after it, or than that."""
-T_POSE_RAD: Final = 0.4
+T_POSE_RAD: Final = 0.5
 """Trunk, arms and legs of the T-pose are nearer than this to it."""
 EXACT_RAD: Final = 0.02
 """Bound of one that no body took."""

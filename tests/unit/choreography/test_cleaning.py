@@ -78,6 +78,18 @@ def test_arms_lowered_from_a_t_pose_are_no_dance(length_s: float, at_end: bool, 
     assert done.mended == done.left_out == ()
 
 
+def test_a_t_pose_with_an_arm_a_little_low_is_no_dance() -> None:
+    """An actor holds it as well as they can."""
+    clip, pose = dancing(60), still(120)
+    lowered, low = clip.rotations.copy(), pose.rotations.copy()
+    for at, turn in ((4, -1.0), (7, 1.0)):
+        down = [quaternion.from_axis_angle((0.0, 0.0, 1.0), angle * turn) for angle in (1.3, 0.45)]
+        lowered[:, at] = quaternion.multiply(down[0], lowered[:, at])
+        low[:, at] = quaternion.multiply(down[1], low[:, at])
+    whole = behind(replace(pose, rotations=low), replace(clip, rotations=lowered), 0.6)
+    assert 120 + 10 <= cleaned(whole).lead_in <= 120 + 60
+
+
 @pytest.mark.parametrize("kind", ["root_zero", "all_zero", "root"])
 @pytest.mark.parametrize("frames", [1, 2])
 @pytest.mark.parametrize("at_end", [False, True])
