@@ -28,8 +28,8 @@ LIFT_M: Final = 0.08
 """Height of the ball of a foot half way of the largest step, at full amount."""
 HEEL_RAD: Final = float(np.deg2rad(24.0))
 """Angle of the heel above the ball in the largest step or lifted heel."""
-TOES_RAD: Final = float(np.deg2rad(9.0))
-"""Angle of lifted toes above the heel, of a player who stands on bent knees."""
+TOES_RAD: Final = float(np.deg2rad(5.5))
+"""Angle of lifted toes above the heel, of a player who stands on bent knees: ankles are near their range there."""
 SEATED_TOES_RAD: Final = float(np.deg2rad(18.0))
 """Angle of the lifted toes of a player whose feet keep their place."""
 SEATED_HEEL_RAD: Final = float(np.deg2rad(9.0))
