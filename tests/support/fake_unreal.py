@@ -74,7 +74,11 @@ def stub_classes() -> dict[str, ast.ClassDef]:
 @cache
 def editor_properties(name: str, function: str) -> dict[str, str]:
     """The properties that a class's ``set_editor_property`` or ``get_editor_property`` knows, and their types."""
-    found = {}
+    found: dict[str, str] = {}
+    bases = [base.id for base in stub_classes()[name].bases if isinstance(base, ast.Name)]
+    for base in bases:
+        if base != "Object" and base in stub_classes():
+            found |= editor_properties(base, function)
     for node in stub_classes()[name].body:
         if isinstance(node, ast.FunctionDef) and node.name == function:
             value = node.args.args[2].annotation if function.startswith("set") else node.returns
@@ -224,6 +228,10 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
 
     class Color(StructBase):
         pass
+
+    class LinearColor(StructBase):
+        def __init__(self, r: float = 0.0, g: float = 0.0, b: float = 0.0, a: float = 0.0) -> None:
+            self.r, self.g, self.b, self.a = r, g, b, a
 
     class Int32Interval(StructBase):
         pass
@@ -375,8 +383,26 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class PhysicsAsset(Object):
         pass
 
+    class MaterialInterface(Object):
+        pass
+
+    class SkeletalMaterial(StructBase):
+        def __init__(self, material: Any, slot: str) -> None:
+            self.material_interface, self.material_slot_name = material, slot
+
     class SkeletalMesh(Object):
         _skeleton: Any = None
+        _slots: tuple[tuple[Any, str], ...] = ()
+
+        @property
+        def materials(self) -> list[SkeletalMaterial]:
+            # Copies, as structs of Unreal's are.
+            return [SkeletalMaterial(*slot) for slot in self._slots]
+
+        @materials.setter
+        def materials(self, value: list[SkeletalMaterial]) -> None:
+            self._slots = tuple((slot.material_interface, slot.material_slot_name) for slot in value)
+
         _morphs: frozenset[str] = frozenset()
 
         @property
@@ -400,8 +426,118 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
     class SoundWave(SoundBase):
         _duration_s = 0.0
 
-    class Material(Object):
+    class TextureCompressionSettings(Enum):
+        TC_DEFAULT = 0
+        TC_NORMALMAP = 1
+        TC_MASKS = 2
+
+    class Texture(Editable):
         pass
+
+    class Texture2D(Texture):
+        _content = b""
+
+    class BlendMode(Enum):
+        BLEND_OPAQUE = 0
+        BLEND_MASKED = 1
+        BLEND_TRANSLUCENT = 2
+
+    class Material(MaterialInterface, Editable):
+        def __init__(self) -> None:
+            super().__init__()
+            self._nodes: list[Any] = []
+            self._inputs: dict[str, tuple[Any, str]] = {}
+            self._compiled = 0
+
+    class MaterialFactoryNew(Factory):
+        pass
+
+    class MaterialProperty(Enum):
+        MP_OPACITY = 0
+        MP_OPACITY_MASK = 1
+        MP_BASE_COLOR = 2
+        MP_METALLIC = 3
+        MP_ROUGHNESS = 4
+        MP_NORMAL = 5
+        MP_AMBIENT_OCCLUSION = 6
+
+    class MaterialSamplerType(Enum):
+        SAMPLERTYPE_COLOR = 0
+        SAMPLERTYPE_NORMAL = 1
+        SAMPLERTYPE_MASKS = 2
+
+    class MaterialExpression(Editable):
+        _outputs: tuple[str, ...] = ("",)
+        _places: tuple[str, ...] = ()
+
+        def __init__(self) -> None:
+            super().__init__()
+            self._inputs: dict[str, tuple[Any, str]] = {}
+
+    class MaterialExpressionAdd(MaterialExpression):
+        _places = ("A", "B")
+
+    class MaterialExpressionMultiply(MaterialExpression):
+        _places = ("A", "B")
+
+    class MaterialExpressionLinearInterpolate(MaterialExpression):
+        _places = ("A", "B", "Alpha")
+
+    class MaterialExpressionConstant2Vector(MaterialExpression):
+        pass
+
+    class MaterialExpressionTextureCoordinate(MaterialExpression):
+        pass
+
+    class MaterialExpressionScalarParameter(MaterialExpression):
+        pass
+
+    class MaterialExpressionVectorParameter(MaterialExpression):
+        _outputs = ("", "R", "G", "B", "A")
+
+    class MaterialExpressionTextureSampleParameter2D(MaterialExpression):
+        _outputs = ("RGB", "R", "G", "B", "A", "RGBA")
+        _places = ("",)
+
+        def set_editor_property(self, name: str, value: Any) -> None:
+            super().set_editor_property(name, value)
+            if name == "sampler_type":
+                # The engine does not compile a sampler of another type than the texture's.
+                kinds = {"SAMPLERTYPE_NORMAL": "TC_NORMALMAP", "SAMPLERTYPE_MASKS": "TC_MASKS"}
+                texture = self._properties["texture"]._properties
+                assert texture["compression_settings"].name == kinds.get(value.name, "TC_DEFAULT")
+                assert texture["srgb"] == (value.name == "SAMPLERTYPE_COLOR")
+
+    class MaterialEditingLibrary:
+        @classmethod
+        def create_material_expression(
+            cls, material: Any, expression_class: Any, node_pos_x: int = 0, node_pos_y: int = 0
+        ) -> Any:
+            material._nodes.append(expression_class())
+            return material._nodes[-1]
+
+        @classmethod
+        def connect_material_expressions(
+            cls, from_expression: Any, from_output_name: str, to_expression: Any, to_input_name: str
+        ) -> bool:
+            if from_output_name not in from_expression._outputs or to_input_name not in to_expression._places:
+                return False
+            to_expression._inputs[to_input_name] = from_expression, from_output_name
+            return True
+
+        @classmethod
+        def connect_material_property(cls, from_expression: Any, from_output_name: str, property_: Any) -> bool:
+            (owner,) = (one for one in studio.assets.values() if from_expression in getattr(one, "_nodes", ()))
+            owner._inputs[property_.name] = from_expression, from_output_name
+            return from_output_name in from_expression._outputs
+
+        @classmethod
+        def delete_all_material_expressions(cls, material: Any) -> None:
+            material._nodes, material._inputs = [], {}
+
+        @classmethod
+        def recompile_material(cls, material: Any) -> None:
+            material._compiled += 1
 
     class AssetImportTask(Editable):
         def get_editor_property(self, name: str) -> Any:
@@ -487,6 +623,10 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
             sound = make(path, SoundWave)
             sound._duration_s = soundfile.info(asked["filename"]).duration
             return sound
+        if asked["filename"].endswith((".png", ".jpg")):
+            texture = make(path, Texture2D)
+            texture._content = Path(asked["filename"]).read_bytes()
+            return texture
         assert isinstance(asked["factory"], FbxFactory), "newer engines take Interchange"
         assert studio.variables.get(INTERCHANGE, "0") == "0", "newer engines take Interchange"
         ui = options._properties
@@ -499,8 +639,11 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
             mesh._morphs = file.morphs
             mesh._skeleton = skeleton or make(f"{path}_Skeleton", Skeleton)
             mesh._skeleton._bones = file.bones
-            for material in file.materials:
-                make(f"{asked['destination_path']}/{material}", Material)
+            slots = dict(reversed(slot) for slot in mesh._slots)
+            for material in sorted(file.materials):
+                made = make(f"{asked['destination_path']}/{material}", Material)
+                slots[material] = slots.get(material) or made
+            mesh._slots = tuple((slots[slot], slot) for slot in sorted(file.materials))
             return mesh
         assert ui["mesh_type_to_import"] is FBXImportType.FBXIT_ANIMATION
         if skeleton is None or file.frames is None:
@@ -516,8 +659,9 @@ def _classes(studio: Studio, module: Any) -> dict[str, type]:
                 import_one(task)
 
         def create_asset(self, asset_name: str, package_path: str, asset_class: type, factory: Any) -> Any:
-            assert (asset_class, type(factory)) == (LevelSequence, LevelSequenceFactoryNew)
-            return studio.add(f"{package_path}/{asset_name}", LevelSequence())
+            known = {LevelSequence: LevelSequenceFactoryNew, Material: MaterialFactoryNew}
+            assert type(factory) is known[asset_class]
+            return studio.add(f"{package_path}/{asset_name}", asset_class())
 
     class AssetToolsHelpers:
         @classmethod

@@ -347,7 +347,7 @@ class ExportDialog(WorkingDialog):
         kinds = requested(self._formats.formats) if into_folder else ()
         self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
         self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))
-        self._form.setRowVisible(self._textures, any(kind.textured for kind in kinds))
+        self._form.setRowVisible(self._textures, not into_folder or any(kind.textured for kind in kinds))
         self._form.setRowVisible(self._preroll, self._range.bars is None)
         self._form.setRowVisible(self._lead_in, self._range.bars is not None)
         if not self.player_ids:

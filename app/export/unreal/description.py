@@ -20,6 +20,7 @@ from app.export.request import CastDancing, CastMusician, ExportCast, ExportRequ
 from app.export.target import TargetSkeleton
 from app.export.unreal.layout import FigurePlace, Layout
 from app.export.unreal.manifest import OwnFile
+from app.export.unreal.surfaces import FileContents, Surfaces, UnrealMaterial, UnrealTexture
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.casting import StagePosition
@@ -28,10 +29,11 @@ from app.project.performers import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
 
-SCHEMA: Final = 4
+SCHEMA: Final = 5
 """Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers, one
 that knows 2 the instruments that a player changes to for figures that are not needed any more; one that knows 3 does
-not know that players share a mesh, and would leave an instrument that hangs on a socket at the origin."""
+not know that players share a mesh, and would leave an instrument that hangs on a socket at the origin; one that knows
+4 takes no images for files of ours."""
 
 
 class Rate(msgspec.Struct, frozen=True):
@@ -54,7 +56,7 @@ class UnrealPlace(msgspec.Struct, frozen=True):
 class UnrealFigure(msgspec.Struct, frozen=True):
     """A skeletal mesh in Unreal with its animation: its file, next to this one, and its assets. ``bones`` are all of
     the file's, the root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for
-    none."""
+    none; ``materials`` are those with textures, by the names of the slots."""
 
     file: str
     mesh: str
@@ -62,6 +64,7 @@ class UnrealFigure(msgspec.Struct, frozen=True):
     animation: str
     bones: tuple[str, ...]
     socket: str = ""
+    materials: dict[str, str] = {}
 
 
 class Double(msgspec.Struct, frozen=True):
@@ -193,6 +196,8 @@ class Description(msgspec.Struct, frozen=True):
     cues: tuple[Cue, ...]
     files: dict[str, OwnFile]
     left_out: tuple[LeftOutFigures, ...]
+    textures: tuple[UnrealTexture, ...] = ()
+    materials: tuple[UnrealMaterial, ...] = ()
 
 
 def describe(
@@ -201,8 +206,10 @@ def describe(
     layout: Layout,
     wording: Callable[[Message], str],
     sound: UnrealSound,
-    bones: Mapping[str, tuple[str, ...]],
+    contents: Mapping[str, FileContents],
+    *,
     files: Mapping[str, OwnFile],
+    surfaces: Surfaces,
 ) -> Description:
     """Describe an export.
 
@@ -210,14 +217,15 @@ def describe(
     ----------
     request, cast : ExportRequest and ExportCast
     layout : Layout
-        Of the piece.
     wording : callable
         Words the reasons why players and dancers could not be exported.
     sound : UnrealSound
-    bones : mapping of str to tuple of str
-        By the file that has them.
+    contents : mapping of str to FileContents
+        By the file.
     files : mapping of str to OwnFile
         See `Description`.
+    surfaces : Surfaces
+        Those of all the files.
     """
     project, span, bars = request.performance.project, request.span, request.bars
     score, rate = project.score, span.fps
@@ -236,8 +244,8 @@ def describe(
         first_frame=span.first,
         bars_exported=bars,
         sound=sound,
-        players=tuple(_cast(project, musician, layout, bones) for musician in cast.musicians),
-        dancers=tuple(_cast_dancer(dancer, layout, bones) for dancer in cast.dancers),
+        players=tuple(_cast(project, musician, layout, contents) for musician in cast.musicians),
+        dancers=tuple(_cast_dancer(dancer, layout, contents) for dancer in cast.dancers),
         ticks_per_quarter=score.ticks_per_quarter,
         pickup_ticks=score.pickup_ticks,
         tempo=_tempo(score, time),
@@ -251,17 +259,19 @@ def describe(
             for one in project.performers
             if one.id in left_out
         ),
+        textures=surfaces.textures,
+        materials=surfaces.materials,
     )
 
 
-def _cast(project: Project, musician: CastMusician, layout: Layout, bones: Mapping[str, tuple[str, ...]]) -> Cast:
+def _cast(project: Project, musician: CastMusician, layout: Layout, contents: Mapping[str, FileContents]) -> Cast:
     player = musician.player
     first, *others = (
         Double(
             one.player.name,
             project.part(one.player).name,
             one.player.instrument_id,
-            _figure(layout.instruments[one.player.id], bones, musician.sockets.get(one.player.id, "")),
+            _figure(layout.instruments[one.player.id], contents, musician.sockets.get(one.player.id, "")),
         )
         for one in musician.performers
     )
@@ -272,13 +282,13 @@ def _cast(project: Project, musician: CastMusician, layout: Layout, bones: Mappi
         character_id=player.character_id,
         stage=stage_place(player.stage),
         place=_actor_place(player, musician.target),
-        character=_character(player, musician.target, layout, bones),
+        character=_character(player, musician.target, layout, contents),
         instrument=first.instrument,
         doubles=tuple(others),
     )
 
 
-def _cast_dancer(cast: CastDancing, layout: Layout, bones: Mapping[str, tuple[str, ...]]) -> CastDancer:
+def _cast_dancer(cast: CastDancing, layout: Layout, contents: Mapping[str, FileContents]) -> CastDancer:
     dancer = cast.dancer
     return CastDancer(
         name=dancer.name,
@@ -286,20 +296,21 @@ def _cast_dancer(cast: CastDancing, layout: Layout, bones: Mapping[str, tuple[st
         character_id=dancer.character_id,
         stage=stage_place(dancer.stage),
         place=_actor_place(dancer, cast.target),
-        character=_character(dancer, cast.target, layout, bones),
+        character=_character(dancer, cast.target, layout, contents),
     )
 
 
 def _character(
-    one: Player | Dancer, target: TargetSkeleton, layout: Layout, bones: Mapping[str, tuple[str, ...]]
+    one: Player | Dancer, target: TargetSkeleton, layout: Layout, contents: Mapping[str, FileContents]
 ) -> UnrealFigure:
     mesh, skeleton = layout.body(one.character_id, socket_names(target))
-    return _figure(replace(layout.characters[one.id], mesh=mesh, skeleton=skeleton), bones)
+    return _figure(replace(layout.characters[one.id], mesh=mesh, skeleton=skeleton), contents)
 
 
-def _figure(place: FigurePlace, bones: Mapping[str, tuple[str, ...]], socket: str = "") -> UnrealFigure:
+def _figure(place: FigurePlace, contents: Mapping[str, FileContents], socket: str = "") -> UnrealFigure:
     file = place.file.as_posix()
-    return UnrealFigure(file, place.mesh, place.skeleton, place.animation, bones[file], socket)
+    held = contents[file]
+    return UnrealFigure(file, place.mesh, place.skeleton, place.animation, held.bones, socket, held.materials)
 
 
 def _actor_place(one: Player | Dancer, target: TargetSkeleton) -> UnrealPlace:

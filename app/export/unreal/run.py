@@ -44,10 +44,12 @@ from app.export.unreal.layout import (
     layout_of,
     piece_name,
 )
-from app.export.unreal.manifest import Changes, OwnFile, changes, encode_manifest, own_file
+from app.export.unreal.manifest import Changes, OwnFile, changes, encode_manifest, own_file, read_manifest
 from app.export.unreal.plugin import requested_plugin
 from app.export.unreal.project import UnrealProject, require_writable
+from app.export.unreal.surfaces import FileContents, Surfaces
 from app.formats.files import cannot_read
+from app.formats.texture_files import TEXTURES_FOLDER
 from app.performance.ensemble import Performance
 from app.performance.span import FrameSpan
 from app.project.performers import Dancer, Player
@@ -106,6 +108,7 @@ def plan_export(
     by_length: bool = False,
     left_out: tuple[str, ...] = (),
     bars: tuple[int, int] | None = None,
+    textures: tuple[PurePosixPath, ...] | None = None,
 ) -> Plan:
     """Plan the export of some players and dancers into a project; nothing is written.
 
@@ -121,6 +124,9 @@ def plan_export(
         Ids of those who were to be exported but cannot be: their files of an earlier export stay.
     bars : (int, int) or None
         First and last bar that is exported; None: the whole piece.
+    textures : tuple of path or None
+        Their files, relative to the piece's sources; None: not known before the characters are read, so that the plan
+        has none, and those that are there stay.
 
     Raises
     ------
@@ -131,10 +137,13 @@ def plan_export(
     layout = layout_of(performance.project, piece_name(source, project.folder))
     plugin = requested_plugin(project.folder)
     try:
-        done = [(layout.sources, layout.files(performer_ids, left_out))]
+        done = [(layout.sources, (*layout.files(performer_ids, left_out), *(textures or ())))]
         if plugin:
             done.append((PurePosixPath(PLUGIN), (*plugin, PurePosixPath(MANIFEST))))
         stays = frozenset(place.file for one in left_out for place in layout.figures(one))
+        if textures is None:
+            there = read_manifest(project.folder / layout.sources)
+            stays |= {path for path in there if path.parent.as_posix() == TEXTURES_FOLDER}
         found: list[tuple[PurePosixPath, Changes]] = [
             (folder, changes(project.folder / folder, coming, by_length, stays if folder == layout.sources else ()))
             for folder, coming in done
@@ -191,18 +200,36 @@ def export_into(
     Cancelled
     """
     recover(project.folder, project.folder / SOURCES)
+    texture_px = request.texture_px
+    # Surfaces in the files are plain: materials with textures are made of the description.
     request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False, texture_px=0)
     cast = cast_of(request, shown_in or wording, stop_requested)
+    layout = layout_of(request.performance.project, piece_name(request.source, project.folder))
+    surfaces = Surfaces(layout.content, texture_px)
+    materials = {
+        place.file.as_posix(): surfaces.slots(meshes) for _, place, _, meshes in _figures_written(cast, layout)
+    }
     left_out = tuple(one.player.id for one in cast.left_out)
-    plan = plan_export(request.performance, cast.ids, request.source, project, left_out=left_out, bars=request.bars)
+    plan = plan_export(
+        request.performance,
+        cast.ids,
+        request.source,
+        project,
+        left_out=left_out,
+        bars=request.bars,
+        textures=surfaces.files,
+    )
     with tree_into(project.folder, project.folder / SOURCES) as change:
         sources = change.new / plan.layout.sources
         reports = _figures(request, cast, plan.layout, sources, (wording, shown_in), stop_requested, progress)
         sound = _sound(request, plan.layout, sources, stop_requested, progress)
         bones = _checked(request, cast, plan.layout, sources, sound, stop_requested, progress)
+        surfaces.write(sources)
         files = {path.as_posix(): own_file(sources / path) for path in files_below(sources)}
-        description = describe(request, cast, plan.layout, wording, sound, bones, files)
-        (sources / REPORT).write_bytes(encode_report(reports.filed))
+        contents = {file: FileContents(named, materials[file]) for file, named in bones.items()}
+        description = describe(request, cast, plan.layout, wording, sound, contents, files=files, surfaces=surfaces)
+        filed = msgspec.structs.replace(reports.filed, textures=tuple(map(str, surfaces.files)))
+        (sources / REPORT).write_bytes(encode_report(filed))
         (sources / DESCRIPTION).write_bytes(encode_description(description))
         _vouch(change, plan.layout.sources, request.creator, {}, plan.staying)
         change.last.insert(0, Path(plan.layout.sources / DESCRIPTION))

@@ -27,7 +27,8 @@ def test_one_character_with_both_instruments(unreal: UnrealProject, export: Expo
     assert player["name"] == "Flute"
     assert [double["instrument_id"] for double in player["doubles"]] == ["piccolo"]
     assert player["doubles"][0]["instrument"]["file"] == "Instruments/SK_Flute_piccolo.fbx"
-    assert set(reported["files"]) == figures | {"Audio/S_changes.wav"}
+    images = {one["file"] for one in reported["textures"]}
+    assert set(reported["files"]) == figures | images | {"Audio/S_changes.wav"}
 
 
 def test_names_of_who_doubles_no_one_are_what_they_were() -> None:

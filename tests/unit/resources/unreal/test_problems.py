@@ -57,7 +57,7 @@ def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
         (write("performance.json", b"{"), "cannot be read"),
         (write("performance.json", b"[]"), "cannot be read"),
         (damage_json(lambda content: content.pop("rate")), "'rate'"),
-        (damage_json(lambda content: content.update(schema=5)), "newer Suisou"),
+        (damage_json(lambda content: content.update(schema=6)), "newer Suisou"),
         (damage_json(lambda content: content.update(frames=0)), "cannot be read"),
         (damage_json(lambda content: content.update(content="/Game/Other")), "cannot be read"),
         (damage_json(player("mesh", "/Game/Mine/SK_Trumpet_1")), "cannot be read"),

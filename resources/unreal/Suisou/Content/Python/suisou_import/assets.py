@@ -1,4 +1,4 @@
-"""Skeletal meshes, skeletons, animations and the sound: made, updated in place, and removed when no one plays them.
+"""Meshes, skeletons, animations, images and the sound: made, updated in place, and removed when no one plays them.
 
 FBX goes through the older importer (`suisou_import.fbx_options`), since newer engines would take Interchange. Every
 asset of ours bears the name of its piece as metadata; what does not is someone else's and is not touched.
@@ -100,13 +100,19 @@ def import_sound(performance: Performance) -> unreal.SoundWave:
     return _made(performance, performance.sound.asset, performance.sound.file, unreal.SoundWave)
 
 
+def import_image(performance: Performance, file: str, asset: str) -> unreal.Texture2D:
+    """Make a texture of an image, or bring it up to date."""
+    _import(performance, file, asset, None)
+    return _made(performance, asset, file, unreal.Texture2D)
+
+
 def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
     """Remove what is ours and belongs to no one any more; what is reported of it.
 
     Parameters
     ----------
     shown : set of str
-        Paths of what excluded performers are shown with.
+        Paths of what excluded performers are shown with, and of what meshes that stay show.
     """
     requested = set(performance.assets) | performance.staying | shown
     gone: list[str] = []
@@ -132,7 +138,7 @@ def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
 
 def _order(path: str) -> tuple[int, str]:
     """Return what uses others goes before them."""
-    prefixes = ("A_", "SK_", "SKEL_")
+    prefixes = ("A_", "SK_", "SKEL_", "M_")
     name = path.rpartition("/")[2]
     return next((index for index, prefix in enumerate(prefixes) if name.startswith(prefix)), len(prefixes)), path
 

@@ -27,6 +27,8 @@ FUNCTIONS = {
     "EditorAssetLibrary": ("find_package_referencers_for_asset", "set_metadata_tag"),
     "ScopedSlowTask": ("should_cancel",),
     "FbxFactory": (),
+    "MaterialEditingLibrary": ("create_material_expression", "connect_material_property", "recompile_material"),
+    "MaterialFactoryNew": (),
 }
 """Names that an older engine may lack."""
 

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 from suisou_import.problem import problem
 
-SCHEMA = 4
+SCHEMA = 5
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
 _MOST_BYTES = 256 << 20
-_FILE = re.compile(r"[A-Za-z0-9_]+/[A-Za-z0-9_]+\.(fbx|wav)")
+_FILE = re.compile(r"[A-Za-z0-9_]+/[A-Za-z0-9_]+\.(fbx|wav|png|jpg)")
 
 
 class Place(NamedTuple):
@@ -36,7 +36,8 @@ is imported as an asset of its own to Z up."""
 
 class Figure(NamedTuple):
     """A skeletal mesh and what it does. ``mesh``, ``skeleton`` and ``animation`` are paths of assets; what hangs on a
-    bone, the ``socket``, of another figure has the animation of that as its ``holder``."""
+    bone, the ``socket``, of another figure has the animation of that as its ``holder``. ``materials`` are those with
+    textures, by the names of their slots."""
 
     name: str
     file: str
@@ -47,6 +48,47 @@ class Figure(NamedTuple):
     animation: str
     socket: str = ""
     holder: str = ""
+    materials: dict[str, str] = {}
+
+
+class Texture(NamedTuple):
+    """An image that becomes a texture of a kind: ``color``, ``normal`` or ``masks``."""
+
+    file: str
+    asset: str
+    kind: str
+
+
+class Map(NamedTuple):
+    """A texture of a material; its coordinates are ``scale * uv + offset``."""
+
+    texture: str
+    scale: tuple[float, float]
+    offset: tuple[float, float]
+
+
+class Surface(NamedTuple):
+    """A material; ``alpha`` is ``opaque``, ``mask`` or ``blend``. Green of ``surface`` is roughness, blue metal."""
+
+    asset: str
+    base_color: tuple[float, float, float, float]
+    metallic: float
+    roughness: float
+    normal_scale: float
+    occlusion_strength: float
+    two_sided: bool
+    alpha: str
+    cutoff: float
+    color: Map | None
+    normal: Map | None
+    surface: Map | None
+    occlusion: Map | None
+
+    @property
+    def textures(self) -> list[str]:
+        """Paths of its textures, each once."""
+        maps = (self.color, self.normal, self.surface, self.occlusion)
+        return list(dict.fromkeys(one.texture for one in maps if one is not None))
 
 
 class Sound(NamedTuple):
@@ -86,6 +128,8 @@ class Performance(NamedTuple):
     left_out: tuple[LeftOut, ...]
     first_frame: int
     first_frame_s: float
+    textures: tuple[Texture, ...]
+    surfaces: tuple[Surface, ...]
 
     @property
     def staying(self) -> set[str]:
@@ -96,7 +140,8 @@ class Performance(NamedTuple):
     def assets(self) -> list[str]:
         """Paths of all its assets, each once: figures of the same body share its mesh and skeleton."""
         own = [path for figure in self.figures for path in (figure.mesh, figure.skeleton, figure.animation)]
-        return list(dict.fromkeys([*own, self.sound.asset, self.sequence]))
+        shown = [*(one.asset for one in self.textures), *(one.asset for one in self.surfaces)]
+        return list(dict.fromkeys([*own, self.sound.asset, self.sequence, *shown]))
 
     @property
     def bodies(self) -> list[Figure]:
@@ -202,17 +247,27 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
         # Of an export of an earlier Suisou there is none.
         first_frame=_at_least(0, content.get("first_frame", 0)),
         first_frame_s=_finite(content["first_frame_s"]),
+        # Of an export of an earlier Suisou there are none.
+        textures=tuple(_texture(one) for one in content.get("textures", ())),
+        surfaces=tuple(_surface(one) for one in content.get("materials", ())),
     )
     if read_performance.content != ROOT + piece:
         raise ValueError("its assets are not in its own folder")
     inside = read_performance.content + "/"
     assets = read_performance.assets
     alike = {(figure.mesh, figure.skeleton, figure.bones) for figure in figures}
-    count = 2 * len(alike) + len(figures) + 2
+    textures = {one.asset for one in read_performance.textures}
+    surfaces = {one.asset for one in read_performance.surfaces}
+    count = 2 * len(alike) + len(figures) + 2 + len(read_performance.textures) + len(read_performance.surfaces)
     apart = len({path.lower() for path in assets}) == len(assets) == count
     if not apart or not all(path.startswith(inside) for path in [*assets, *read_performance.staying]):
         raise ValueError("its assets are not apart, or not in its own folder")
-    if not {figure.file for figure in figures} | {read_performance.sound.file} <= set(read_performance.files):
+    shown_in = {path for figure in figures for path in figure.materials.values()}
+    mapped = {path for one in read_performance.surfaces for path in one.textures}
+    if not shown_in <= surfaces or not mapped <= textures:
+        raise ValueError("it names materials or textures that it does not describe")
+    files = {figure.file for figure in figures} | {one.file for one in read_performance.textures}
+    if not files | {read_performance.sound.file} <= set(read_performance.files):
         raise ValueError("it does not say what all of its files hold")
     return read_performance
 
@@ -231,7 +286,41 @@ def _figure(name: str, content: dict[str, Any], place: dict[str, Any], holder: d
         animation=_matching(_ASSET, content["animation"]),
         socket=socket,
         holder=_matching(_ASSET, holder["animation"]) if holder is not None and socket else "",
+        materials={str(slot): _matching(_ASSET, path) for slot, path in content.get("materials", {}).items()},
     )
+
+
+def _texture(content: dict[str, Any]) -> Texture:
+    kind = _matching(re.compile("color|normal|masks"), content["kind"])
+    return Texture(_matching(_FILE, content["file"]), _matching(_ASSET, content["asset"]), kind)
+
+
+def _surface(content: dict[str, Any]) -> Surface:
+    red, green, blue, opacity = (_finite(value) for value in content["base_color"])
+    numbers = ("metallic", "roughness", "normal_scale", "occlusion_strength")
+    metallic, roughness, normal_scale, occlusion_strength = (_finite(content[name]) for name in numbers)
+    return Surface(
+        asset=_matching(_ASSET, content["asset"]),
+        base_color=(red, green, blue, opacity),
+        metallic=metallic,
+        roughness=roughness,
+        normal_scale=normal_scale,
+        occlusion_strength=occlusion_strength,
+        two_sided=bool(content["two_sided"]),
+        alpha=_matching(re.compile("opaque|mask|blend"), content["alpha"]),
+        cutoff=_finite(content["cutoff"]),
+        color=_map(content["color"]),
+        normal=_map(content["normal"]),
+        surface=_map(content["surface"]),
+        occlusion=_map(content["occlusion"]),
+    )
+
+
+def _map(content: dict[str, Any] | None) -> Map | None:
+    if content is None:
+        return None
+    (u_scale, v_scale), (u, v) = ([_finite(value) for value in content[name]] for name in ("scale", "offset"))
+    return Map(_matching(_ASSET, content["texture"]), (u_scale, v_scale), (u, v))
 
 
 def _matching(pattern: re.Pattern[str], value: Any) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import unreal
 
-from suisou_import import assets, checks, sequence
+from suisou_import import assets, checks, materials, sequence
 from suisou_import.fbx_options import sample_rate
 from suisou_import.performance import Performance
 from suisou_import.problem import Cancelled, problem, text
@@ -26,6 +26,7 @@ def bring_in(performance: Performance) -> list[str]:
     """
     reported: list[str] = []
     count = len(performance.bodies) + len(performance.figures) + 4
+    count += len(performance.textures) + len(performance.surfaces)
     with unreal.ScopedSlowTask(count, performance.title) as task:
         task.make_dialog(True)
 
@@ -47,6 +48,14 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
         if assets.import_mesh(performance, figure):
             anew.add(figure.mesh)
             reported.append(text("new_skeleton", asset=figure.mesh))
+    for texture in performance.textures:
+        step("step_texture", name=texture.asset.rpartition("/")[2])
+        materials.import_texture(performance, texture)
+    for surface in performance.surfaces:
+        step("step_material", name=surface.asset.rpartition("/")[2])
+        materials.make_material(performance, surface)
+    for figure in performance.bodies:
+        materials.assign(performance, figure)
     for figure in performance.figures:
         step("step_animation", name=figure.name)
         animation = assets.import_animation(performance, figure)
@@ -57,7 +66,9 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
     assets.import_sound(performance)
     step("step_sequence")
     reported += sequence.build(performance, anew)
-    reported += assets.remove_leftovers(performance, sequence.shown_with(performance))
+    shown = sequence.shown_with(performance)
+    shown |= materials.in_use({figure.mesh for figure in performance.bodies} | performance.staying | shown)
+    reported += assets.remove_leftovers(performance, shown)
     step("step_save")
     if not unreal.EditorAssetLibrary.save_directory(performance.content, only_if_is_dirty=True, recursive=True):
         raise problem("not_saved", folder=performance.content)

@@ -131,6 +131,8 @@ TEXTS = {
     ),
     "step_check": ("Checking the files", "ファイルを確認しています"),
     "step_mesh": ("Mesh of {name}", "{name} のメッシュ"),
+    "step_texture": ("Texture {name}", "テクスチャー {name}"),
+    "step_material": ("Material {name}", "マテリアル {name}"),
     "step_animation": ("Animation of {name}", "{name} のアニメーション"),
     "step_sound": ("Sound", "音声"),
     "step_sequence": ("Level sequence", "レベルシーケンス"),
