@@ -27,7 +27,7 @@ from widgets.viewport.geometry import (
 from widgets.viewport.limb_capsules import HELD, LIMBS, SHADING, LimbCapsules
 from widgets.viewport.shape_model import Geometry
 from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
-from widgets.viewport.texture_maps import IN_HASTE, MULTISAMPLED, TextureMaps
+from widgets.viewport.texture_maps import MULTISAMPLED, WHOLE_PIXELS, TextureMaps
 
 FINE_PX_PER_M = 620.0
 """Size on screen above which a player is drawn from all vertices."""
@@ -38,7 +38,7 @@ HASTY_FACTOR = 1.7
 """Factor by which pictures made in haste are treated as smaller when their level of detail is chosen."""
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
 """Parts of the names of renderers that have no card."""
-GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE = 0x809D, 0x809E
+GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLES = 0x809D, 0x809E, 0x80A9
 _ALL = 2**30
 _NO_LOOK = (0.0, 0.0, 0.0, 0.0)
 MIDDLE_M = np.array([0.0, 1.0, 0.0])
@@ -139,7 +139,7 @@ class Renderer:
             self._maps.undress(program)
             program["a_uv"] = (0.0, 0.0)
             program["u_factor"], program["u_surface"], program["u_shared"] = _NO_LOOK, _NO_LOOK, (0.0, 0.0, 1.0)
-            program["u_color_px"], program["u_least"] = 1.0, IN_HASTE
+            program["u_color_px"], program["u_least"] = 1.0, WHOLE_PIXELS
             for place in ("u_color_place", "u_surface_place", "u_normal_place"):
                 program[place] = _NO_LOOK
         self._figures["a_row"] = 0.0
@@ -215,7 +215,8 @@ class Renderer:
             draw_sides(self._batch, self._batch_triangles)
         # Alpha is how many of a pixel's samples are drawn of what is cut out; the picture itself stays opaque.
         gloo.set_color_mask(True, True, True, False)
-        self._figures["u_least"] = IN_HASTE if hasty else MULTISAMPLED
+        whole = hasty or gl.glGetParameter(GL_SAMPLES) < 2
+        self._figures["u_least"] = WHOLE_PIXELS if whole else MULTISAMPLED
         context.glir.command("FUNC", "glEnable", GL_SAMPLE_ALPHA_TO_COVERAGE)
         self._draw_near(stage, shapes, level, "triangles")
         context.glir.command("FUNC", "glDisable", GL_SAMPLE_ALPHA_TO_COVERAGE)

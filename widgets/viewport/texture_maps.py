@@ -20,8 +20,9 @@ MOST_BYTES: Final = 192 * 2**20
 longest time go."""
 BLENDED: Final = 2.0
 """The cutoff that stands for a screen of pixels."""
-MULTISAMPLED, IN_HASTE = 0.02, 0.5
-"""Least share of a pixel that what is cut out has to cover: its samples show how much, where there are some."""
+MULTISAMPLED, WHOLE_PIXELS = 0.02, 0.25
+"""Least share of a pixel that what is cut out has to cover: with samples, which show how much, and without, where brows
+of less would fall to pieces."""
 _GL_LINEAR_MIPMAP_LINEAR: Final = 0x2703
 _WHITE: Final = np.full((1, 1, 4), 255, np.uint8)
 _FLAT: Final = np.array([[[128, 128, 255, 255]]], np.uint8)
