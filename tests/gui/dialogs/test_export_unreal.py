@@ -115,6 +115,7 @@ def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
     assert box.isVisible()
     into_unreal(dialog)
     assert not box.isVisible()
+    assert child(dialog, QComboBox, "export_textures").isVisible()
     for name, format_box in dialog._formats._boxes.items():
         format_box.setChecked(False)
         assert name not in dialog._formats.formats
