@@ -27,7 +27,9 @@ LOST_RAD = float(np.deg2rad(18.0))
 PROBE_RAD = 0.02
 """Turn that probes the effect on the wrist ..."""
 STIFF = 0.18
-"""... and where that is about so little, it is not turned in vain."""
+"""... and where that is about so little, it is turned less ..."""
+VAIN = 0.1
+"""... and here hardly: where the effect passes zero, the elbow would be flung from one side to the other."""
 ROUNDS = 2
 LEAST_SINE = 1e-9
 
@@ -92,7 +94,7 @@ class Wrist:
             The angles aside with the elbow gone round so far.
         """
         slope = (at(np.full(len(aside_rad), PROBE_RAD)) - aside_rad) / PROBE_RAD
-        gain = slope / (slope * slope + STIFF * STIFF)
+        gain = slope**3 / ((slope * slope + STIFF * STIFF) * (slope * slope + VAIN * VAIN))
         turn, now = np.zeros(len(aside_rad)), aside_rad
         for number in range(ROUNDS):
             if number:

@@ -98,6 +98,17 @@ def test_a_wrist_well_within_its_range_is_left_alone(side: Side) -> None:
     assert np.allclose(out - wrist.beyond_rad(out), np.minimum(out, np.deg2rad(20.0)), atol=np.deg2rad(0.5))
 
 
+def test_an_elbow_that_hardly_moves_the_wrist_is_not_flung_to_the_other_side() -> None:
+    wrist = wrists_of(load_body(), load_skeleton())["right"]
+    # Two frames of a slide on its way: the angle aside by the elbow's turn rises with it, then falls.
+    aside_rad, by_turn = np.deg2rad(np.array([-34.0, -34.0, -34.0])), np.array([0.09, -0.04, 0.25])
+    turn_deg = np.degrees(
+        wrist.relief_rad(aside_rad, wrist.beyond_rad(aside_rad), lambda turn_rad: aside_rad + by_turn * turn_rad)
+    )
+    assert abs(turn_deg[0] - turn_deg[1]) < 10.0
+    assert turn_deg[2] > 10.0, "where it helps, it goes"
+
+
 @pytest.mark.parametrize("character_id", ["man_adult", "woman_adult"])
 @pytest.mark.parametrize(
     "instrument_id", ["sax_baritone_Eb", "clarinet_bass_Bb", "english_horn", "sax_soprano_Bb", "sax_tenor_Bb"]
