@@ -85,10 +85,10 @@ def test_hips_trunk_and_head_dance() -> None:
         assert np.quantile(large, 0.9) > np.deg2rad(7.0)
         # Half of a dance shows well, but for its nods, which move the bell.
         assert 0.55 < np.median(small / large) < 0.75
-    # The player stays on the place, and goes as far as is said.
-    path = much.hips_m - generated.hips_m
-    assert 0.10 < np.abs(path[:, 0]).max() < 0.12
-    assert 0.05 < np.abs(path[:, 2]).max() < 0.07
+    # The player stays on the place, and goes as far as is said: the hips lean by a little more.
+    path = np.abs(much.hips_m - generated.hips_m).max(axis=0)
+    for axis, channel in ((0, "side_m"), (2, "ahead_m")):
+        assert path[axis] == pytest.approx(MOST[channel], abs=0.005)
 
 
 @pytest.mark.parametrize("posture", ["standing", "seated"])
