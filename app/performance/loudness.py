@@ -192,7 +192,7 @@ def _spans(part: Part) -> tuple[FloatArray, FloatArray]:
 
 
 def _moves(steps: ControllerSteps, first: float, last: float) -> bool:
-    """Return whether it takes more than one value between two ticks."""
+    """Return whether a controller has more than one value between two ticks."""
     start = max(int(np.searchsorted(steps.ticks, first, side="right")) - 1, 0)
     values = steps.values[start : int(np.searchsorted(steps.ticks, last))]
     return len(values) > 0 and bool(np.ptp(values) > 0.0)

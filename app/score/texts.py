@@ -121,7 +121,7 @@ def _unicode(data: bytes) -> str | None:
 
 
 class _Encoding(msgspec.Struct, frozen=True):
-    """One of those that programs wrote.
+    """A text encoding that programs have written into MIDI files.
 
     Attributes
     ----------

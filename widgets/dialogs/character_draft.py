@@ -140,7 +140,7 @@ class DraftHistory:
         return bool(self._undone)
 
     def apply(self, draft: CharacterDraft, gesture: object | None = None) -> bool:
-        """Another draft; those of one gesture are one step. Whether it is another."""
+        """Make a draft the current step, in place of the last one of the same gesture. Return whether it differs."""
         before = self.now
         if gesture is not None and gesture is self._gesture and self._of_gesture:
             self._done.pop()

@@ -51,7 +51,7 @@ def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_
 
 
 def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
-    """The first performance again in every variation that reaches into a span."""
+    """Take back every variation that reaches into a span, so that the first performance is there again."""
     for player_id in player_ids:
         there = variations(project, player_id, start_tick, end_tick)
         if there:

@@ -151,17 +151,17 @@ def shapes_of(packed: PackedArrays, path: Path) -> BodyShapes:
 
 
 def age_of(years: float) -> float:
-    """Return the age of a phenotype for years."""
+    """Convert an age in years to the 0 to 1 of a phenotype."""
     return float(np.interp(years, YEARS, GROWN))
 
 
 def years_of(age: float) -> float:
-    """Return the years that a phenotype's age is."""
+    """Convert the age of a phenotype, 0 to 1, to years."""
     return float(np.interp(age, GROWN, YEARS))
 
 
 def _between(value: float, anchors: tuple[float, ...]) -> list[float]:
-    """Shares of the variations that stand at some values; beyond the last ones: theirs."""
+    """Interpolate linearly between anchors: the share of each, 0 to 1; beyond the ends the nearest anchor has all."""
     return [float(np.interp(value, anchors, np.eye(len(anchors))[place])) for place in range(len(anchors))]
 
 

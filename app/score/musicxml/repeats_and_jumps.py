@@ -42,7 +42,7 @@ def playing_order(bars: Sequence[Bar], file: str) -> Order:
 
 
 def _explain(bars: Sequence[Bar]) -> None:
-    """Let words and signs mean what no sound says."""
+    """Read jumps from words and signs where the file has no ``sound`` element that gives them."""
     jumps = any(bar.da_capo or bar.dal_segno for bar in bars)
     for bar in bars:
         said = bar.said

@@ -65,12 +65,12 @@ def moved_edge(start: int, end: int, at_start: bool, tick: int, least: int = 1) 
 
 
 def along(least_px: float) -> Far:
-    """Far to the left or right."""
+    """Return a test for drags that have gone at least so many pixels to the left or right."""
     return lambda at, mouse: abs(mouse.x_px - at.x_px) >= least_px
 
 
 def across(least_px: float) -> Far:
-    """Far up or down."""
+    """Return a test for drags that have gone at least so many pixels up or down."""
     return lambda at, mouse: abs(mouse.y_px - at.y_px) >= least_px
 
 
