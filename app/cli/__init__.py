@@ -32,20 +32,20 @@ from app.errors import AppError, UsageError
 from app.formats.other_computers import agree
 from app.version import program_version
 
-_EXAMPLES = """\
+EXAMPLES: Final = """\
   suisou edit quartet.mid
   suisou inspect quartet.mid
   suisou export quartet.mid --to out
   suisou export quartet.mid --to out --format fbx --fps 30 --from-bar 1 --to-bar 8
   suisou export pieces/ --to out --jobs 4
-  suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone.posture=seated"
+  suisou export quartet.mid --to out --set "*.amplitude=0.8" --set "trombone 1.posture=seated"
   suisou film quartet.mid --to hands.mp4 --view hands --player "Trumpet 1" --from-bar 1 --to-bar 4
   suisou film quartet.mid --sheet hands.png --every 0.1 --view hands --to-bar 2
   suisou evaluate quartet.mid --film concert.mp4 --to evaluation
   suisou evaluate results evaluation/answers-*.csv --to evaluation
   suisou midi session.suisou --to session.mid
   suisou align quartet.mid concert.flac --to concert.suisou
-  suisou stream quartet.mid --player horn --loop
+  suisou stream quartet.mid --player "Trumpet 1" --loop
   suisou instruments
   suisou instruments scale INSTRUMENT
   suisou metadata
@@ -68,7 +68,7 @@ def _parser(language: str) -> CommandParser:
     top = CommandParser(
         prog="suisou",
         description=said("cli.description"),
-        epilog=f"{said('cli.examples')}\n{_EXAMPLES}",
+        epilog=f"{said('cli.examples')}\n{EXAMPLES}",
         formatter_class=TopFormatter,
     )
     top.add_argument(

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from app.cli import _joined, main, parser
+from app.cli import EXAMPLES, _joined, main, parser
+from app.cli.options import open_project
 from app.cli.status import DONE
+from app.project.parameters import select_players
 
 ROOT = Path(__file__).parents[3]
 GUIDES = (ROOT / "README.md", ROOT / "README_ja.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md")))
@@ -25,7 +27,7 @@ def commands(pattern: str) -> list[tuple[str, ...]]:
 
 
 LINES = commands(r"^    ((?:\./run|suisou) .+)$")
-MENTIONED = commands(r"`suisou ([a-z][^`\n.]*)`")
+MENTIONED = commands(r"`(?:suisou|\./run) ([a-z][^`\n]*)`")
 FROM_CHECKOUT = [words[1:] for words in LINES if words[0] == "./run"]
 _QUICK = ("inspect", "instruments", "metadata")
 
@@ -39,6 +41,18 @@ def test_there_are_examples_of_both_kinds() -> None:
 def test_every_example_is_understood(words: tuple[str, ...]) -> None:
     arguments = parser().parse_args(_joined([*words]), argparse.Namespace(given=()))
     assert arguments.command
+
+
+OF_QUARTET = [words[1:] for words in map(shlex.split, EXAMPLES.splitlines()) if "quartet.mid" in words]
+
+
+@pytest.mark.parametrize("words", [words for words in OF_QUARTET if {"--player", "--set"} & set(words)], ids=" ".join)
+def test_examples_of_the_help_name_players_of_the_bundled_quartet(words: list[str]) -> None:
+    arguments = parser().parse_args(_joined(words), argparse.Namespace(given=()))
+    arguments.file = ROOT / "resources/examples/quartet.mid"
+    project = open_project(arguments)
+    if arguments.players:
+        assert select_players(arguments.players, [player.name for player in project.players])
 
 
 @pytest.mark.parametrize("words", MENTIONED, ids=" ".join)
