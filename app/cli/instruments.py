@@ -10,6 +10,7 @@ from app.cli.speech import said, sentence, spoken
 from app.cli.summary import columns, heads
 from app.cli.terminal import say
 from app.errors import AppError
+from app.messages import WORDINGS
 
 
 class InvalidMapError(AppError):
@@ -73,12 +74,18 @@ def print_scale(arguments: argparse.Namespace) -> None:
                     str(fingering.rank),
                     fingering.label,
                     f"{fingering.cents:+.0f}" if round(fingering.cents) else "",
-                    ", ".join(fingering.tags),
+                    ", ".join(map(word_of_tag, fingering.tags)),
                     *([fingering_words(instrument, fingering.label, spoken().language)] if words else []),
                 )
             )
     titles = heads("instruments.scale_heads")
     say(*columns([titles if words else titles[:-1], *rows], of_numbers=False))
+
+
+def word_of_tag(tag: str) -> str:
+    """Reason to take an alternate fingering in the user's language; one of the user's own is shown as it is."""
+    id = f"fingering_tag.{tag}"
+    return said(id) if id in WORDINGS else tag
 
 
 def transposition(semitones: int) -> str:

@@ -227,3 +227,10 @@ def test_a_file_of_an_export_keeps_its_words(tmp_path: Path, capsys: pytest.Capt
     report = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert report["warnings"]
     assert not any(JAPANESE.search(line) for line in report["warnings"])
+
+
+def test_reasons_for_alternate_fingerings_are_said_in_japanese(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["instruments", "scale", "trumpet_Bb", "--language", "ja"]) == DONE
+    shown = capsys.readouterr().out
+    assert "トリル" in shown
+    assert not re.search(r"\b(trill|rare|alternate)\b", shown)
