@@ -22,7 +22,8 @@ need_packages() {
     if [ -n "${asks:-}" ] && [ -t 0 ] && [ -t 2 ]; then
         local answer=
         read -r -p "Install the Debian packages ${missing[*]}? [Y/n] " answer || answer=n
-        case $answer in [nN]*) return 0 ;; esac
+        # Anything but an empty answer or a yes declines.
+        case $answer in "" | [yY] | [yY][eE][sS] | はい) ;; *) return 0 ;; esac
     fi
     say "Installing ${missing[*]} ..."
     apt-get update -qq >&2

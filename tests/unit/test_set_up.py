@@ -43,7 +43,13 @@ def at_terminal(asks: str, typed: bytes) -> str:
     return shown.decode()
 
 
-@pytest.mark.parametrize(("typed", "installs"), [(b"n\n", False), (b"\x04", False), (b"\n", True), (b"y\n", True)])
+@pytest.mark.parametrize(
+    ("typed", "installs"),
+    [
+        *((typed, False) for typed in (b"n\n", b"\x04", b"quit\n", "いいえ\n".encode())),
+        *((typed, True) for typed in (b"\n", b"y\n", b"YES\n", "はい\n".encode())),
+    ],
+)
 def test_a_person_is_asked(typed: bytes, installs: bool) -> None:
     shown = at_terminal("1", typed)
     assert "Install the Debian packages some-package?" in shown
@@ -55,6 +61,15 @@ def test_the_checks_do_not_ask() -> None:
     shown = at_terminal("", b"\n")
     assert "?" not in shown
     assert "apt-get install" in shown
+
+
+def test_the_options_of_the_checks_are_shown_without_a_set_up() -> None:
+    """An exported variable changes nothing either: it is unset."""
+    text = (ROOT / "test").read_text("utf-8")
+    shown = subprocess.run([ROOT / "test", "--help"], capture_output=True, text=True, timeout=30, check=True)
+    assert shown.stderr == ""
+    assert all(f"\n{option}" in shown.stdout for option in ("--quick", "--bench", "--versions", "--fuzz"))
+    assert text.index("unset asks") < text.index("source ")
 
 
 def test_nobody_is_asked_without_a_terminal() -> None:
