@@ -193,6 +193,8 @@ def decode(content: bytes, path: Path, name: str | None = None) -> Project:
         What the file is called in messages, by default its path.
     """
     file = os.fspath(path) if name is None else name
+    if content.startswith(b"MThd"):
+        raise FileError("project.is_midi", file=file)
     raw = decode_json(content, _ANY, file, "project.damaged")
     version = raw.get(VERSION_KEY) if isinstance(raw, dict) else None
     if not isinstance(version, int) or isinstance(version, bool) or version < 1:

@@ -107,6 +107,14 @@ def test_a_piece_is_saved_compared_and_loaded(run: Run, tmp_path: Path) -> None:
     assert run("metadata", piece, "--diff", file)[0] == 0
 
 
+def test_a_midi_file_is_called_one(run: Run, tmp_path: Path) -> None:
+    quartet = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
+    status, _, said = run("metadata", quartet, "--save", tmp_path / "x.toml")
+    assert status == 1
+    assert "is a MIDI file" in said
+    assert ".bak" not in said
+
+
 def test_wrong_use_is_said(run: Run, tmp_path: Path) -> None:
     assert run("metadata", "--save", tmp_path / "x.toml")[0] == 2
     assert run("metadata", tmp_path / "x.suisou")[0] == 2
