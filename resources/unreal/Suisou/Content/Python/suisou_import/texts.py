@@ -69,7 +69,7 @@ TEXTS = {
     ),
     "not_ours": (
         "{asset} is there already and was not made by Suisou. Rename it or move it, then repeat this.",
-        "{asset} はすでにあり、Suisou が作ったものではありません。名前を変えるか移動してから、やり直してください。",
+        "{asset} は既にあり、Suisou が作ったものではありません。名前を変えるか移動してから、やり直してください。",
     ),
     "read_only": (
         "The level sequence {asset} is locked. Unlock it in Sequencer, then repeat this.",
