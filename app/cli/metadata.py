@@ -12,6 +12,8 @@ from app.cli.summary import columns, heads
 from app.cli.terminal import say, warn
 from app.encoding import shown
 from app.errors import AppError, Message, UsageError
+from app.messages import WORDINGS
+from app.messages.wordings import wording
 
 if TYPE_CHECKING:
     from metadata.rules import Rule
@@ -70,7 +72,8 @@ def list_all() -> None:
     for folder, shelf in zip(FOLDERS, shelves, strict=True):
         for name, item in sorted(shelf.items.items()):
             title = getattr(item, "title", None)
-            described = item.description if title is None else f"{name_of(title)}: {name_of(item.description)}"
+            plain = _described(folder.name, item.description, name) if title is None else name_of(item.description)
+            described = plain if title is None else f"{name_of(title)}: {plain}"
             rows.append((folder.name, f"{name}{'*' if name in shelf.files else ''}", described))
     say(*columns(rows, of_numbers=False), "", said("cli.own_folders"))
     for shelf in shelves:
@@ -80,6 +83,12 @@ def list_all() -> None:
         if shelf is library.rules:
             for name, unknown in strange.items():
                 say(*(f"    rules/{shown(name)}.toml: {sentence(message)}" for message in unknown))
+
+
+def _described(folder: str, description: str, name: str) -> str:
+    """A description without languages in the user's language, where it is that of a bundled table."""
+    id = f"metadata.described_{folder}_{name}"
+    return said(id) if id in WORDINGS and wording(id, "en") == description else description
 
 
 def check(file: Path) -> None:

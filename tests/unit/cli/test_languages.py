@@ -234,3 +234,10 @@ def test_reasons_for_alternate_fingerings_are_said_in_japanese(capsys: pytest.Ca
     shown = capsys.readouterr().out
     assert "トリル" in shown
     assert not re.search(r"\b(trill|rare|alternate)\b", shown)
+
+
+def test_every_bundled_table_is_described_in_japanese(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["metadata", "--language", "ja"]) == DONE
+    listed = [line for line in capsys.readouterr().out.splitlines() if line.startswith(("expressions ", "rules "))]
+    assert len(listed) >= 16
+    assert [line for line in listed if not JAPANESE.search(line)] == []
