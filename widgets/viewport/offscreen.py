@@ -60,6 +60,8 @@ class Offscreen:
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
+        # Of a large piece only the one in front has been loaded; the camera of a film looks at everyone.
+        self._panel.scene.load()
         return self._panel.film(*size, span_s, view, marked, player_ids, cameras)
 
     @property

@@ -25,6 +25,7 @@ from tests.gui.conftest import QUARTET
 from tests.support.bad_players import with_character
 from tests.support.dances import model
 from tests.unit.project.pieces import small_project
+from widgets.viewport import scene
 from widgets.viewport.offscreen import captions
 from widgets.viewport.panel import ViewportPanel
 
@@ -55,6 +56,19 @@ def test_frames_are_the_pictures_of_the_window(
             off = np.abs(np.asarray(picture).astype(int) - draw(first_s + index)[..., :3])
         # The times differ by what was printed of them.
         assert off.mean() < 0.5, name
+
+
+def test_a_large_piece_is_seen_whole(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], qt_app: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The camera looks at everyone, not at the one whose figure was loaded first."""
+    pictures = []
+    for number, few in enumerate((12, 3)):
+        monkeypatch.setattr(scene, "FEW", few)
+        film(capsys, "--sheet", tmp_path / f"{number}.png", "--every", "9", "--to-bar", "1", "--size", "128x72")
+        with Image.open(tmp_path / f"{number}.png") as image:
+            pictures.append(np.asarray(image).astype(int))
+    assert np.abs(pictures[0] - pictures[1]).mean() < 0.5
 
 
 def test_a_contact_sheet_has_a_row_for_each_second(
