@@ -140,11 +140,11 @@ class _Unpacking:
 
     def _meshopt(self, packed: object) -> MeshoptPart:
         reader = self.reader
-        mode, wanted = reader.text(packed, "mode", ""), reader.text(packed, "filter", "NONE")
+        mode, filtering = reader.text(packed, "mode", ""), reader.text(packed, "filter", "NONE")
         stride = reader.number(packed, "byteStride")
-        if mode not in get_args(Mode) or wanted not in get_args(Filter) or not 0 < stride <= 256:
+        if mode not in get_args(Mode) or filtering not in get_args(Filter) or not 0 < stride <= 256:
             raise reader.damaged("bufferView")
-        return MeshoptPart(reader.part_of_buffer(packed), reader.number(packed, "count"), stride, mode, wanted)  # type: ignore[arg-type]
+        return MeshoptPart(reader.part_of_buffer(packed), reader.number(packed, "count"), stride, mode, filtering)  # type: ignore[arg-type]
 
     def put(self, unpacked: Sequence[Mapping[str, UnpackedArray]]) -> None:
         """Put what was unpacked in the place of the parts, in a buffer of its own."""
