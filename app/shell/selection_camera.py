@@ -39,7 +39,13 @@ class SelectionCamera(QObject):
         self._soon.timeout.connect(self._go)
         session.selection_changed.connect(self._selected)
         session.changed.connect(self._changed)
+        session.players_changed.connect(self._players_selected)
         session.viewport.viewed.connect(self._stay)
+
+    def _players_selected(self) -> None:
+        """Stay where the user has selected others since: they remain selected."""
+        if self._goal is not None and self._goal[0] not in self._session.players:
+            self._goal = None
 
     def _stay(self) -> None:
         """A view was asked for, as by a problem that is gone to."""

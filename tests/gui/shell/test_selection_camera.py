@@ -136,3 +136,13 @@ def test_every_kind_that_has_a_body_is_shown() -> None:
     views = {kind.id: view_of_event(f"{kind.id}:1") for kind in (*GESTURES, *BREATHS)}
     assert None not in views.values()
     assert (views["tap"], views["breath"], views["preparation"], views["nod"]) == ("feet", "mouth", "front", "front")
+
+
+def test_players_selected_after_a_note_remain_selected(program: Program) -> None:
+    session = program.session
+    session.viewport.set(camera_follows="always")
+    first, second = session.project.players[:2]
+    session.select(Selection(notes=frozenset({session.project.part(first).notes[2].id})))
+    session.set_players((second.id,))
+    _wait(program)
+    assert session.players == (second.id,)
