@@ -1,4 +1,4 @@
-"""The instrument and the players that each track is assigned to, as suggested and as the user changes it."""
+"""Assignment of tracks to instruments and players: the suggestion, and the user's changes to it."""
 
 from __future__ import annotations
 
@@ -23,23 +23,24 @@ class PartAssignment(msgspec.Struct, frozen=True):
     Attributes
     ----------
     channels : tuple of int
-        Places among the channels; several are merged into one line.
+        Indices of the channels; the notes of several channels are merged into one line.
     map_id : str or None
-        The instrument map that plays it; None: what the names, programs and ranges say; `PERCUSSION`: no one, for its
-        notes are the sounds of a drum kit.
+        Id of the instrument map for the part. None: chosen by names, programs and ranges. `PERCUSSION`: the notes are
+        the sounds of a drum kit, and the part has no player.
     name : str
-        Of the part; empty: what the file calls it.
+        Name of the part; empty: the name in the file.
     split : {"sustained", "every", "never"}
-        Another player for notes that go on sounding together; for every note that does; or one player has them all.
+        When a second player is added: for notes that go on sounding together, for every note that overlaps another, or
+        never.
     written : bool
-        The file has the pitches that stand in the part of a transposing instrument, not those that sound.
+        Whether the file holds written pitches of a transposing instrument instead of sounding ones.
     clean : bool
-        The tracks are takes: notes that were not meant are left out (`app.score.take_tracks`).
+        Whether the tracks are recorded takes, from which unintended notes are removed (`app.score.take_tracks`).
     solos : bool
-        The track's words about who plays ("1. Solo", "a2") are followed.
+        Whether words in the track about the number of players ("1. Solo", "a2") are followed.
     voice_maps : tuple of (str or None)
-        The instrument maps of single players, from voice 0, where the track is split; None, and voices beyond: as of
-        the whole part.
+        The instrument maps of single players, from voice 0, where the track is split; None, and voices beyond the end:
+        the map of the whole part.
     """
 
     channels: tuple[int, ...]
@@ -58,7 +59,7 @@ class Suggestion(msgspec.Struct, frozen=True):
     Attributes
     ----------
     playable : bool
-        A map plays them.
+        Whether an instrument map can play the tracks.
     """
 
     assignment: PartAssignment
@@ -66,17 +67,18 @@ class Suggestion(msgspec.Struct, frozen=True):
 
 
 def usual_assignments(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> tuple[PartAssignment, ...]:
-    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable stream, and
-    one for the regions of a track."""
+    """Suggested assignments by names, programs and ranges, for the user to change: one for every playable group of
+    tracks, and one for each instrument of a track that changes instruments.
+    """
     return tuple(found.assignment for found in suggestions(channels, maps) if found.playable)
 
 
 def suggestions(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> list[Suggestion]:
-    """Suggested assignments of all channels, those that are one player's together.
+    """Suggested assignments of all channels; channels of one player are grouped.
 
-    The pitches of a part are taken for written ones where many lie outside its instrument's range as they sound and
-    none as they are written; where one of a family is written so, the others are with any note that is unusually low or
-    high.
+    Pitches are taken for written ones if many are outside the instrument's range as sounding pitches and none as
+    written pitches. If one part of a family of instruments is written so, the other parts of the family are too as soon
+    as one note is unusually low or high.
     """
     found = []
     likely: list[tuple[bool, str]] = []

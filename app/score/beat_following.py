@@ -17,14 +17,14 @@ SURE: Final = 0.5
 
 @dataclass(frozen=True)
 class UnmatchedSpan:
-    """A span that only one of the two has: ticks of the score, or seconds of the recording."""
+    """A span found in only one of score and recording: in ticks of the score, or in seconds of the recording."""
 
     start: float
     end: float
 
 
 def bars_named(*runs: tuple[int, int]) -> dict[str, Argument]:
-    """Runs of bars, first and last one, as arguments of a message: ``bars`` ("3-5, 8"), and how many (``count``)."""
+    """Runs of bars (first, last) as arguments of a message: ``bars`` ("3-5, 8"), and their total number ``count``."""
     named = [f"{first}" if first == last else f"{first}-{last}" for first, last in runs]
     return {"bars": ", ".join(named), "count": sum(last - first + 1 for first, last in runs)}
 
@@ -57,13 +57,14 @@ _WITH_NEXT: Final = {
 
 
 def message_of_place(id: str, arguments: dict[str, Argument], runner_up: RunnerUp | None) -> Message:
-    """The message of where a recording lies, with the second likeliest place where there is one.
+    """The message about the position of a recording in the piece; mentions the second likeliest position if there is
+    one.
 
     Parameters
     ----------
     id : str
-        Of the message without it, a key of `_WITH_NEXT`. The other has the arguments ``next_s``, what is added to the
-        place to get the other, and ``next_percent``.
+        Message id without a second position, a key of `_WITH_NEXT`. The message with one also has the arguments
+        ``next_s``, the distance to the second position, and ``next_percent``.
     """
     if runner_up is None:
         return Message(id, arguments)
@@ -81,13 +82,13 @@ class Following:
     ticks : (N,) int64
         The beats, in order.
     recording_s : (N,) float64
-        When each sounds in the recording, rising; before 0 or behind the end where it is not in it.
+        Time at which each beat sounds in the recording, rising; below 0 or past the end where the recording lacks it.
     confidence : (N,) float64
         0..1.
     missing : tuple of UnmatchedSpan
-        Ticks of the score that the recording does not have.
+        Ticks of the score that are missing in the recording.
     added : tuple of UnmatchedSpan
-        Seconds of the recording, between its first and its last note, that the score does not have.
+        Seconds of the recording, between its first and last note, that are not in the score.
     runner_up : RunnerUp or None
         None where no other place is alike at all.
     """
@@ -101,22 +102,22 @@ class Following:
 
     @property
     def mean_confidence(self) -> float:
-        """Over all beats that the recording has."""
+        """Mean confidence over all beats that the recording contains; 0 if it contains none."""
         there = self._there()
         return float(self.confidence[there].mean()) if there.any() else 0.0
 
     @property
     def share(self) -> float:
-        """Share of the beats that the recording has, 0..1."""
+        """Share of the score's beats that the recording contains, 0..1."""
         return float(self._there().mean()) if len(self.ticks) else 0.0
 
     def later(self, seconds: float) -> Following:
-        """The result in a recording that begins earlier by an offset."""
+        """Return the alignment shifted for a recording that has this many seconds more at its start."""
         added = tuple(UnmatchedSpan(span.start + seconds, span.end + seconds) for span in self.added)
         return replace(self, recording_s=self.recording_s + seconds, added=added)
 
     def bars(self, metre_map: MetreMap) -> list[tuple[int, float]]:
-        """The bars that the recording has at least in part: number, and mean confidence."""
+        """The bars that the recording contains at least in part: bar number and mean confidence."""
         there = self._there()
         bars = metre_map.bar_of_tick(self.ticks)
         if len(bars) > 1 and bars[-1] != bars[-2]:
@@ -139,7 +140,7 @@ class Following:
         return [(run[0][0], run[-1][0], round(100 * sum(mean for _, mean in run) / len(run))) for run in runs]
 
     def _there(self) -> BoolArray:
-        """Return which beats the recording has."""
+        """Return a mask (N,) of the beats that the recording contains."""
         there = np.ones(len(self.ticks), np.bool_)
         for span in self.missing:
             there &= (self.ticks < span.start) | (self.ticks >= span.end)

@@ -1,4 +1,4 @@
-"""The beats of what was played without a click: a tempo map that follows the player.
+"""Beats of music played without a metronome: a tempo map that follows the player.
 
 The beats are found by dynamic programming over an onset envelope (Ellis, 2007, "Beat tracking by dynamic programming",
 Journal of New Music Research 36).
@@ -33,17 +33,17 @@ def find_beats(onsets_s: FloatArray, ends_s: FloatArray, start_bpm: float = 100.
     onsets_s, ends_s : float64, shape (n,)
         Of the notes. Longer notes begin on beats more often.
     start_bpm : float
-        What tempo is likely; beats twice as fast or slow are distinguished by it.
+        Likely tempo; decides between a beat and one twice as fast or slow.
 
     Returns
     -------
     float64, shape (beats,)
-        Ascending; from before the first note or at it, to the last one or after it.
+        Times of the beats, ascending; the first is at or before the first note, the last at or after the last note.
 
     Raises
     ------
     AppError
-        ``take.too_few_notes`` (count, least).
+        There are too few notes to find a beat.
     """
     if len(onsets_s) < _LEAST_NOTES:
         raise AppError("take.too_few_notes", count=len(onsets_s), least=_LEAST_NOTES)
@@ -62,7 +62,7 @@ def find_beats(onsets_s: FloatArray, ends_s: FloatArray, start_bpm: float = 100.
 
 
 def _tracked(envelope: FloatArray, period: float) -> IndexArray:
-    """The frames of the beats: those at which the envelope is high and whose distances are near a period, in frames."""
+    """Frames of the beats: the path that maximises the envelope while the distances stay near ``period``, in frames."""
     reach = round(period)
     kernel = np.exp(-0.5 * (np.arange(-(reach // 4), reach // 4 + 1) * _SMOOTHED / period) ** 2)
     strength = np.convolve(envelope / envelope.std(), kernel, "same")
@@ -87,7 +87,9 @@ def _tracked(envelope: FloatArray, period: float) -> IndexArray:
 
 
 def _likely_bpm(envelope: FloatArray, start_bpm: float) -> float:
-    """The tempo at which the envelope is most like itself; an octave from ``start_bpm`` is a standard deviation."""
+    """Tempo with the highest autocorrelation of the envelope; a log-normal prior around ``start_bpm`` has a standard
+    deviation of an octave.
+    """
     import scipy.fft  # heavy, and only here
 
     size = scipy.fft.next_fast_len(2 * len(envelope), real=True)
@@ -109,7 +111,7 @@ def tempo_of_beats(beats_s: FloatArray, ticks_per_quarter: int) -> TempoMap:
 
 
 def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
-    """Beats on the notes that they mean: the envelope is coarse, and a beat near an onset is that onset."""
+    """Move each beat to the nearest onset, if one is close: the envelope is coarser than the onsets."""
     if not len(beats_s):
         return beats_s
     after = np.clip(np.searchsorted(onsets_s, beats_s), 1, len(onsets_s) - 1)
@@ -120,8 +122,9 @@ def _settled(beats_s: FloatArray, onsets_s: FloatArray) -> FloatArray:
 
 
 def _covering(beats_s: FloatArray, first_s: float, last_s: float) -> FloatArray:
-    """Beats from the first note, or just before it, to the last one or just after it; where none were found, at the
-    pace of those next to there."""
+    """Extend the beats so that they cover the span from the first note to the last; added beats have the distance of
+    the nearest ones.
+    """
     inside = beats_s[(beats_s > first_s - 2 * _SPREAD_S) & (beats_s < last_s + 2 * _SPREAD_S)]
     beats_s = inside if len(inside) >= 2 else beats_s
     lead, tail = beats_s[1] - beats_s[0], beats_s[-1] - beats_s[-2]

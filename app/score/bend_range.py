@@ -1,4 +1,4 @@
-"""The range of a channel's pitch bend, and its MPE zones, as registered parameters and sound modules set them.
+"""Range of pitch bend and the MPE zones of MIDI channels, from registered parameters and messages to sound modules.
 
 Sources: MIDI 1.0 Detailed Specification 4.2 (registered parameters 0/0, pitch bend sensitivity, and 127/127, null);
 RP-018 (data increment and decrement step the cents of a range); RP-015 (reset all controllers deselects the parameter);
@@ -57,12 +57,12 @@ class _Channel(msgspec.Struct):
 
 
 class BendRanges:
-    """Follows the controllers of one port's sixteen channels.
+    """Tracks the pitch bend ranges of one port's sixteen channels while its controllers are received in order.
 
     Attributes
     ----------
     zones : dict of int to frozenset of int
-        Members of each MPE zone by its manager channel, 0..15; the last that was not empty.
+        Members of each MPE zone by its manager channel, 0..15: those of the last setting that was not empty.
     """
 
     def __init__(self) -> None:
@@ -71,17 +71,17 @@ class BendRanges:
         self._active: dict[int, frozenset[int]] = {}
 
     def semitones(self, channel: int) -> float:
-        """Return how far a full bend of a channel goes."""
+        """Return the semitones of a full pitch bend on a channel."""
         state = self._channels.get(channel)
         return USUAL_SEMITONES if state is None else min(state.semitones + state.cents / 100, 2.0 * MOST_BEND)
 
     def receive(self, channel: int, control: int, value: int) -> Collection[int]:
-        """Take a controller of `PARAMETERS`; others say nothing here.
+        """Receive a controller of `PARAMETERS`; any other controller is ignored.
 
         Returns
         -------
         collection of int
-            The channels whose range it sets.
+            The channels whose range is set by it.
         """
         state = self._channels.setdefault(channel, _Channel())
         if control == RESET:
@@ -99,7 +99,7 @@ class BendRanges:
         return ()
 
     def take(self, one: ModuleRange) -> Collection[int]:
-        """Take the range that a message to a sound module sets; the channels that have it then."""
+        """Apply the bend range of a message to a sound module, and return the channels that it sets."""
         if one.channel is None:
             self._channels.clear()
             self._active.clear()
@@ -146,9 +146,9 @@ class ModuleRange(NamedTuple):
     Attributes
     ----------
     channel : int or None
-        None: a reset, which is for all channels.
+        The channel; None for a reset, which is for all channels.
     semitones : float
-        Of a full bend upwards; negative where it goes down.
+        Range of a full upward bend; negative if the bend is inverted.
     """
 
     tick: int
@@ -157,12 +157,12 @@ class ModuleRange(NamedTuple):
 
 
 class RangeHistory(msgspec.Struct, frozen=True):
-    """Values of some controllers in the order of time.
+    """Bend ranges of some channels over time.
 
     Attributes
     ----------
     ranges : dict of channel to dict of tick to semitones
-        Of the channels whose range is set; the last one of each tick.
+        Range of each channel that is set, by tick; at one tick the last setting counts.
     zones : dict of channel to frozenset of int
         As `BendRanges.zones`.
     """
@@ -172,8 +172,9 @@ class RangeHistory(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, controls: Iterable[tuple[int, int, int, int]], modules: Iterable[ModuleRange] = ()) -> RangeHistory:
-        """The history of controllers (tick, channel, control, value) and of messages to a sound module, which come
-        first at a tick; both in the order of time."""
+        """Build the history from controllers (tick, channel, control, value) and messages to a sound module, both in
+        the order of time; at one tick the messages come first.
+        """
         state = BendRanges()
         ranges: dict[int, dict[int, float]] = {}
         waiting = deque(modules)
@@ -188,20 +189,20 @@ class RangeHistory(msgspec.Struct, frozen=True):
 
 
 def _take(one: ModuleRange, state: BendRanges, ranges: dict[int, dict[int, float]]) -> None:
-    """Let a sound module's range take effect."""
+    """Apply the range of a sound module's message and record it in ``ranges``."""
     for channel in state.take(one):
         ranges.setdefault(channel, {})[one.tick] = state.semitones(channel)
 
 
 def bent(raw: Mapping[int, float], ranges: Mapping[int, float]) -> dict[int, float]:
-    """Pitch bends of a channel in units of the usual range.
+    """Convert the pitch bends of a channel to units of the usual range.
 
     Parameters
     ----------
     raw : mapping of tick to float
-        -1..1 of the range that the channel has there.
+        Bends by tick, -1..1 of the range in force at the tick.
     ranges : mapping of tick to float
-        Semitones of a full bend, from each tick on; the usual ones before.
+        Semitones of a full bend from each tick on; before the first one the usual range.
     """
     now, semitones, result = 0.0, USUAL_SEMITONES, dict[int, float]()
     for tick in sorted({*raw, *ranges}):
@@ -213,17 +214,19 @@ def bent(raw: Mapping[int, float], ranges: Mapping[int, float]) -> dict[int, flo
 
 
 def range_for(values: Iterable[float]) -> int:
-    """The semitones of the least whole range, the usual one at least, that holds bends in units of the usual range."""
+    """The smallest whole number of semitones, at least the usual range, that can represent the bends (in units of the
+    usual range).
+    """
     most = max(map(abs, values), default=0.0)
     return min(max(ceil(most * USUAL_SEMITONES - _ROUNDING), int(USUAL_SEMITONES)), _MOST_SEMITONES)
 
 
 def range_controls(semitones: int) -> tuple[tuple[int, int], ...]:
-    """The controllers, as (number, value), that set a range, and then select no parameter."""
+    """Controllers (number, value) that set a bend range in semitones and then deselect the parameter."""
     select, done = ((_REGISTERED, 0), (_REGISTERED_FINE, 0)), ((_REGISTERED, 127), (_REGISTERED_FINE, 127))
     return (*select, (_DATA, semitones), (_DATA_FINE, 0), *done)
 
 
 def wheel(value: float, semitones: int) -> int:
-    """A bend in units of the usual range as a pitch wheel of a range has it, -8192..8191."""
+    """Convert a bend in units of the usual range to a pitch wheel value, -8192..8191, for a range in semitones."""
     return min(max(round(8192 * value * USUAL_SEMITONES / semitones), -8192), 8191)

@@ -1,4 +1,4 @@
-"""The notes of one channel while they are gathered, and where those end whose note-offs do not say it plainly."""
+"""Notes of one channel while they are collected, and repair of missing or ambiguous note-offs."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _MOST_TOGETHER: Final = 0.05
 
 
 class ChannelNotes(msgspec.Struct):
-    """The notes of one channel while they are gathered; parallel lists, by onset.
+    """Notes of one channel while they are collected, as parallel lists by onset.
 
-    ``numbers`` is the place of each among the note-ons of the track, from 1.
+    ``numbers`` is the index of each note among the note-ons of the track, from 1.
     """
 
     onset_ticks: list[int] = []
@@ -33,18 +33,18 @@ class ChannelNotes(msgspec.Struct):
 
 
 def end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: int, track_end: int) -> int:
-    """End every note of the pitches that have lost a note-off, and leave out notes struck twice at once; how many
-    notes had no end.
+    """End every note of the pitches that lack a note-off, drop notes struck twice at once, and return the number of
+    notes that had no end.
 
-    The note-offs that there were are those that ended notes first in, first out; now the first one after a note ends
-    it, if the pitch is not struck again before.
+    So far note-offs were matched first in, first out; here the first note-off after a note ends it, unless the pitch is
+    struck again before.
 
     Parameters
     ----------
     notes : ChannelNotes
-        With a negative end where there was none.
+        The notes; a negative end marks one without a note-off.
     silenced : mapping of int to int
-        Where all notes were ended at once, by place of the note.
+        Tick of an all-notes-off, by the number of the note it ended.
     """
     onsets, ends = notes.onset_ticks, notes.end_ticks
     count = 0
@@ -79,10 +79,10 @@ def end_unended(notes: ChannelNotes, silenced: Mapping[int, int], most_ticks: in
 
 
 def end_where_struck_again(notes: ChannelNotes) -> None:
-    """Let notes of one pitch that overlap follow one another, where that alone makes the channel one melody.
+    """End overlapping notes of one pitch where the next one begins, if this alone makes the channel monophonic.
 
-    A wind controller may strike a note again without having ended it, and end it twice later. First in, first out, the
-    second one would then sound below whole other notes.
+    A wind controller may strike a note again without ending it, and send two note-offs later. Matched first in, first
+    out, the second note would sound on below other notes.
     """
     onsets, ends = notes.onset_ticks, notes.end_ticks
     of_pitch: dict[int, list[int]] = {}
@@ -109,11 +109,11 @@ def end_where_struck_again(notes: ChannelNotes) -> None:
 
 
 def end_late(notes: ChannelNotes) -> None:
-    """End notes where their pitch is struck again, if their own ends come late.
+    """End notes where their pitch is struck again, if their note-off comes later.
 
-    A key is struck again once it is up, so no instrument sounds one pitch twice; two players on one channel may, where
-    other notes sound together too and at most two of the pitch do. What lasts into the next by less than a quarter of
-    its length is legato.
+    A key must be released before it is struck again, so one instrument never sounds a pitch twice. Two players on one
+    channel may: assumed where other notes overlap too and at most two notes of the pitch do. An overlap of less than a
+    quarter of the note is legato and stays.
     """
     onsets, ends = notes.onset_ticks, notes.end_ticks
     of_pitch: dict[int, list[int]] = {}
@@ -137,7 +137,7 @@ def end_late(notes: ChannelNotes) -> None:
 
 
 def covered(notes: ChannelNotes, ends: Sequence[int]) -> tuple[int, int]:
-    """Count the notes that lie wholly within one of another pitch, and the ticks of notes that such a one covers."""
+    """Count the notes that lie wholly within a note of another pitch, and sum the ticks of the notes so covered."""
     swallowed = together = 0
     # The latest ends so far of the two pitches that end last: of the pitch whose last one that is, and of any other.
     last, last_end, other_end = -1, -1, -1

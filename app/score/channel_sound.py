@@ -1,4 +1,4 @@
-"""The sound of a channel on a sound module, as banks, programs and modes change it one after the other."""
+"""Sound of a MIDI channel on a sound module, as it follows from banks, programs and modes in the order of time."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ _ORCHESTRA, _BRUSH = 48, 40
 
 
 class ChannelSound(msgspec.Struct, frozen=True, gc=False):
-    """A channel from some tick on.
+    """Sound of a channel from a tick on.
 
     Attributes
     ----------
     certain : bool
-        A message says so that means nothing else; otherwise a track's name says more.
+        Whether an unambiguous message sets it; otherwise the track's name has priority.
     program : int or None
-        None: no message gives one.
+        Program number; None if no message sets one.
     kit : {"", "gs", "xg"}
-        Of a rhythm part: whose numbers its sounds have. General MIDI's are common to all.
+        Numbering of the sounds of a rhythm part, beyond the numbers that General MIDI shares with all.
     """
 
     use: Use
@@ -40,8 +40,9 @@ class ChannelSound(msgspec.Struct, frozen=True, gc=False):
     kit: Literal["", "gs", "xg"] = ""
 
     def struck(self, pitch: int) -> int:
-        """The number that General MIDI 2 has for the sound of a rhythm part's note; itself where that is the same, or
-        where it has none."""
+        """Convert the pitch of a rhythm part's note to the General MIDI 2 number of its sound; unchanged if there is no
+        other number.
+        """
         if self.kit == "xg":
             return _XG_SOUNDS.get(pitch, pitch)
         if self.program == _ORCHESTRA:
@@ -70,7 +71,7 @@ _ORCHESTRA_SOUNDS: Final[Mapping[int, int]] = {
 
 
 class SoundChange(NamedTuple):
-    """A change of one channel, in the order in which they take effect."""
+    """A change of one channel's sound; changes take effect in the order of the list."""
 
     tick: int
     rank: int
@@ -110,7 +111,7 @@ class _ChannelState:
             self.settle()
 
     def settle(self) -> None:
-        """Let the bank take effect; one that says what the part is goes before a mode that was set earlier."""
+        """Apply the pending bank; a bank that decides between drums and melody overrides an earlier mode."""
         if self.coming is not None:
             self.bank = self.coming
             if self.system != "gs" and (self.bank in _DRUM_BANKS or self.bank == _MELODY_BANK):
@@ -150,12 +151,12 @@ class _ChannelState:
 
 
 def timeline(steps: Iterable[SoundChange], channel: int, onset: int, late: int) -> list[tuple[int, ChannelSound]]:
-    """The changes of a channel whose first note begins at a tick.
+    """Sounds of a channel from tick to tick, given the tick of its first note.
 
     Parameters
     ----------
     late : int
-        What says for the first time what a channel is may come so many ticks after its first note.
+        The first message that defines the channel's sound may come this many ticks after the first note.
     """
     state = _ChannelState(channel)
     found: list[tuple[int, ChannelSound]] = []

@@ -1,7 +1,7 @@
-"""The channels of one track: which of them one player plays, and what their controllers say together.
+"""Channels of one track: grouping by player, and merging of their controllers.
 
-Notation programs give one player's muted or plucked notes a channel of their own; a controller that follows MIDI
-Polyphonic Expression (MPE) gives each note the next channel, so that its bend and pressure are its own.
+Notation programs put one player's muted or plucked notes on a separate channel. A controller with MIDI Polyphonic
+Expression (MPE) sends each note on the next channel, so that every note has its own bend and pressure.
 """
 
 from __future__ import annotations
@@ -41,15 +41,15 @@ _Span = tuple[int, int, int]
 
 
 def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]]]:
-    """Bring the pitch bends of all tracks to the usual range, in place.
+    """Convert the pitch bends of all tracks to the usual range, in place.
 
-    A track that sets the range of a channel goes by its own; for another one the other tracks of its port say it.
-    Messages to the sound module of a port are for all of its tracks; its reset ends every bend.
+    A track that sets the bend range of a channel uses its own setting; otherwise the other tracks of the port set it.
+    Messages to a port's sound module apply to all of its tracks; a reset ends every bend.
 
     Returns
     -------
     list of dict of int to frozenset of int
-        MPE zones of each track: members by manager channel.
+        MPE zones of each track: member channels by manager channel.
     """
     ports = [events.port or FIRST_PORT for events in tracks]
     rows: dict[Port, list[tuple[int, int, int, int]]] = {port: [] for port in ports}
@@ -73,7 +73,7 @@ def settle_bends(tracks: Sequence[TrackEvents]) -> list[dict[int, frozenset[int]
 
 
 def _ended(raw: Mapping[int, float], resets: Sequence[int]) -> Mapping[int, float]:
-    """Pitch bends, each of which a reset of the sound module ends."""
+    """Insert a bend of 0 at every reset of the sound module that comes while a bend is held."""
     ticks = sorted(raw)
     places = ((tick, bisect_left(ticks, tick)) for tick in resets if tick not in raw)
     return {**raw, **{tick: 0.0 for tick, place in places if place and raw[ticks[place - 1]]}}
@@ -82,16 +82,16 @@ def _ended(raw: Mapping[int, float], resets: Sequence[int]) -> Mapping[int, floa
 def players_channels(
     events: TrackEvents, name: str, zones: Mapping[int, frozenset[int]], *, staff: bool = False
 ) -> list[tuple[int, ...]]:
-    """The channels of a track that belong together, each group by number.
+    """Group the channels of a track that one player plays; groups and their members are in order of channel.
 
-    Those of an MPE zone do if they have one sound; all do where they take turns and the track's name is an
-    instrument's, one of them is the muted sound of the others or the track is a staff, or where with one sound they
-    take turns note by note or are in unison. Else each is for itself.
+    The channels of an MPE zone with one sound form a group. All channels form one if they take turns and the track is
+    named after an instrument, or one of them is the muted sound of the others, or the track is a staff; or if with one
+    sound they take turns note by note or play in unison. Otherwise every channel is a group.
 
     Parameters
     ----------
     staff : bool
-        The track is one of several: a staff, not a file divided by channel.
+        Whether the track is a staff among several, and not a part of a file divided by channel.
     """
     channels = sorted(events.channels)
     together = [
@@ -119,26 +119,27 @@ def players_channels(
 
 
 def leading_channel(events: TrackEvents, channels: Collection[int]) -> int:
-    """The channel that stands for some: that of their first note; one of a rhythm part only where all are."""
+    """The channel of the earliest note among the given channels; rhythm channels count only if all are such."""
     played = list(filter(events.is_melodic, channels)) or channels
     return min(played, key=lambda channel: events.channels[channel].numbers[0])
 
 
 def sounding_channels(first: int, channels: Collection[int], zones: Mapping[int, frozenset[int]]) -> tuple[int, ...]:
-    """The channels whose program may be that of a group, the likeliest first: the leading one, the manager of its zone,
-    the others."""
+    """Channels whose program may be that of a group, likeliest first: the leading channel, the manager of its MPE zone,
+    the others.
+    """
     managers = [one for one, members in zones.items() if len(channels) > 1 and members & {*channels}]
     return tuple(dict.fromkeys((first, *managers, *channels)))
 
 
 def _one_sound(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Return whether the channels that choose a program have the same."""
+    """Return whether all channels that select a program select the same."""
     programs = (frozenset(program for _, program in events.programs.get(one, [])) for one in channels)
     return len(set(filter(None, programs))) <= 1
 
 
 def _one_player(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Return whether the programs of channels are all one instrument's, with and without a mute."""
+    """Return whether all programs of the channels belong to one instrument, muted or open."""
     sounds = [sounds_of(sorted(events.programs.get(one, []))) for one in channels]
     together = sounds_of(sorted(row for rows in sounds for row in rows))
     found = {vocabulary().by_program(program) for _, program in together}
@@ -146,12 +147,12 @@ def _one_player(events: TrackEvents, channels: Collection[int]) -> bool:
 
 
 def is_line(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Return whether the notes of some channels follow one another, all with one sound."""
+    """Return whether the notes of the channels form one melodic line with one sound."""
     return _one_sound(events, channels) and _is_line(_spans(events, channels))
 
 
 def rotate(events: TrackEvents, channels: Collection[int]) -> bool:
-    """Return whether a line goes through the channels note by note, all with one sound."""
+    """Return whether the channels take turns note by note in one melodic line with one sound, as with MPE."""
     spans = _spans(events, channels)
     if not _one_sound(events, channels) or len(spans) < _LEAST_ROTATING or not _is_line(spans):
         return False
@@ -160,12 +161,12 @@ def rotate(events: TrackEvents, channels: Collection[int]) -> bool:
 
 
 def _in_unison(events: TrackEvents, channels: Collection[int], *, least: bool) -> bool:
-    """Return whether channels with one sound strike nearly all notes together: two voices of a staff.
+    """Return whether channels with one sound strike nearly all notes together, as two voices of a staff in unison.
 
     Parameters
     ----------
     least : bool
-        All notes of the one with the fewest: a voice that doubles another for a while.
+        Compare with the channel of fewest notes instead of most: a voice that doubles another only for a while.
     """
     struck = [{*zip(events.channels[one].onset_ticks, events.channels[one].pitches, strict=True)} for one in channels]
     counted = min(map(len, struck)) if least else max(map(len, struck))
@@ -173,7 +174,7 @@ def _in_unison(events: TrackEvents, channels: Collection[int], *, least: bool) -
 
 
 def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:
-    """The notes of some channels by onset."""
+    """Onset and end of all notes of the channels, by onset."""
     return sorted(
         (onset, end, channel)
         for channel in channels
@@ -182,7 +183,7 @@ def _spans(events: TrackEvents, channels: Collection[int]) -> list[_Span]:
 
 
 def _is_line(spans: Sequence[_Span]) -> bool:
-    """Return whether notes follow one another, at most a legato overlapping."""
+    """Return whether the notes form a melodic line: each begins after the previous one, except for legato overlaps."""
     near = sum(
         before[1] - after[0] <= _LEGATO_SHARE * min(before[1] - before[0], after[1] - after[0])
         for before, after in pairwise(spans)
@@ -193,14 +194,15 @@ def _is_line(spans: Sequence[_Span]) -> bool:
 def curves_of(
     events: TrackEvents, channels: Collection[int], zones: Mapping[int, frozenset[int]]
 ) -> tuple[ControllerCurve, ...]:
-    """The controller curves of some channels, by kind.
+    """Merge the controller curves of some channels, by kind.
 
-    Where several channels speak, that of the note which began last does. The manager channel of an MPE zone speaks for
-    its members: its bend is added to theirs, of the rest it has what they do not send. Of a zone in which notes sound
-    together, as a keyboard's, only the manager's curves are kept: the others are of single notes.
+    Where several channels send a kind, the channel of the most recent note counts. The manager channel of an MPE zone
+    applies to all members: its bend is added to theirs; its other controllers count where the members send none. If
+    notes of the zone overlap, as from a keyboard, only the manager's curves are kept, since the members' are for single
+    notes.
 
-    Modulation and, in a zone, timbre are the expression where they are up while notes sound and neither breath nor
-    expression moves.
+    Modulation, and in a zone timbre, is used as expression if it is raised while notes sound and neither breath nor
+    expression changes.
     """
     spans = _spans(events, channels)
     manager = next((one for one, members in zones.items() if len(channels) > 1 and members & {*channels}), None)
@@ -224,7 +226,7 @@ def curves_of(
 def _curve(
     events: TrackEvents, kind: SentKind, players: Collection[int], manager: int | None, spans: Sequence[_Span]
 ) -> _Points:
-    """The steps of one kind that some channels and the manager of their zone send."""
+    """Merge the steps of one kind from member channels and the manager of their MPE zone."""
     own = {channel: points for channel in players if (points := events.controls.get((channel, kind)))}
     shared = events.controls.get((manager, kind), {}) if manager is not None else {}
     if not own:
@@ -250,7 +252,7 @@ def _held(points: _Points, ticks: Sequence[int]) -> list[float]:
 
 
 def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind) -> _Points:
-    """The steps of several channels, each from where one of its notes begins to where the next note of any does."""
+    """Steps of several channels, each taken from the onset of one of its notes to the next onset on any channel."""
     at = {channel: sorted(points) for channel, points in own.items()}
     merged: _Points = {}
     starts = [-1, *(onset for onset, _, _ in spans[1:])]
@@ -266,7 +268,7 @@ def _by_turns(own: Mapping[int, _Points], spans: Sequence[_Span], kind: SentKind
 
 
 def _without_repeats(points: _Points) -> _Points:
-    """The steps that change the value."""
+    """Drop steps that repeat the previous value."""
     changed: _Points = {}
     before: float | None = None
     for tick in sorted(points):

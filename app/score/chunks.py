@@ -1,4 +1,4 @@
-"""The container of a Standard MIDI File: header and tracks as bytes, however carelessly written."""
+"""Chunks of a Standard MIDI File: header and tracks as bytes, also from damaged files."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class TrackChunk(msgspec.Struct, frozen=True):
 
 
 class Container(msgspec.Struct, frozen=True):
-    """A MIDI file as far as its chunks go.
+    """Header and tracks of a MIDI file, not yet parsed as events.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Container(msgspec.Struct, frozen=True):
     division : int
         As in the file: positive ticks per quarter, or negative SMPTE (signed 16 bits).
     tracks : tuple of TrackChunk
-        At least one.
+        The tracks, at least one.
     """
 
     format: int
@@ -52,6 +52,7 @@ def read_container(path: Path) -> Container:
     Raises
     ------
     FileError
+        The file cannot be read or is not a MIDI file.
     """
     file = str(path)
     data = read_file(path, MOST_BYTES)
@@ -117,8 +118,9 @@ def _tracks(data: bytes, first: int, file: str) -> tuple[list[TrackChunk], list[
 
 
 def _real_end(data: bytes, begin: int, end: int) -> int:
-    """Return where a track ends: where its length says if a chunk or the file's end is there, else at the next
-    track."""
+    """Return the end of a track in bytes: at its stated length if a chunk or the end of the file follows, else at the
+    next track header.
+    """
     swallowed = data.find(_END_OF_TRACK + b"MTrk", begin, end)
     if swallowed >= 0:
         return swallowed + len(_END_OF_TRACK)

@@ -1,8 +1,8 @@
-"""The notes of a take without unintended ones.
+"""Removal of unintended notes from a recorded take.
 
-A wind controller sends a note for whatever the fingers and the breath do: for a finger that is late a note between two
-others, for a key that springs back the same note twice, for a fading breath an inaudible note. Legato
-notes overlap. Excluded notes are reported, so that they can be shown.
+A wind controller sends a note for every change of fingers and breath: a short wrong note when a finger is late, a
+repeated note when a key bounces, an inaudible note while the breath fades. Legato notes overlap. Excluded notes are
+returned with the reason, so that the editor can show them.
 """
 
 from __future__ import annotations
@@ -67,12 +67,12 @@ _TRILL_S, _TRILL_SEMITONES, _TRILL_NOTES = 0.16, 4, 5
 
 @dataclass(frozen=True, eq=False)
 class Cleaned:
-    """The notes of a take, cleaned; all arrays as long as the take's notes.
+    """Result of cleaning a take; every array is as long as the take's notes.
 
     Attributes
     ----------
     onsets_s, ends_s : float64
-        Of a note that is kept; of an excluded one, as it was played.
+        Corrected times of kept notes; times as played of excluded ones.
     pitches, velocities : int64
     """
 
@@ -84,18 +84,18 @@ class Cleaned:
 
     @property
     def kept(self) -> list[int]:
-        """The notes that were not left out."""
+        """Indices of the notes that are kept."""
         return [index for index, fault in enumerate(self.faults) if not fault]
 
 
 def cleaned(take: Take) -> Cleaned:
-    """The notes of a take, cleaned by its settings; kept for the takes that are looked at."""
+    """Clean the notes of a take by the take's settings; cached."""
     return clean_notes(take.played, take.cleaning)
 
 
 @lru_cache(maxsize=64)
 def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
-    """Notes cleaned by some settings, of a take or of a track that is one."""
+    """Clean notes of a take or of an imported track by the given settings."""
     onsets, ends = notes.onsets_s.copy(), notes.ends_s.copy()
     sent = _is_sent(notes, cleaning)
     loudness = np.where(sent, loudest(notes), notes.velocities / 127.0)
@@ -144,7 +144,9 @@ def clean_notes(notes: Played, cleaning: Cleaning) -> Cleaned:
 
 
 def _is_sent(notes: Played, cleaning: Cleaning) -> BoolArray:
-    """(N,): whether the breath says how loud each note is: not where none comes with notes that are sent loudly."""
+    """Mask (N,) of notes whose loudness is given by the breath controller; False where there is no breath although the
+    velocity is high.
+    """
     breath = notes.curves.get("breath")
     if breath is None:
         return np.zeros(len(notes), bool)
@@ -173,7 +175,7 @@ def _trills(notes: Played) -> BoolArray:
 
 
 def loudest(notes: Played) -> FloatArray:
-    """Return how loud each note gets, 0..1: its highest breath; without breath its velocity."""
+    """Return the loudness (N,) of each note, 0..1: its highest breath value; without breath data its velocity."""
     breath = notes.curves.get("breath")
     if breath is None:
         return notes.velocities / 127.0
@@ -213,7 +215,7 @@ def _is_double(
 
 
 def _goes_on(notes: Played, end_s: float, onset_s: float) -> bool:
-    """Return whether the breath is sent and does not fall from the end of one note to the onset of the next."""
+    """Return whether breath data exists and stays up from the end of one note to the onset of the next."""
     breath = notes.curves.get("breath")
     if breath is None or not len(breath.times_s):
         return False
@@ -236,7 +238,9 @@ def _is_octave_slip(
     ends: FloatArray,
     notes: Played,
 ) -> bool:
-    """Return whether a note is an octave, or two, off the note after it, and short in a legato of long ones."""
+    """Return whether a note is a slipped octave key: one or two octaves from the next note, and short between long
+    legato notes.
+    """
     lasts_s = ends[index] - onsets[index]
     beside_s = min(ends[held] - onsets[held], ends[following] - onsets[following])
     if lasts_s > _OCTAVE_SLIP_S or beside_s < _BESIDE_SLIP * lasts_s:
@@ -248,8 +252,9 @@ def _is_octave_slip(
 
 
 def _is_before_its_note(held: int, place: int, audible: list[int], onsets: FloatArray) -> bool:
-    """Return whether a short note is an ornament that comes before its note: that one is on time then, as the notes
-    around show. A slip of the octave keys begins when its note should have."""
+    """Return whether a short note is a grace note before the next note, judged by whether the next note is on the local
+    pulse. A slipped octave key instead begins where its note should have.
+    """
     index, following = audible[place], audible[place + 1]
     around = onsets[audible[max(place - _PULSE_NOTES, 0) : place]], onsets[audible[place + 1 :][: _PULSE_NOTES + 1]]
     apart_s = np.concatenate([np.diff(some) for some in around])
@@ -267,8 +272,9 @@ def _is_before_its_note(held: int, place: int, audible: list[int], onsets: Float
 
 
 def _struck_again(audible: list[int], notes: Played) -> BoolArray:
-    """(N,): whether each note was struck, though the breath goes on from the one before of its pitch: by another
-    velocity, in a row of equal strokes, or by a player who detaches all notes without the breath."""
+    """Mask (N,) of notes that repeat the previous pitch on purpose although the breath continues: their velocity
+    differs, they are in a row of equal strokes, or the player detaches all notes without breath.
+    """
     struck = np.zeros(len(notes), bool)
     breath = notes.curves.get("breath")
     if breath is None or len(audible) < 2:
@@ -304,6 +310,6 @@ def _octave(notes: Played, index: int, other: int) -> bool:
 
 
 def _touches(held: int, index: int, following: int, onsets: FloatArray, ends: FloatArray) -> bool:
-    """Return whether a note only leads from one note of a legato to the next."""
+    """Return whether a note only connects two legato notes."""
     before_s, after_s = onsets[index] - ends[held], onsets[following] - ends[index]
     return bool(before_s <= _TOUCHING_S and after_s <= _TOUCHING_S and ends[following] > onsets[following])

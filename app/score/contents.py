@@ -1,4 +1,4 @@
-"""Contents of a music file, whatever its format, and the score made from them once players are assigned."""
+"""Contents of a music file of any format, and the score built from them once players are assigned."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class PieceContents(msgspec.Struct, frozen=True):
     Attributes
     ----------
     channels : tuple of TrackChannel
-        The notes of each track, by channel; of a score, of each part, by instrument.
+        Notes of each track, by channel; from a score file: of each part, by instrument.
     warnings : tuple of Message
-        What was repaired or skipped.
+        Messages about repaired or skipped content.
     encoding : str
-        Of the texts that are not Unicode, given or guessed; empty where all are.
+        Encoding of texts that are not Unicode, given or guessed; empty if all are Unicode.
     """
 
     title: str
@@ -46,14 +46,15 @@ def assigned_score(
     maps: Sequence[MapChoice],
     stop_requested: StopRequested = lambda: False,
 ) -> Score:
-    """The score in which the parts are those that the user requests. Raises Cancelled as `assigned_parts`."""
+    """Build the score with the parts that the assignments describe. Raises Cancelled as `assigned_parts`."""
     parts, unplayed, warnings = assigned_parts(contents.channels, assignments, maps, score_of(contents), stop_requested)
     return score_of(contents, parts, unplayed, (*contents.warnings, *warnings), assignments)
 
 
 def uncast_score(contents: PieceContents) -> Score:
-    """The score in which every track but percussion and sound effects is a part as it stands, without players, for
-    listening only. No part has an instrument map."""
+    """Build a score for listening only: every track except percussion and sound effects is one part, without player or
+    instrument map.
+    """
     parts = tuple(
         Part(
             id=f"{channel.track + 1}.{channel.channel + 1}.{channel.change + 1}",

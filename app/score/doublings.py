@@ -1,7 +1,8 @@
-"""Doublings: the player of one track changes to another instrument and back, as flutists change to the piccolo.
+"""Doublings: the player of one track changes to another instrument and back, as from flute to piccolo.
 
-A change of program says so, or a text of the track ("to Picc.", "muta in Ob.", ピッコロに持ち替え). A change to another
-sound of the same instrument, as a muted trumpet's, is none, nor is one to a section ("brass") or to what is no wind.
+A change is found by a change of program, or by a text in the track: "to Picc.", "muta in Ob.", ピッコロに持ち替え. A
+change to another sound of the same instrument (muted trumpet), to a section ("brass") or to something other
+than a wind instrument does not count.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _CHANGE = re.compile(
 def doubled_instruments(
     events: TrackEvents, channels: Sequence[int], name: str, texts: Sequence[tuple[int, str]], onset_ticks: list[int]
 ) -> list[str]:
-    """The instrument of each note, as an id in the vocabulary; empty for the one the track is for.
+    """The instrument of each note, as an id in the vocabulary; empty for the track's main instrument.
 
     Parameters
     ----------
@@ -35,7 +36,7 @@ def doubled_instruments(
     name : str
         The track's.
     texts : sequence of (tick, text)
-        What the track says where.
+        Texts of the track with their ticks.
     onset_ticks : list of int
         Of the notes, ascending.
     """
@@ -73,7 +74,7 @@ def doubled_instruments(
 
 
 def requested_instrument(text: str) -> Instrument | None:
-    """The instrument that a text asks the player to change to."""
+    """Return the instrument to which a text tells the player to change; None if it is another text."""
     match = _CHANGE.fullmatch(" ".join(text[:MOST_NAME].split()).strip("()[]"))
     return _doubling(vocabulary().by_name(match["after"] or match["before"])) if match else None
 

@@ -1,10 +1,10 @@
-"""Ensembles that are known by their staves: a woodwind quintet whose tracks say nothing of themselves.
+"""Recognises standard ensembles by their staves, such as a woodwind quintet whose tracks have no instrument names.
 
-Three to eight lines of which some are silent about their instrument get those of the ensemble of the vocabulary that
-they fit best: in the order of its staves, within the ranges of its instruments, each with the lowest, middle and
-highest notes that its part usually has, or with the compass of its instrument. The title may name the ensemble. A track
-that says what it is must be what the ensemble has there. Ensembles of one compass (four saxophones, or two trumpets,
-horn and trombone, in a chorale) cannot be distinguished by their notes: the more usual one is chosen.
+Applies to three to eight lines if some have no known instrument. They get the instruments of the best fitting ensemble
+of the vocabulary: in the order of its staves, within the instruments' ranges, compared by lowest, middle and highest
+notes with the usual ones of each part or with the instrument's compass. The title may name the ensemble. Tracks with a
+known instrument must agree. Ensembles with equal ranges (four saxophones; two trumpets, horn and trombone in a chorale)
+cannot be told apart by notes: the more common one is chosen.
 """
 
 from __future__ import annotations
@@ -41,8 +41,9 @@ _LINE_SHARE: Final = 0.95
 
 
 def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
-    """Give the instruments of a known ensemble to the tracks that say nothing themselves; the channels as they are
-    where they are none."""
+    """Assign instruments of a recognised ensemble to the tracks without one; returns the channels unchanged if there is
+    none.
+    """
     silent = [says_nothing(channel) for channel in channels]
     sizes = {len(ensemble.parts) for ensemble in vocabulary().ensembles}
     if not any(silent) or len(channels) not in sizes:
@@ -73,7 +74,7 @@ def named_by_ensemble(channels: Sequence[TrackChannel], title: str) -> list[Trac
 
 
 def _agrees(ensemble: Ensemble, said: Sequence[Instrument | None], sections: Sequence[Instrument | None]) -> bool:
-    """Return whether what tracks say, of themselves or of their section, is what an ensemble has in their places."""
+    """Return whether the known instruments and sections of the tracks agree with the staves of an ensemble."""
     words = vocabulary()
     parts = [words.instruments[part] for part in ensemble.parts]
     return all(
@@ -86,16 +87,18 @@ def _agrees(ensemble: Ensemble, said: Sequence[Instrument | None], sections: Seq
 
 
 class _Away(NamedTuple):
-    """Mean distance, in semitones, of the silent parts from where an ensemble has them: by their medians, and all in
-    all."""
+    """Mean distance in semitones of the parts without instrument from an ensemble's usual ranges: of the medians, and
+    in total.
+    """
 
     median: float
     unlike: float
 
 
 def _away(ensemble: Ensemble, channels: Sequence[TrackChannel], silent: Sequence[bool]) -> _Away | None:
-    """The distance of the silent parts from those of an ensemble, each in its usual place among the others or all in
-    the middle of their instruments' compass, whichever is nearer; None where one does not fit."""
+    """Distance of the parts without instrument from an ensemble, either by the usual range of each staff or by the
+    compass of the instruments, whichever is smaller; None if a part is out of range.
+    """
     in_place, in_middle, beyond = [], [], []
     for channel, quiet, part, usual in zip(channels, silent, ensemble.parts, ensemble.pitches, strict=True):
         if not quiet:
@@ -117,7 +120,7 @@ def _away(ensemble: Ensemble, channels: Sequence[TrackChannel], silent: Sequence
 
 
 def _apart(found: tuple[float, float, float], usual: tuple[float, float, float]) -> _Away:
-    """The distance of a part's lowest, middle and highest notes from the usual ones."""
+    """Distance in semitones of a part's (lowest, middle, highest) notes from the usual ones."""
     low, middle, high = (abs(one - other) for one, other in zip(found, usual, strict=True))
     return _Away(middle, middle + _END * (low + high))
 
@@ -131,7 +134,7 @@ def _is_named(ensemble: Ensemble, title: tuple[str, ...]) -> bool:
 
 
 def _is_line(channel: TrackChannel) -> bool:
-    """Return whether one player can have the notes."""
+    """Return whether the notes can be played by one player: almost none overlap."""
     rows = sorted(zip(channel.onset_ticks, channel.end_ticks, strict=True))
     free = sum(
         end - following <= _LEGATO_SHARE * min(end - onset, after - following)

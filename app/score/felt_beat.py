@@ -1,9 +1,8 @@
-"""The beat that is felt, by metre and tempo.
+"""Length of the felt beat (the beat that musicians count), by metre and tempo.
 
-A metre's lower number says what is written, not what is counted: six eighths at a walking pace are two beats, a quick
-waltz has one to the bar, a slow alla breve has four. Beats are felt between about 40 and 200 in a minute (London,
-Hearing in Time, 2nd ed. 2012, ch. 2: 200 to 1500 ms); within that a quick triple bar is one beat sooner than a quick
-duple one is halved.
+The denominator of a metre is the written unit, not the counted one: a moderate 6/8 has two beats, a quick waltz has
+one, a slow alla breve has four. Felt beats are about 40 to 200 a minute (London, Hearing in Time, 2nd ed. 2012, ch. 2:
+200 to 1500 ms). Quick triple bars are merged to one beat at a lower tempo than quick duple bars.
 """
 
 from __future__ import annotations
@@ -27,12 +26,12 @@ STEADY_BARS = 9
 
 
 def felt_beats(clock: TempoMap, metre_map: MetreMap, bars: IntArray) -> FeltBeats:
-    """The beat that is felt from each tick on, as (tick, ticks), wherever it changes.
+    """The felt beat from each tick on, as (tick, length in ticks), at every change.
 
     Parameters
     ----------
     bars : (B,) int64
-        Where the bars of the piece begin, B >= 1.
+        Ticks at which the bars of the piece begin, B >= 1.
     """
     metres = metre_map.metres
     places = np.maximum(np.searchsorted([metre.tick for metre in metres], bars, side="right") - 1, 0)
@@ -74,7 +73,7 @@ def felt_beat_ticks(numerator: int, denominator: int, quarters_bpm: float, ticks
 
 
 def _steady(bpm: FloatArray, metres: IntArray) -> FloatArray:
-    """The tempo of each bar, by those around it in the same metre (by its number)."""
+    """Median tempo of each bar and the bars around it in the same metre."""
     result = bpm.copy()
     half = STEADY_BARS // 2
     edges = [0, *(np.flatnonzero(np.diff(metres)) + 1).tolist(), len(metres)]

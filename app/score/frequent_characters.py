@@ -1,6 +1,7 @@
-"""Frequent characters of the languages in which parts are named, as evidence for an encoding (`app.score.texts`).
+"""Frequencies of characters in the languages of part names, as evidence for a text's encoding (`app.score.texts`).
 
-The most used characters of everyday and musical writing; the characters of the vocabulary of instruments come to them.
+Covers the most frequent characters of everyday and musical text; the characters of the vocabulary of instruments are
+added to them.
 """
 
 from __future__ import annotations

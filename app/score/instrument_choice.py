@@ -1,7 +1,7 @@
-"""Chooses the instrument map of a track: by its names, its program or the piece's title, then by its range.
+"""Chooses the instrument map of a track: by its names, its program or the title of the piece, then by its range.
 
-An exact entry of the vocabulary goes before its kind: a part for the clarinet in A goes to the map of the clarinet in
-A, else to that of a clarinet; one for a recorder to the size its notes fit.
+An exact match precedes a related instrument: a part for clarinet in A goes to the map of the clarinet in A if there is
+one, else to any clarinet; a part for recorder goes to the size that fits the notes.
 """
 
 from __future__ import annotations
@@ -38,18 +38,18 @@ or key of it for the sake of a few; three in a short part may be more."""
 
 
 class MapChoice(msgspec.Struct, frozen=True):
-    """Facts about an instrument map by which it is chosen.
+    """Facts about an instrument map that decide whether it is chosen.
 
     Attributes
     ----------
     plays, substitutes_for : tuple of str
-        Ids in the vocabulary of instruments: its own, and those it may stand in for.
+        Ids in the vocabulary of instruments: those it plays, and those for which it may be substituted.
     concert_low, concert_high : int
-        Its range at concert pitch, both included, MIDI numbers.
+        Range at concert pitch, inclusive, MIDI numbers.
     transposition_semitones : int
-        How much higher its parts are written than they sound.
+        Semitones by which its parts are written above the sounding pitch.
     usual : (int, int) or None
-        Its range without pedal tones and altissimo, where that is smaller.
+        Range without pedal tones and altissimo, where this is smaller.
     """
 
     map_id: str
@@ -66,8 +66,7 @@ class MapChoice(msgspec.Struct, frozen=True):
         return (self.concert_low, self.concert_high) if self.usual is None else self.usual
 
     def outside(self, pitches: Sequence[int], written: bool = False, usual: bool = False) -> int:
-        """Return how many of these pitches, sounding or written ones, it does not reach (``usual``: without pedal tones
-        and altissimo)."""
+        """Count the pitches outside the instrument's range."""
         shift = self.transposition_semitones if written else 0
         low, high = self.usual_range if usual else (self.concert_low, self.concert_high)
         low, high = low + shift, high + shift
@@ -78,7 +77,7 @@ class MapChoice(msgspec.Struct, frozen=True):
 
 
 class How(Enum):
-    """Evidence that chose the maps a track may go to."""
+    """Evidence by which the instrument maps of a track were found."""
 
     SAID = "said"
     """Its names or its program."""
@@ -91,18 +90,18 @@ class How(Enum):
 
 
 class MapCandidates(msgspec.Struct, frozen=True):
-    """Instrument maps that a track can be given, and how they were found.
+    """Instrument maps that a track can be assigned to, and the evidence for them.
 
     Attributes
     ----------
     instrument : Instrument or None
-        What the track is for, where that is said.
+        Instrument of the track, if its names or program give one.
     exact : frozenset of str
-        Ids of the maps that play just this instrument, not a kind of it.
+        Ids of the maps for exactly this instrument, not a related one.
     refused : Instrument or None
-        What the track's program names, which cannot play it.
+        Instrument of the track's program, rejected since it cannot play the notes.
     unknown : bool
-        The track has a name, and nothing says what it means: any of the maps might play it, so the user must say.
+        Whether the track has a name that is not understood: any map might fit, so the user must choose.
     """
 
     how: How
@@ -113,14 +112,14 @@ class MapCandidates(msgspec.Struct, frozen=True):
     refused: Instrument | None = None
 
     def best(self, pitches: Sequence[int], written: bool = False) -> MapChoice:
-        """The map that plays just this instrument where it has the notes; else the one that reaches most of them, among
-        equals (a few notes aside) the one in the middle of whose range they lie. Where players choose the key by the
-        part, no note is set aside for which another key has a fingering.
+        """The map for exactly this instrument if all notes are in its range; else the map that reaches most notes, and
+        among nearly equal ones the map whose range is centred on them. Where players choose an instrument's key by the
+        part, a map that can play all notes is preferred over one that misses a few.
 
         Parameters
         ----------
         written : bool
-            They are written ones, not those that sound.
+            Whether the pitches are written ones instead of sounding ones.
         """
 
         lowest, highest = min(pitches), max(pitches)
@@ -152,12 +151,12 @@ class MapCandidates(msgspec.Struct, frozen=True):
 
 
 def require_map(map_id: str, known: Collection[str]) -> str:
-    """The id of an instrument map that the user assigns to a part or a player.
+    """Return the id of an instrument map that the user assigns to a part or player, if it exists.
 
     Raises
     ------
     UsageError
-        ``assign.instrument_unknown`` (instrument, possible): there is none of this id.
+        There is no map of this id.
     """
     if map_id not in known:
         raise UsageError("assign.instrument_unknown", instrument=map_id, possible=", ".join(known))
@@ -165,7 +164,9 @@ def require_map(map_id: str, known: Collection[str]) -> str:
 
 
 def candidates(channels: Sequence[TrackChannel], maps: Sequence[MapChoice]) -> MapCandidates:
-    """The maps that tracks which are played as one may go to; those whose range fits where nothing is said."""
+    """Instrument maps for tracks that are played as one part; by range alone if names and programs give no
+    instrument.
+    """
     lead = next((one for one in channels if said_of(one) is not None), channels[0])
     said = said_of(lead)
     pitches = [pitch for channel in channels for pitch in channel.pitches]
@@ -215,8 +216,10 @@ def refusal(channel: TrackChannel, maps: Sequence[MapChoice]) -> Message | None:
 def _instead(
     numbered: Instrument, found: MapCandidates, pitches: Sequence[int], maps: Sequence[MapChoice]
 ) -> MapCandidates | None:
-    """The maps of another instrument where a part's program names one that cannot play it, at sounding or written
-    pitch: of its family, of its name ("horn" for an English horn), of its section, or any; None where it stays."""
+    """Maps of another instrument if the one of a part's program cannot play the notes at sounding or written pitch: of
+    the same family, of a similar name ("horn" for English horn), of the section, or any; None if the program's
+    instrument fits.
+    """
     least = LEAST_OUTSIDE * len(pitches)
     if not found.maps or any(
         choice.outside(pitches) < least or not choice.outside(pitches, written=True) for choice in found.maps
@@ -239,13 +242,14 @@ def _instead(
 
 
 def plays(choice: MapChoice, instrument: Instrument) -> bool:
-    """Return whether a map is of an instrument or of a variety of it."""
+    """Return whether a map plays an instrument or a variety of it."""
     return any(id == instrument.id or vocabulary().is_sort(id, instrument.id) for id in choice.plays)
 
 
 def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) -> MapCandidates:
-    """The maps that play an instrument, those of its sorts among them; else those that stand in for it; else those of
-    the kind it is a sort of."""
+    """Maps that play an instrument or one of its varieties; else maps that substitute for it; else maps of the more
+    general instrument.
+    """
     exact = frozenset(choice.map_id for choice in maps if instrument.id in choice.plays)
     own = [choice for choice in maps if plays(choice, instrument)]
     own = own or [choice for choice in maps if instrument.id in choice.substitutes_for]
@@ -256,11 +260,13 @@ def _of_instrument(how: How, instrument: Instrument, maps: Sequence[MapChoice]) 
 
 
 def _where(maps: Iterable[MapChoice], requested: Callable[[Instrument], bool]) -> list[MapChoice]:
-    """The maps of which something they play is requested; also those that play nothing the vocabulary knows."""
+    """Maps that play at least one instrument accepted by ``requested``, and maps that play none known to the
+    vocabulary.
+    """
     known = vocabulary().instruments
     return [choice for choice in maps if any(id not in known or requested(known[id]) for id in choice.plays)]
 
 
 def _share(pitches: Sequence[int], choice: MapChoice, written: bool = False, usual: bool = True) -> float:
-    """Return how many of the notes a map reaches, 0..1."""
+    """Return the share of the pitches within a map's range, 0..1."""
     return (len(pitches) - choice.outside(pitches, written, usual)) / len(pitches)

@@ -1,6 +1,6 @@
-"""Key switches: notes far from an instrument's range by which a sequencer selects the articulation of a sampler.
+"""Key switches: notes far outside an instrument's range that select a sampler's articulation in a sequencer.
 
-They are silent, and are not played: short notes before a phrase, or held below it.
+They make no sound and are removed: short notes before a phrase, or notes held below it.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ _MOST_ODD: Final = 0.2
 def without_key_switches(
     channel: TrackChannel, found: MapCandidates, maps: Sequence[MapChoice], tempo_map: TempoMap
 ) -> tuple[TrackChannel, tuple[int, ...]]:
-    """A stream without its key switches, and their places among its notes; the same stream where it has none.
+    """A channel without its key switches, and the indices of the removed notes; the channel itself if it has none.
 
     Parameters
     ----------
     found : MapCandidates
-        The maps it may go to.
+        Candidate maps of the track.
     maps : sequence of MapChoice
-        All there are.
+        All available maps.
     """
     pitches = np.array(channel.pitches)
     for away in _far(pitches):
@@ -70,7 +70,9 @@ def _far(pitches: IntArray) -> list[BoolArray]:
 
 
 def _switch(channel: TrackChannel, away: BoolArray, tempo_map: TempoMap) -> bool:
-    """Return whether notes are played as key switches are: short, before the music, or held while it sounds."""
+    """Return whether the notes marked in ``away`` are played as key switches are: short and before the music, or held
+    while it sounds.
+    """
     onsets = tempo_map.seconds(np.array(channel.onset_ticks))
     ends = tempo_map.seconds(np.array(channel.end_ticks))
     music_onsets, music_ends = onsets[~away], np.maximum.accumulate(ends[~away])

@@ -1,7 +1,7 @@
-"""Limits of a score: beyond them a file is refused or cut, and an edit refused.
+"""Size limits of a score: files beyond them are refused or cut, and edits beyond them refused.
 
-The bounds lie far beyond music, and near enough that no file can make the program run for hours or out of memory.
-Everything that a piece asks for by time (bars, beats, frames) is bounded by its length; everything else by its notes.
+The limits are far above any real music, and low enough that no file makes the program run for hours or out of memory.
+Quantities that grow with time (bars, beats, frames) are limited by the length of the piece, all others by its notes.
 """
 
 from __future__ import annotations
@@ -31,22 +31,22 @@ MOST_PLAYER_HOURS: Final = 256
 
 
 def most_parts(hours: float) -> int:
-    """Parts that players may play in a piece of some hours."""
+    """Largest number of parts with players in a piece of this many hours."""
     return MOST_PARTS if hours * MOST_PARTS <= MOST_PLAYER_HOURS else max(1, int(MOST_PLAYER_HOURS / hours))
 
 
 def too_long(score: Score, end_tick: int | None = None) -> dict[str, Argument] | None:
-    """Return the arguments of the message about a piece that is too long, in seconds or in music; None if it is not.
+    """Return the message arguments for a piece that is too long, in time or in quarters; None if it is not.
 
     Parameters
     ----------
     end_tick : int, optional
-        Where it ends, by default where its last note does, whether it has a player or not.
+        End of the piece; by default the end of the last note, with or without a player.
 
     Returns
     -------
     dict of str to Argument, or None
-        How long it is (``hours``, ``quarters``, ``bars``) and how long it may be (``most_hours`` ...).
+        Actual length (``hours``, ``quarters``, ``bars``) and the limits (``most_hours`` ...).
     """
     end = score.sounding_end_tick if end_tick is None else end_tick
     hours = score.tempo_map.seconds(float(end)) / 3600.0

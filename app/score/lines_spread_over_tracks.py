@@ -1,8 +1,8 @@
-"""Lines spread over tracks: each channel of a controller that gives every note the next channel has a track of its own.
+"""Melodic lines spread over several tracks, one for each channel of a controller that changes the channel note by note.
 
-Programs that divide a recording by channel write MIDI Polyphonic Expression so. The tracks have one name, but for the
-number of their channel, and one sound; an MPE zone holds all of them, or the line goes through three of them and more,
-note by note. A line in two tracks without a zone is two players in dialogue.
+Programs that divide an MPE recording by channel write such files. The tracks have the same sound and the same name
+except for the channel number, and either belong to one MPE zone or are three or more that take turns note by note. Two
+tracks without a zone are treated as two players.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ _LEAST_TRACKS: Final = 3
 
 
 class SpreadLine(NamedTuple):
-    """A line of music that is spread over several tracks.
+    """A melodic line spread over several tracks.
 
     Attributes
     ----------
     first : int
-        The first of its tracks.
+        Index of its first track.
     events : TrackEvents
-        The channels of all of them, and what the manager of their zone sends.
+        The channels of all its tracks, and the controllers of the zone's manager channel.
     channels : tuple of int
     """
 
@@ -46,12 +46,12 @@ class SpreadLine(NamedTuple):
 def spread_lines(
     tracks: Sequence[TrackEvents], zones: Sequence[Mapping[int, frozenset[int]]], names: Sequence[str]
 ) -> dict[int, SpreadLine]:
-    """Return the lines that are spread over tracks, by the place of each of their tracks.
+    """Return the spread lines, by the index of each of their tracks.
 
     Parameters
     ----------
     zones : sequence of mapping of int to frozenset of int
-        MPE zones of each track: members by manager channel.
+        MPE zones of each track: member channels by manager channel.
     """
     alike: dict[tuple[Port, int | None, str, bytes], list[int]] = {}
     for place, events in enumerate(tracks):
@@ -73,13 +73,13 @@ def spread_lines(
 
 
 def _base(name: str, channel: int) -> str:
-    """The name of a track without the number of its channel."""
+    """The name of a track without its channel number, for comparison."""
     number = _CHANNEL.search(name)
     return (name[: number.start()] if number and int(number[1]) == channel + 1 else name).casefold().strip()
 
 
 def _together(own: Sequence[TrackEvents], managing: Sequence[TrackEvents], manager: int | None) -> TrackEvents:
-    """The channels of some tracks as those of one, with what others send on the manager's channel."""
+    """Merge the channels of several tracks, with everything other tracks send on the manager channel."""
     events = TrackEvents(port=own[0].port)
     for one in own:
         events.channels.update(one.channels)

@@ -1,6 +1,6 @@
-"""Marks that a composer wrote for a player: slurs, articulations, breaths, dynamics. One row for each kind.
+"""Marks written for a player: slurs, articulations, breaths, dynamics. One table row for each kind.
 
-A mark is anchored to notes by their ids, or to ticks of the piece. One whose notes a player does not have does nothing.
+A mark is anchored to notes by their ids or to ticks of the piece. It has no effect if the player lacks its notes.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ class Marking(NamedTuple):
     id : str
         Also in users' files.
     anchor : {"note", "notes", "place", "span"}
-        One note (an ornament that was written out: its first and its last), the first and the last of several, a tick,
-        or ticks from and to which it holds.
+        Anchor: one note (or first and last of a written-out ornament), first and last of several notes, a tick, or a
+        span of ticks.
     """
 
     id: str
@@ -89,12 +89,11 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
     Attributes
     ----------
     note_id : str
-        The note it stands at, or the first of several; empty for one anchored to ticks.
+        The note it belongs to, or the first of several; empty if anchored to ticks.
     last_note_id : str
-        The last of several notes: of a slur, of notes tongued one by one, or of those that a trill or a tremolo was
-        written out in, which has none where it is one note.
+        Last note of a slur, of notes tongued one by one, or of a written-out trill or tremolo; empty for a single note.
     tick, end_tick : int
-        Of one anchored to ticks; the end is 0 where it stands at one place. A dynamic with an end holds up to it.
+        Anchor in ticks; the end is 0 for a single place. A dynamic with an end is in force until then.
     text : str
         ``"mf"``, ``"sfz"`` of a dynamic; ``"1-2"``, ``"0"`` of a fingering; ``"4"`` of a position.
     """
@@ -108,13 +107,14 @@ class Mark(msgspec.Struct, frozen=True, gc=False, omit_defaults=True):
 
     @property
     def id(self) -> str:
-        """Name of the mark among the events of its player: its kind and where it stands."""
+        """Id of the mark among its player's events, made of kind and anchor."""
         return mark_id(self.kind, self.note_id, self.last_note_id, self.tick, self.text)
 
 
 def mark_id(kind: str, note_id: str, last_note_id: str, tick: int, text: str = "") -> str:
-    """Return `Mark.id` of a mark at notes (``"mark:slur:0:1-0:5"``), or else at a tick (``"mark:dynamic:@480"``, and
-    ``"mark:sforzando:@480"`` beside it)."""
+    """Return `Mark.id` of a mark at notes (``"mark:slur:0:1-0:5"``) or at a tick (``"mark:dynamic:@480"``; a sforzando
+    there has ``"mark:sforzando:@480"``).
+    """
     if not note_id:
         if text in SFORZANDI:
             kind = "sforzando"
@@ -123,7 +123,7 @@ def mark_id(kind: str, note_id: str, last_note_id: str, tick: int, text: str = "
 
 
 def renamed_marks(marks: Iterable[Mark], ids: Mapping[str, str]) -> tuple[Mark, ...]:
-    """The marks with other ids for their notes; those of notes without a new id keep theirs."""
+    """Return the marks with note ids replaced by ``ids``; ids that are not in it stay."""
     return tuple(
         msgspec.structs.replace(
             mark,
@@ -139,16 +139,17 @@ def renamed_marks(marks: Iterable[Mark], ids: Mapping[str, str]) -> tuple[Mark, 
 def marks_of_player(
     marks: Sequence[Mark], all_notes: Mapping[str, int], own_notes: Sequence[tuple[int, str, str]]
 ) -> tuple[Mark, ...]:
-    """The marks that one of the players of a staff has.
+    """The marks of one player of a staff that several players share.
 
-    A slur that begins or ends at another player's note holds for what this one has of it, where that is two notes.
+    A slur that begins or ends at another player's note is shortened to this player's notes; it is dropped if fewer than
+    two remain.
 
     Parameters
     ----------
     all_notes : mapping of note id to tick
         Onsets of the notes of the staff.
     own_notes : sequence of (tick, note id, note id)
-        Onset, id in the staff and id with the player, by onset.
+        Onset, id in the staff and id for the player of each note, by onset.
     """
     ids = {id: own for _, id, own in own_notes}
     onsets = [onset for onset, _, _ in own_notes]
@@ -171,7 +172,7 @@ def marks_of_player(
 
 
 def moved_marks(marks: Iterable[Mark], place: Callable[[int], int]) -> tuple[Mark, ...]:
-    """The marks with those anchored to ticks elsewhere."""
+    """The marks with those anchored to ticks moved by ``place``, which maps old ticks to new ones."""
     return tuple(
         mark
         if mark.note_id

@@ -1,14 +1,13 @@
-"""The metre of a piece whose file has no time signature, from its notes: only triple and compound ones.
+"""Guesses the metre of a piece whose file has no time signature, from its notes; only triple and compound metres.
 
-Without a time signature a MIDI file is in 4/4, and a piece in two or four beats finds most of its bar lines there. One
-in three finds none. So a metre is assumed only where the notes leave little doubt that bars are in three; which of the
-metres it is, and where the bar line stands, is then the likeliest that any bar line agrees with.
+Without a time signature a MIDI file counts as 4/4, which puts most bar lines right for pieces in two or four but none
+for pieces in three. A metre is therefore assumed only if the notes leave little doubt that bars are in three. The
+choice among these metres, and of the first bar line, is the likeliest candidate.
 
-Each candidate, a metre and a place of the bar line, is scored by how notes that are long, low, entries, or a change of
-harmony stand at its bar lines and beats, and by what repeats after a bar (after Temperley's and Steedman's accounts of
-metre). How much each counts was fitted to 2,427 pieces: a conditional logit over all metres and places of the bar line,
-by L2-regularised maximum likelihood. The pieces are those of music21's corpus in one metre: folk songs (Essen, O'Neill,
-Ryan, Aird), chorales and quartets.
+Each candidate (a metre and a first bar line) is scored by long notes, low notes, entries and harmony changes at its bar
+lines and beats, and by repetition after a bar (after Temperley's and Steedman's accounts of metre). The weights were
+fitted to 2,427 pieces by a conditional logit over all candidates with L2-regularised maximum likelihood. The pieces are
+those of music21's corpus in one metre: folk songs (Essen, O'Neill, Ryan, Aird), chorales and quartets.
 """
 
 from __future__ import annotations
@@ -75,7 +74,7 @@ _METRES: Final = (
 
 
 class _Kind(NamedTuple):
-    """A metre that is considered: its bar and its beat in cells."""
+    """A candidate metre: length of bar and beat in cells."""
 
     numerator: int
     denominator: int
@@ -112,18 +111,18 @@ class Line(NamedTuple):
 
 
 class _Signals(NamedTuple):
-    """The piece cell by cell.
+    """Features of the piece, cell by cell.
 
     Attributes
     ----------
     values : (S, T) float64
-        Each around 0, in units of its spread.
+        Each feature centred on 0 and scaled by its spread.
     kinds : (L, T) float64
-        By line what note begins in a cell, 0 where none does.
+        For each line the kind of note that begins in each cell; 0: none.
     first, last : int
         Cells of the first and the last onset.
     end : int
-        Cell at which the last note ends.
+        Cell in which the last note ends.
     """
 
     values: FloatArray
@@ -134,17 +133,17 @@ class _Signals(NamedTuple):
 
 
 def guessed_metres(lines: Sequence[Line], ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int] | None:
-    """Return the metres that the notes leave little doubt about, and the length of the pickup in ticks.
+    """Return the metres if the notes leave little doubt about them, and the length of the pickup in ticks.
 
     Parameters
     ----------
     lines : sequence of Line
-        Melodic channels with notes, of a file that counts in quarters.
+        Melodic channels with notes, from a file timed in quarters.
 
     Returns
     -------
     tuple of Metre, int, or None
-        As of `app.score.model.Score`; None where the notes do not say, or say two or four beats.
+        Fields of `app.score.model.Score`; None if the notes are ambiguous or in two or four.
     """
     largest = sorted(lines, key=lambda line: len(line.onset_ticks), reverse=True)[:MOST_LINES]
     last_tick = MOST_CELLS * ticks_per_quarter // STEPS
@@ -162,7 +161,7 @@ def guessed_metres(lines: Sequence[Line], ticks_per_quarter: int) -> tuple[tuple
 
 
 def _columns(line: Line, last_tick: int) -> IntArray:
-    """(3, N): onsets, ends and pitches by onset, of the notes before a tick."""
+    """Return an array (3, N) of onsets, ends and pitches by onset, for notes that begin before a tick."""
     columns = np.array([line.onset_ticks, line.end_ticks, line.pitches], np.int64)
     columns = columns[:, columns[0] < last_tick]
     return np.asarray(columns[:, np.argsort(columns[0], kind="stable")])
@@ -196,8 +195,9 @@ def _signals(columns: Sequence[IntArray], ticks_per_quarter: int) -> _Signals:
 
 
 def _add_line(sums: FloatArray, kinds: FloatArray, onsets: IntArray, ends: IntArray, pitches: IntArray) -> None:
-    """Add what a line says: an onset; a long note; one longer than the one before; an entry; a leap; a turning point; a
-    note held over; one of the longest."""
+    """Add a line's features: onset; long note; note longer than the previous one; entry; leap; turning point; note held
+    over; one of the longest notes.
+    """
     at, first = np.unique(onsets, return_index=True)
     top, until = np.maximum.reduceat(pitches, first), np.maximum.reduceat(ends, first)
     steps = np.diff(at, append=max(int(ends.max()), int(at[-1]) + 1))
@@ -224,7 +224,7 @@ def _add_line(sums: FloatArray, kinds: FloatArray, onsets: IntArray, ends: IntAr
 
 
 def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
-    """(T,): difference of the pitch classes of the cells up to each and after it, 0..1."""
+    """Difference (T,) between the pitch classes in the cells before and after each cell, 0..1."""
     count = classes.shape[1]
     total = np.cumsum(np.pad(classes, ((0, 0), (reach, reach))), axis=1)[:, : count + 2 * reach]
     before, after = (total[:, k + reach : k + reach + count] - total[:, k : k + count] for k in (0, reach))
@@ -235,7 +235,7 @@ def _harmony_changes(classes: FloatArray, reach: int) -> FloatArray:
 
 
 def _alike(kinds: FloatArray, lag: int) -> float:
-    """Return the share of notes that equal those some cells before, 0..1."""
+    """Return the share of notes that equal the note ``lag`` cells earlier, 0..1."""
     now, before = kinds[:, lag:], kinds[:, :-lag]
     if now.shape[1] < 16:
         return 0.0
@@ -244,7 +244,7 @@ def _alike(kinds: FloatArray, lag: int) -> float:
 
 
 def _candidates(signals: _Signals) -> list[tuple[_Kind, int, float]]:
-    """Return every metre, place of the first bar line in cells, and how probable they are."""
+    """Return all candidates (metre, cell of the first bar line) with their probabilities."""
     usual = float(np.mean([_alike(signals.kinds, lag) for lag in USUAL_LAGS]))
     again = {lag: _alike(signals.kinds, lag) - usual for lag in LAGS}
     bars = (signals.last + 1) / (4 * STEPS)
@@ -262,18 +262,18 @@ def _candidates(signals: _Signals) -> list[tuple[_Kind, int, float]]:
 
 
 def _score(bar: FloatArray, number: int, place: int, signals: _Signals, again: dict[int, float], scale: float) -> float:
-    """Score a candidate.
+    """Return the score of a candidate.
 
     Parameters
     ----------
     bar : (S, B) float64
-        Mean of the signals by cell of the bar.
+        Mean of each feature by cell of the bar.
     number : int
         Of the metre.
     again : dict of int to float
-        What repeats after some cells, compared with what repeats anyway.
+        Repetition after each lag in cells, relative to the piece's general repetition.
     scale : float
-        Larger for longer pieces, which say more.
+        Weight, larger for longer pieces, which have more evidence.
     """
     kind = _KINDS[number]
     down, beats = bar[:, 0], bar[:, kind.beat :: kind.beat].mean(1)
@@ -310,7 +310,7 @@ def _score(bar: FloatArray, number: int, place: int, signals: _Signals, again: d
 
 
 def _likeliest(candidates: Sequence[tuple[_Kind, int, float]]) -> tuple[_Kind, int] | None:
-    """Return the longest bar whose bar lines are probable, and where it begins; None if there is none in three."""
+    """Return the longest metre whose bar lines are probable, with its first bar line; None if no triple metre is."""
     if sum(share for kind, _, share in candidates if kind.is_triple) < TRIPLE_LEAST:
         return None
     likely = []

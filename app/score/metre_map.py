@@ -1,7 +1,8 @@
-"""Metre map: musical ticks to bars, beats and felt beats and back, exactly, as `app.score.tempo` does for seconds.
+"""Metre map: converts ticks to bars, beats and felt beats and back, exactly; `app.score.tempo` does so for seconds.
 
-Bars count from 1, a pickup is bar 0; before the first bar and after the last metre the metre goes on. Bars and beats
-need not be whole numbers of ticks: each begins at the last tick that is not behind it, so they never drift.
+Bars count from 1; a pickup is bar 0. The first metre extends before the first bar, the last one past the end. Bars and
+beats need not be whole numbers of ticks: each begins at the last tick not after its exact place, so errors do not add
+up.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _MOST_BAR, _MOST_BEAT = 1_000_000, 10_000
 
 
 class Metre(msgspec.Struct, frozen=True):
-    """A time signature from one tick on; it begins a new bar."""
+    """A time signature from a tick on; a new bar begins there."""
 
     tick: int
     numerator: int
@@ -38,7 +39,9 @@ class Metre(msgspec.Struct, frozen=True):
 
 
 def beat_ticks_at(beats: FeltBeats, ticks: npt.ArrayLike) -> IntArray:
-    """Ticks of the beat that is felt at each of some ticks; before the first known one it is felt too."""
+    """Length in ticks of the felt beat at each of some ticks; before the first entry of ``beats`` its length
+    applies.
+    """
     if len(beats) == 1:
         return np.full(np.shape(ticks), beats[0][1])
     starts, lengths = _edges(beats)
@@ -47,23 +50,23 @@ def beat_ticks_at(beats: FeltBeats, ticks: npt.ArrayLike) -> IntArray:
 
 @lru_cache(maxsize=64)
 def _edges(beats: FeltBeats) -> IntArray:
-    """(2, N): where beats begin to be felt, and their ticks."""
+    """Array (2, N): ticks from which each felt beat applies, and the lengths in ticks."""
     edges = np.ascontiguousarray(np.array(beats, np.int64).T)
     edges.flags.writeable = False
     return edges
 
 
 class MetreMap(msgspec.Struct, frozen=True, dict=True):
-    """Ticks to bars and beats, and back.
+    """Converts ticks to bars and beats, and back.
 
     Attributes
     ----------
     metres : tuple of Metre
-        By tick, at least one. The first extends backwards, so that the pre-roll has bars too.
+        The metres by tick, at least one. The first also applies before its tick, for the pre-roll.
     has_pickup : bool
-        The bars before the second metre are one incomplete bar, whose beats are counted back from its end.
+        Whether the bars before the second metre are one incomplete bar, whose beats are counted back from its end.
     felt : tuple of (tick, ticks)
-        The beat that is felt from each tick on, by tick (see `app.score.felt_beat`); empty: the quarter.
+        Length of the felt beat from each tick on, by tick (see `app.score.felt_beat`); empty: a quarter.
     """
 
     ticks_per_quarter: int
@@ -77,7 +80,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _first_bars(self) -> tuple[int, ...]:
-        """The number of the bar with which each metre begins."""
+        """Number of the first bar of each metre."""
         numbers = [0 if self.has_pickup else 1]
         for metre, following in zip(self.metres, self.metres[1:], strict=False):
             length = following.tick - metre.tick
@@ -141,7 +144,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return self.tick_of_bar(np.arange(first, stop, dtype=np.int64))
 
     def _kept(self, name: str, span: tuple[int, int], make: Callable[[int, int], IntArray]) -> IntArray:
-        """Return the array made for a span, kept for further calls: all players of a piece ask for the same."""
+        """Return the array for a name and span, made once and cached: all players of a piece ask for the same."""
         found = self._known.get((name, *span))
         if found is None:
             found = make(*span)
@@ -159,14 +162,14 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return self.metres[max(bisect_right(self._ticks, tick) - 1, 0)]
 
     def bar_ticks_at(self, tick: int) -> int:
-        """Length of a whole bar in the metre that holds at a tick, at least 1; a bar cut short is not meant."""
+        """Length in ticks of a complete bar in the metre at a tick, at least 1, even if the bar there is cut short."""
         metre = self.metre_at(tick)
         return max(4 * self.ticks_per_quarter * metre.numerator // metre.denominator, 1)
 
     # Beats as they are written
 
     def beat_length(self, tick: int) -> float:
-        """Length of the beat that the metre at a tick counts in, in ticks; it need not be whole."""
+        """Length in ticks of the metre's unit (its denominator) at a tick; may be fractional."""
         return 4 * self.ticks_per_quarter / self.metre_at(tick).denominator
 
     def place_of_tick(self, tick: int) -> tuple[int, int, int]:
@@ -180,7 +183,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return bar, beat + 1 + (early > 0), since - beat * whole // denominator
 
     def tick_of_place(self, bar: int, beat: int = 1, ticks: int = 0) -> int:
-        """The inverse of `place_of_tick`; beats that the bar has not go on behind it."""
+        """Inverse of `place_of_tick`; a beat number beyond the bar continues into the next bars."""
         bar, start, early = self._bar_at(self.tick_of_bar(bar)) if bar == 0 else (bar, self.tick_of_bar(bar), 0)
         whole, denominator = 4 * self.ticks_per_quarter, self.metre_at(start).denominator
         if early and beat == 1:
@@ -188,25 +191,28 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return start + early + (beat - 1 - (early > 0)) * whole // denominator + ticks
 
     def beats_of_bar(self, bar: int) -> IntArray:
-        """Ticks at which the beats of a bar begin, the bar itself first."""
+        """Ticks of the beats of a bar, the first at the bar line."""
         ticks, _ = self._written(bar, bar + 1)
         start = self.tick_of_bar(bar)
         return ticks if len(ticks) and ticks[0] == start else np.concatenate(([start], ticks))
 
     def label(self, tick: int) -> str:
-        """Bar, beat and ticks, ``"12.3.096"``: how a position is written everywhere; the ticks have as many digits as
-        the longest beat of the piece needs, so that they stand still while it plays."""
+        """Position as bar, beat and ticks, ``"12.3.096"``, as displayed everywhere. The ticks are padded to the digits
+        of the longest beat, so that the width is constant during playback.
+        """
         bar, beat, rest = self.place_of_tick(tick)
         return f"{bar}.{beat}.{rest:0{self._tick_digits}d}".replace("-", "−")
 
     @cached_property
     def _tick_digits(self) -> int:
-        """Digits of the last tick of the longest beat; 3 where that has fewer."""
+        """Digits needed for the ticks within the longest beat, at least 3."""
         longest = 4 * self.ticks_per_quarter // min(metre.denominator for metre in self.metres)
         return max(len(str(longest - 1)), 3)
 
     def tick_of_label(self, text: str) -> int | None:
-        """The tick that such a text means; None where it means none. A bar alone is its first beat."""
+        """Parse a position such as ``label`` returns; None if the text is invalid. A bar number alone is its first
+        beat.
+        """
         match = _PLACE.match(unicodedata.normalize("NFKC", text))
         if match is None:
             return None
@@ -220,7 +226,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def felt_beats(self) -> FeltBeats:
-        """The beats that are felt: the quarter where nothing else is known."""
+        """The felt beats; a quarter throughout if none were set."""
         return self.felt or ((0, self.ticks_per_quarter),)
 
     @overload
@@ -228,7 +234,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     @overload
     def felt_ticks_at(self, ticks: IntArray) -> IntArray: ...
     def felt_ticks_at(self, ticks: float | IntArray) -> int | IntArray:
-        """Ticks of the beat that is felt at each of some ticks."""
+        """Length in ticks of the felt beat at each of some ticks."""
         beats = self.felt_beats
         if isinstance(ticks, np.ndarray):
             return beat_ticks_at(beats, ticks)
@@ -246,21 +252,22 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
         return ticks
 
     def counted(self, first_bar: int, end_bar: int) -> tuple[IntArray, IntArray]:
-        """The beats that one counts aloud in some bars: the felt ones where they divide the bar (a 6/8 in two), else
-        those of the metre; a pickup is counted back from the bar line.
+        """Beats counted aloud in some bars: felt beats where they divide the bar (a 6/8 in two), else the beats of the
+        metre; a pickup counts back from the bar line.
 
         Returns
         -------
         ticks, numbers : (N,) int64
-            Where each beat is, and which of its bar, from 0.
+            Tick of each beat, and its number in the bar, from 0.
         """
         starts = self.tick_of_bar(np.arange(first_bar, end_bar + 1, dtype=np.int64))
         felt = self.felt_ticks_at(starts[:-1])
         return self._written(first_bar, end_bar, np.where(np.diff(starts) % felt == 0, felt, 0))
 
     def _bar_at(self, tick: int) -> tuple[int, int, int]:
-        """Number and start of the bar in which a tick lies, and how long its first beat is where that is incomplete, as
-        that of a pickup may be."""
+        """Number and start tick of the bar at a tick, and the length of its first beat if that one is incomplete, as in
+        a pickup.
+        """
         bar = self.bar_of_tick(tick)
         start = self.tick_of_bar(bar)
         if bar != 0 or not self.has_pickup:
@@ -271,7 +278,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
     def _written(
         self, first_bar: int, end_bar: int, instead_ticks: IntArray | None = None
     ) -> tuple[IntArray, IntArray]:
-        """The whole beats of some bars, and their numbers; ``instead_ticks`` (B,) long where that is not 0."""
+        """Beats of some bars and their numbers in the bar; lengths in ``instead_ticks`` (B,) replace the metre's beat
+        where not 0.
+        """
         numbers = np.arange(first_bar, end_bar + 1, dtype=np.int64)
         starts = self.tick_of_bar(numbers)
         lengths, starts = np.diff(starts), starts[:-1]
@@ -289,7 +298,7 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
 
 def _beats(starts: IntArray, counts: IntArray, wholes: IntArray, denominators: IntArray) -> tuple[IntArray, IntArray]:
-    """Lay ``counts`` beats of ``wholes / denominators`` ticks from each start on, and number them from 0."""
+    """Place ``counts`` beats of ``wholes / denominators`` ticks after each start, and number them from 0 within each."""
     before = np.cumsum(counts) - counts
     numbers = np.arange(counts.sum()) - np.repeat(before, counts)
     ticks: IntArray = np.repeat(starts, counts) + numbers * np.repeat(wholes, counts) // np.repeat(denominators, counts)

@@ -1,4 +1,4 @@
-"""Score and its parts, in ticks."""
+"""The score and its parts; all times in ticks."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class Note(msgspec.Struct, frozen=True, gc=False):
     Attributes
     ----------
     id : str
-        ``"track:number"``, both counted from 1: the track in the file, the note in the order of the track's note-ons.
-        Unique in the score; splitting a track into voices does not change it.
+        ``"track:number"``, both from 1: track in the file, and note in the order of the track's note-ons. Unique in the
+        score; unchanged when a track is split into voices.
     onset_tick, duration_tick : int
         The duration is at least 1.
     pitch : int
@@ -53,17 +53,17 @@ class Note(msgspec.Struct, frozen=True, gc=False):
 
 
 class ControllerCurve(msgspec.Struct, frozen=True):
-    """A controller over time: a step function, each value holds until the next tick.
+    """A MIDI controller over time: a step function, each value holds until the next tick.
 
     Attributes
     ----------
     kind : {"breath", "volume", "expression", "aftertouch", "pitch_bend", "bite"}
-        MIDI controllers 2, 7 and 11; channel and key pressure; pitch bend; how hard the teeth press, controller 16 (see
+        MIDI controllers 2, 7 and 11; channel or key pressure; pitch bend; bite force, controller 16 (see
         `app.score.write`).
     ticks : tuple of int
         Strictly ascending.
     values : tuple of float
-        0..1; pitch bend in whole tones, which are the range that MIDI gives an instrument, -`MOST_BEND`..`MOST_BEND`.
+        0..1; pitch bend in whole tones (MIDI's default range), -`MOST_BEND`..`MOST_BEND`.
     """
 
     kind: CurveKind
@@ -72,8 +72,9 @@ class ControllerCurve(msgspec.Struct, frozen=True):
 
     @property
     def shown_range(self) -> tuple[float, float]:
-        """Range of values in which the curve is drawn and edited: for a bend the usual range, or a larger one if the
-        curve exceeds it."""
+        """Range of values in which the curve is drawn and edited; for pitch bend the usual range, or more if the curve
+        exceeds it.
+        """
         widest = max(1.0, *map(abs, self.values)) if self.kind == "pitch_bend" else 1.0
         return (-widest if self.kind == "pitch_bend" else 0.0), widest
 
@@ -84,7 +85,7 @@ def value_range(kind: CurveKind) -> tuple[float, float]:
 
 
 class Marker(msgspec.Struct, frozen=True):
-    """Name of a place of the piece: a rehearsal letter, a section, a cue. Its text is one line, not empty."""
+    """A named place of the piece: a rehearsal letter, a section, a cue. The text is one line and not empty."""
 
     tick: int
     text: str
@@ -95,12 +96,12 @@ SAME_SOUND: Final = {22: 42, 26: 46}
 
 
 class PercussionHit(msgspec.Struct, frozen=True, gc=False):
-    """A note of a percussion track: no player plays it, but dancers move to it.
+    """A note of a percussion track: it has no player, but dancers move to it.
 
     Attributes
     ----------
     pitch : int
-        MIDI note 0..127: the sound of a drum kit that is struck, as General MIDI numbers it.
+        MIDI note 0..127: the drum kit sound by its General MIDI number.
     velocity : int
         1..127.
     """
@@ -118,36 +119,36 @@ class Part(msgspec.Struct, frozen=True, dict=True):
     id : str
         ``"track.channel.voice"``, each counted from 1; unique in the score.
     name : str
-        What the file calls it, else its instrument; several parts may share a name.
+        Name in the file, else the instrument's; several parts may have the same.
     track : int
         The track in the file, counted from 0.
     voice : int
-        Counted from 0, the highest; 0 in a track with one voice. What its player has on a second instrument is counted
-        from `MOST_VOICES`, on a third from twice as many.
+        Index of the voice from 0, the highest; 0 in a track with one voice. Parts on the player's second instrument
+        count from `MOST_VOICES`, on a third from twice as much.
     channel : int
         0..15.
     program : int or None
-        General MIDI program 0..127; None if the file does not say.
+        General MIDI program 0..127; None if the file has none.
     instrument : str or None
-        Id in the vocabulary of instruments; None if neither name nor program says.
+        Id in the vocabulary of instruments; None if neither name nor program is known.
     map_id : str
-        The instrument map that plays it.
+        Id of the instrument map.
     notes : tuple of Note
-        By onset, then pitch.
+        The notes by onset, then pitch.
     curves : tuple of ControllerCurve
-        Of the whole track; voices of one track share them.
+        Controller curves of the whole track, shared by its voices.
     transposed_semitones : int
-        How much higher it was read than the file has it, which had written pitches (lower: negative).
+        Semitones by which notes were raised on reading, since the file had written pitches; negative if lowered.
     muted : tuple of (start, end)
-        Spans of ticks, by start, in which it is played with a mute.
+        Spans of ticks, by start, that are played with a mute.
     stopped : tuple of (start, end)
-        Those of them in which the hand stops the bell; no older file has any.
+        Those of the muted spans in which the hand stops the bell; empty in older files.
     mute_kinds : tuple of (tick, kind)
-        Which mute is in the bell from there on, where it is named; no older file has any.
+        Kind of mute from each tick on, where it is named; empty in older files.
     marks : tuple of Mark
-        What is written over its notes; no older file has any, nor has what was read from MIDI.
+        Marks written over the notes; empty in older files and for MIDI.
     source : {"sound", "score"}
-        What it was read from: of a score, what has no mark has none; of a MIDI file, it is not known.
+        Origin: in a score an absent mark means that there is none; in a MIDI file it means that nothing is known.
     """
 
     id: str
@@ -169,17 +170,17 @@ class Part(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def place(self) -> tuple[int, int, int]:
-        """Track, channel, and which of its player's instruments: that of the stream it was read from."""
+        """Track, channel and instrument index of the player: identifies the channel the part was read from."""
         return self.track, self.channel, self.voice // MOST_VOICES
 
     @cached_property
     def note_ids(self) -> frozenset[str]:
-        """Ids of its notes."""
+        """Ids of the part's notes."""
         return frozenset(note.id for note in self.notes)
 
     @cached_property
     def end_tick(self) -> int:
-        """Return where its last note ends; 0 without notes."""
+        """Return the tick at which the last note ends; 0 without notes."""
         return max((note.end_tick for note in self.notes), default=0)
 
 
@@ -188,10 +189,10 @@ _LEFT_OUT_OF_PARTS: Final = frozenset({"score.stray_notes", "score.key_switches"
 
 
 class UnplayedPart(msgspec.Struct, frozen=True):
-    """A part that no one plays, and why. Its last note ends at ``end_tick``.
+    """A part without a player, with the reason, and the tick at which its last note ends.
 
-    ``sounding`` are the spans of ticks, in order, in which it sounds; pauses shorter than a quarter are not counted
-    apart. Empty where nothing accompanies (key switches, stray notes), or where an old project did not keep it.
+    ``sounding`` are the spans of ticks, in order, in which it sounds; pauses shorter than a quarter are bridged. Empty
+    for notes that are no accompaniment (key switches, stray notes), and in old projects.
     """
 
     name: str
@@ -202,7 +203,7 @@ class UnplayedPart(msgspec.Struct, frozen=True):
 
     @property
     def is_of_played_part(self) -> bool:
-        """True if only these notes of the part are left out, and the others have a player."""
+        """True if only some notes of a part are left out while its other notes have a player."""
         return self.reason.id in _LEFT_OUT_OF_PARTS
 
 
@@ -218,19 +219,19 @@ def sounding_spans(spans: Iterable[tuple[int, int]], quarter_ticks: int) -> tupl
 
 
 class Score(msgspec.Struct, frozen=True, dict=True):
-    """A piece: everything that its players and its listeners share.
+    """A piece: everything that its players and the audio share.
 
     Attributes
     ----------
     metres : tuple of Metre
-        By tick, at least one, the first at tick 0.
+        The metres by tick, at least one, the first at tick 0.
     pickup_ticks : int
-        Length of an incomplete first bar, 0 if there is none. A MIDI file has no mark for it; it is known where the
-        file gives the first bar a metre of its own, or restates the metre before a bar is over.
+        Length of an incomplete first bar, 0 if there is none. MIDI has no mark for it; it is detected if the first bar
+        has its own metre, or the metre is repeated before a bar is complete.
     markers : tuple of Marker
-        By tick; at one tick in the order of the file. Some may lie behind the last note.
+        Markers by tick, at one tick in the order of the file. Some may be after the last note.
     percussion : tuple of PercussionHit
-        By tick, then pitch: every note of the percussion tracks.
+        All notes of percussion tracks, by tick, then pitch.
     """
 
     title: str
@@ -246,41 +247,41 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def end_tick(self) -> int:
-        """Return where the last note of the parts ends; 0 without notes."""
+        """Return the tick at which the last note of the parts ends; 0 without notes."""
         return max((part.end_tick for part in self.parts), default=0)
 
     @cached_property
     def accompaniment(self) -> tuple[tuple[int, int], ...]:
-        """Spans of ticks, in order, in which something sounds that no one plays."""
+        """Spans of ticks, in order, in which parts without a player sound."""
         return sounding_spans((span for part in self.unplayed for span in part.sounding), self.ticks_per_quarter)
 
     @cached_property
     def sounding_end_tick(self) -> int:
-        """Return where the last note of the piece ends, whether it has a player or not; 0 without notes. Of percussion
-        hits alone it is known where they begin."""
+        """Return the tick at which the last note of the piece ends, with or without a player; 0 without notes.
+        Percussion hits count one tick, since their length is unknown.
+        """
         last_hit_end = self.percussion[-1].tick + 1 if self.percussion else 0
         return max((self.end_tick, last_hit_end, *(part.end_tick for part in self.unplayed)))
 
     @cached_property
     def metre_map(self) -> MetreMap:
-        """Return where its bars and beats are; what beat is felt the project says
-        (`app.project.model.Project.metre_map`)."""
+        """The metre map without felt beats, which the project adds (`app.project.model.Project.metre_map`)."""
         return MetreMap(self.ticks_per_quarter, self.metres, self.pickup_ticks > 0)
 
     @cached_property
     def felt_metre_map(self) -> MetreMap:
-        """The metre map with the beat that is felt at the tempo of each bar."""
+        """The metre map with felt beats computed from the tempo of each bar."""
         felt = felt_beats(self.tempo_map, self.metre_map, self.bar_starts)
         return msgspec.structs.replace(self.metre_map, felt=felt)
 
     @property
     def last_bar(self) -> int:
-        """The number of the bar in which the last note ends, whether it has a player or not."""
+        """Number of the bar in which the last note ends, with or without a player."""
         return self.metre_map.bar_of_tick(max(self.sounding_end_tick - 1, 0))
 
     @property
     def bar_starts(self) -> IntArray:
-        """Ticks at which the bars begin, to the bar in which the last note ends, whether it has a player or not.
+        """Ticks at which the bars begin, up to the bar in which the last note ends, with or without a player.
 
         The first is the pickup (bar 0) if there is one, else bar 1.
         """
@@ -288,7 +289,7 @@ class Score(msgspec.Struct, frozen=True, dict=True):
 
 
 def transposed(notes: tuple[Note, ...], semitones: int) -> tuple[Note, ...]:
-    """The notes, transposed by semitones; those beyond MIDI's range as far as it goes."""
+    """The notes transposed by semitones; pitches are clipped to 0..127."""
     if not semitones:
         return notes
     return tuple(msgspec.structs.replace(note, pitch=min(max(note.pitch + semitones, 0), 127)) for note in notes)

@@ -1,6 +1,6 @@
-"""Spans with a mute or a hand in the bell: by the part's program, its name, or texts of the track.
+"""Spans played with a mute or with the hand in the bell, from the part's program, its name, or texts of the track.
 
-A muted note is played by the same player; the mute is a technique, kept in spans of ticks.
+A muted note stays with the same player; muting is a technique, stored as spans of ticks.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ _NAME: Final = re.compile("|".join(sorted(_NAMES, key=len, reverse=True)), re.IG
 
 
 def takes_mutes(instrument: Instrument | None) -> bool:
-    """Return whether an instrument is of the section that is muted and stopped by hand: brass."""
+    """Return whether an instrument is brass, the section that uses mutes and hand stopping."""
     return instrument is not None and instrument.family in _muted_families()
 
 
@@ -79,8 +79,9 @@ def _muted_families() -> set[str]:
 
 
 def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = None) -> list[tuple[int, int]]:
-    """The changes (tick, program) of a player without those to the muted sound, where other changes or the name say
-    which brass instrument is muted: notation programs give muted horns and trombones the trumpet's."""
+    """Program changes (tick, program) of a player without changes to General MIDI's muted trumpet, if other changes or
+    the name give the brass instrument: notation programs use that sound for muted horns and trombones too.
+    """
     known = vocabulary()
     brass = _muted_families()
     others = [known.by_program(program) for _, program in programs if program != MUTED_TRUMPET]
@@ -90,14 +91,15 @@ def sounds_of(programs: Sequence[tuple[int, int]], named: Instrument | None = No
 
 
 def _sections(section: Instrument) -> tuple[str, ...]:
-    """The families of the section that the muted sound's instrument is in; empty for another section."""
+    """Families of a section if the muted trumpet is in it (brass); empty for other sections."""
     muted = vocabulary().by_program(MUTED_TRUMPET)
     return section.families if muted is not None and muted.family in section.families else ()
 
 
 class Mutes(NamedTuple):
-    """Spans (first onset, last end) of ticks, in order: all that are muted, and those of them that the hand stops; and
-    where the kind of mute changes."""
+    """Spans (first onset, last end) of ticks in order: all muted ones, and among them the hand-stopped ones; and the
+    changes of the kind of mute.
+    """
 
     muted: tuple[Span, ...] = ()
     stopped: tuple[Span, ...] = ()
@@ -112,7 +114,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
     name : str
         Of the track.
     texts : sequence of (tick, text)
-        What the track says to the player of these channels.
+        Texts of the track for the player of these channels.
     """
     always: How = named_mute(name) if _IN_NAME.search(name) is not None else "open"
     said = [(tick, how) for tick, text in sorted(texts) if (how := said_of_mute(text)) is not None]
@@ -139,7 +141,7 @@ def mutes_of(events: TrackEvents, channels: Collection[int], name: str, texts: S
 
 
 def mutes_in(rows: Sequence[tuple[int, int, How]]) -> Mutes:
-    """The mutes of notes (onset, end, how), by onset."""
+    """Collect the mutes of notes (onset, end, how), given by onset."""
     changes: list[Change] = []
     for onset, _, how in rows:
         if how not in ("open", "hand") and how != (changes[-1][1] if changes else "mute"):
@@ -148,7 +150,7 @@ def mutes_in(rows: Sequence[tuple[int, int, How]]) -> Mutes:
 
 
 def named_mute(text: str) -> How:
-    """The kind of mute that a text names; ``mute`` where it names none."""
+    """Kind of mute that a text names; ``mute`` if it names no kind."""
     found = _NAME.search(text)
     return "mute" if found is None else _NAMES[found[0].lower().replace(" ", "-")]
 
@@ -160,7 +162,7 @@ def mute_at(changes: Sequence[Change], tick: int) -> str:
 
 
 def joined_spans(rows: Sequence[tuple[int, int, How]], ways: Collection[str]) -> tuple[Span, ...]:
-    """Notes in a row that are played in some ways, joined."""
+    """Join consecutive notes that are played in one of the given ways into spans."""
     spans: list[Span] = []
     before = False
     for onset, end, how in rows:
@@ -180,7 +182,9 @@ def is_muted(spans: Sequence[Span], tick: int) -> bool:
 
 
 def said_of_mute(text: str) -> How | None:
-    """Return whether a text puts a mute in and which, has the hand stop the bell, or ends both; None: neither."""
+    """Return what a text means for the mute: inserted (and which), hand stopping, or the end of both; None if it means
+    none of these.
+    """
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):
         return "open"

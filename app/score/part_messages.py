@@ -1,4 +1,4 @@
-"""Reports of what was guessed about parts, left out of them, or excluded."""
+"""Messages about guesses made for parts, and about notes left out of them."""
 
 from __future__ import annotations
 
@@ -19,21 +19,22 @@ _MOST_PLACES: Final = 5
 
 
 def about_notes(id_: str, part: str, notes: Sequence[Note], piece: Score, **more: Argument) -> Message:
-    """A message about some notes: how many, and where the first one is."""
+    """A message about some notes, with their number and the position and pitch of the first."""
     first = notes[0]
     where: dict[str, Argument] = {"place": piece.metre_map.label(first.onset_tick), "pitch": first.pitch}
     return Message(id_, {"part": part, "count": len(notes), **where, **more})
 
 
 def begins_after(message: Message, bar: int) -> bool:
-    """Return whether a remark is about some notes of which the first one is after a bar: not where it names no place,
-    or is about a whole part."""
+    """Return whether a message is about notes the first of which comes after a bar; False for messages without a
+    position or about a whole part.
+    """
     place = message.arguments.get("place")
     return isinstance(place, str) and "total" not in message.arguments and int(place.partition(".")[0]) > bar
 
 
 def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) -> Message:
-    """Report the notes left out of a take: how many, why, and where the first ones are."""
+    """Report the notes removed from a take: their number, the reasons, and the first positions."""
     notes = sorted((note for own in faults.values() for note in own), key=lambda note: note.onset_tick)
     places = list(dict.fromkeys(piece.metre_map.label(note.onset_tick) for note in notes))
     said = ", ".join(places[:_MOST_PLACES]) + (", ..." if len(places) > _MOST_PLACES else "")
@@ -43,8 +44,9 @@ def cleaned_take(part: str, faults: Mapping[Fault, list[Note]], piece: Score) ->
 
 
 def silent_notes(id_: str, part: str, notes: Sequence[Note], piece: Score) -> list[UnplayedPart]:
-    """The notes of a part that its players do not play, as a silent part: a few stray notes and key switches are no
-    accompaniment."""
+    """Notes of a part that its players leave out, as one silent part; empty without notes. Stray notes and key switches
+    count as silent.
+    """
     if not notes:
         return []
     return [UnplayedPart(part, about_notes(id_, part, notes, piece), len(notes), max(note.end_tick for note in notes))]
@@ -78,7 +80,7 @@ _REASONS: Final = {How.TITLE: "score.instrument_from_title", How.ENSEMBLE: "scor
 
 
 def _refused(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice], piece: Score) -> Message:
-    """A message about the notes that the instrument of a program does not reach."""
+    """A message about notes outside the range of the instrument given by a program."""
     own = [choice for choice in maps if plays(choice, instrument) or instrument.id in choice.substitutes_for]
     notes = sorted((note for part in parts for note in part.notes), key=lambda note: (note.onset_tick, note.pitch))
     outside = [note for note in notes if all(choice.outside([note.pitch]) for choice in own)]
@@ -92,7 +94,7 @@ def _refused(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapCh
 
 
 def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence[MapChoice]) -> list[Message]:
-    """A warning for each map that only stands in for the instrument."""
+    """A warning for each map that is only a substitute for the instrument."""
     return [
         Message("score.substituted", {"part": parts[0].name, "instrument": instrument.names[0], "map": map_id})
         for map_id in dict.fromkeys(part.map_id for part in parts)
@@ -101,7 +103,9 @@ def _substitutions(parts: Sequence[Part], instrument: Instrument, maps: Sequence
 
 
 def _other_sizes(parts: Sequence[Part], found: MapCandidates, instrument: Instrument) -> list[Message]:
-    """A warning for each other size or key that was chosen by range; not where players choose the key by the part."""
+    """A warning for each other size or key of the instrument that was chosen because of its range; none where players
+    choose the key by the part.
+    """
     if not found.exact or instrument.key_by_part:
         return []
     others = dict.fromkeys(part.map_id for part in parts if part.map_id not in found.exact)
@@ -110,7 +114,7 @@ def _other_sizes(parts: Sequence[Part], found: MapCandidates, instrument: Instru
 
 
 def _written_warnings(parts: Sequence[Part], maps: Sequence[MapChoice], piece: Score) -> list[Message]:
-    """Report parts that fit their instrument only as written pitches, and those that were imported so."""
+    """Warn of parts that fit their instrument only as written pitches, and report parts imported as written."""
     choices = {choice.map_id: choice for choice in maps}
     found = []
     for part in parts:
@@ -134,6 +138,6 @@ def _range_warning(part: Part, maps: Sequence[MapChoice], piece: Score) -> Messa
 
 
 def _outside(id_: str, part: Part, choice: MapChoice, piece: Score) -> Message:
-    """A message about the notes of a part that its instrument does not reach."""
+    """A message about the notes of a part outside its instrument's range."""
     notes = [note for note in part.notes if choice.outside([note.pitch])]
     return about_notes(id_, part.name, notes, piece, map=part.map_id, outside=len(notes), total=len(part.notes))

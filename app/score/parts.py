@@ -1,7 +1,7 @@
-"""Tracks to parts: which instrument a track is for, which map plays it, and how many players it needs.
+"""Turns tracks into parts: the instrument of each track, its instrument map, and the number of players.
 
-A name beats a program; what an instrument is called in the track's name beats its instrument name. What is percussion
-and what sound effects `app.score.track_instrument.use_of` says.
+A name precedes a program; an instrument found in the track's name precedes the track's instrument name. Percussion and
+sound effects are decided by `app.score.track_instrument.use_of`.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ from instrument_maps.instrument_names import vocabulary
 def parts_of(
     channels: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into parts with players and parts without, and say what was guessed.
+    """Sort tracks into parts with players and parts without, and report guesses, with the suggested assignments.
 
     Parameters
     ----------
     maps : sequence of MapChoice
-        Earlier ones are preferred where all else is equal.
+        Available maps; at equal fit an earlier one is chosen.
     piece : Score
-        Its tempo and metres.
+        Score that provides tempo and metres.
     """
     return assigned_parts(channels, usual_assignments(channels, maps), maps, piece)
 
@@ -51,21 +51,21 @@ def assigned_parts(
     piece: Score,
     stop_requested: StopRequested = lambda: False,
 ) -> tuple[tuple[Part, ...], tuple[UnplayedPart, ...], tuple[Message, ...]]:
-    """Sort tracks into requested parts and unplayed ones, and report what was guessed.
+    """Sort tracks into the assigned parts and those without a player, and report guesses.
 
     Parameters
     ----------
     assignments : sequence of PartAssignment
-        A stream is asked for at most once.
+        The assignments; a channel occurs in at most one.
     piece : Score
-        Its tempo and metres.
+        Score that provides tempo and metres.
     stop_requested : callable
-        Asked before each part.
+        Called before each part.
 
     Raises
     ------
     Cancelled
-        ``stop_requested`` said so.
+        ``stop_requested`` returned True.
     """
     sorting = _Sorting(channels, maps, piece)
     for assignment in assignments:
@@ -75,7 +75,7 @@ def assigned_parts(
 
 
 class _Sorting:
-    """Tracks that are sorted into parts, assignment by assignment."""
+    """State while tracks are sorted into parts, assignment by assignment."""
 
     def __init__(self, channels: Sequence[TrackChannel], maps: Sequence[MapChoice], piece: Score) -> None:
         self.parts: list[Part] = []
@@ -89,7 +89,7 @@ class _Sorting:
         self._most = most_parts(self._hours)
 
     def add(self, assignment: PartAssignment) -> None:
-        """Make the parts of one assignment, and say what was guessed."""
+        """Add the parts of one assignment, with messages about guesses."""
         own, maps = assignment.channels, self._maps
         room = self._most - len(self.parts)
         if assignment.map_id == PERCUSSION:
@@ -126,7 +126,7 @@ class _Sorting:
         self._warnings += instrument_warnings(mine, found, assignment, maps, self._piece)
 
     def _clean(self, own: Sequence[int]) -> dict[Fault, list[Note]]:
-        """Take from channels that are takes what was not meant; what that was."""
+        """Remove unintended notes from those channels that are takes, and return them by reason."""
         faults: dict[Fault, list[Note]] = {}
         for index in own:
             self._streams[index], found = without_faults(self._streams[index], self._piece.tempo_map)
@@ -134,7 +134,7 @@ class _Sorting:
         return faults
 
     def _warn_of_tracks(self, part: str, chosen: Sequence[TrackChannel], notes: Sequence[Note]) -> None:
-        """Say which tracks are one player's, or another instrument of one."""
+        """Report tracks that were joined for one player, and instrument changes within one."""
         lead = joined(chosen)
         if lead.change and lead.played_on and len(chosen) == 1:
             instrument = vocabulary().instruments[lead.played_on].names[0]
@@ -144,7 +144,7 @@ class _Sorting:
             self._warnings.append(Message(id_, {"part": part, "count": len(chosen)}))
 
     def _warn_of_players(self, mine: Sequence[Part], notes: Sequence[Note], shared: TrackVoices) -> None:
-        """Say how many players share some notes, and which notes none of them has."""
+        """Report the number of players that share the notes, and the notes that no player has."""
         part, piece = mine[0].name, self._piece
         if shared.unisons:
             self._warnings.append(about_notes("score.unisons", part, shared.unisons, piece))
@@ -159,7 +159,7 @@ class _Sorting:
             self._silent += silent_notes("score.stray_notes", part, shared.left_out, piece)
 
     def unplayed(self) -> tuple[UnplayedPart, ...]:
-        """The channels that no one plays, and the notes of parts that their players do not play."""
+        """The channels without a player, and the notes of parts that their players leave out."""
         channels = (
             UnplayedPart(
                 stream_name(channel),
@@ -174,7 +174,7 @@ class _Sorting:
         return *channels, *self._silent
 
     def _reason(self, index: int) -> Message:
-        """Explain why no one plays a stream."""
+        """Return the reason why a channel has no player."""
         channel = self._streams[index]
         if index in self._percussion and use_of(channel) != "rhythm":
             return Message("score.percussion", {"instrument": stream_name(channel)})
@@ -185,7 +185,7 @@ class _Sorting:
         return Message("score.too_many_for_hours", {"most": self._most, "hours": round(self._hours, 1)})
 
     def all_warnings(self) -> tuple[Message, ...]:
-        """The warnings without repetitions, all slurred notes in one."""
+        """All warnings without repetitions; warnings about shortened legato notes are merged."""
         warnings = [*self._warnings]
         if self._slurred:
             part, first = min(self._slurred, key=lambda row: row[1].onset_tick)
@@ -222,7 +222,9 @@ def _shared(
 
 
 def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAssignment] = ()) -> list[TrackChannel]:
-    """The channels whose notes are the sounds of a drum kit: those that say so, but for what the user assigned."""
+    """Channels whose notes are drum kit sounds, by their own data or by assignment; other assigned channels are not
+    included.
+    """
     assigned = {index: one.map_id for one in assignments if one.map_id is not None for index in one.channels}
     return [
         channel
@@ -232,7 +234,7 @@ def rhythm_parts(channels: Sequence[TrackChannel], assignments: Sequence[PartAss
 
 
 def _switches(channels: Sequence[TrackChannel], own: Sequence[int], places: Sequence[Sequence[int]]) -> list[Note]:
-    """The key switches of some channels, by onset."""
+    """Key switches of the channels, by onset."""
     found = []
     for index, switches in zip(own, places, strict=True):
         if switches:
@@ -242,8 +244,9 @@ def _switches(channels: Sequence[TrackChannel], own: Sequence[int], places: Sequ
 
 
 def _found(chosen: Sequence[TrackChannel], map_id: str | None, maps: Sequence[MapChoice]) -> MapCandidates:
-    """The maps an assignment may be given to: the one the user named, else what the tracks say and fit. Raises as
-    `require_map`."""
+    """Candidate maps of an assignment: the one the user chose, else those found from names, program and range. Raises
+    as `require_map`.
+    """
     found = candidates(chosen, maps)
     if map_id is not None:
         return MapCandidates(How.SAID, found.instrument, (_map(map_id, maps),))
@@ -260,7 +263,9 @@ def _map(map_id: str, maps: Sequence[MapChoice]) -> MapChoice:
 
 
 def stream_name(channel: TrackChannel) -> str:
-    """Name of a stream as the user knows it."""
+    """Name of a channel as shown to the user: its track name, instrument name, recognised instrument or track
+    number.
+    """
     instrument = recognised(channel)
     return (
         channel.name or channel.instrument_name or (instrument.names[0] if instrument else f"Track {channel.track + 1}")
@@ -275,7 +280,7 @@ def _parts(
     written: bool,
     of_voices: Sequence[MapChoice | None],
 ) -> list[Part]:
-    """A part for every voice, on its own instrument where one was chosen for it."""
+    """Make one part for each voice, with the voice's own instrument map if one was chosen."""
     parts = []
     instrument = found.instrument
     onsets = {file_id(note.id): note.onset_tick for notes in voices for note in notes} if channel.marks else {}
@@ -308,7 +313,7 @@ def _parts(
 
 
 def _marks(marks: Sequence[Mark], onsets: Mapping[str, int], notes: Sequence[Note]) -> tuple[Mark, ...]:
-    """The marks of a stream that are about a voice of it."""
+    """The marks of a channel that belong to one of its voices."""
     return (
         marks_of_player(marks, onsets, [(note.onset_tick, file_id(note.id), note.id) for note in notes])
         if marks

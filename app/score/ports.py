@@ -1,4 +1,4 @@
-"""Ports within one track: a file of one track (format 0) with more than sixteen channels names a port before events."""
+"""MIDI ports within one track: a format 0 file with more than sixteen channels names a port before its events."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _MOST_PORTS: Final = 16
 
 
 def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:
-    """The messages of a track by port, if notes are sent to several; each with delta times.
+    """Split the messages of a track by port, if notes go to several ports; each list has its own delta times.
 
     Parameters
     ----------
@@ -22,8 +22,8 @@ def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:
     Returns
     -------
     list of sequences of mido messages
-        The first has all events that are no channel's; every other begins with its port and has its channels' events
-        alone.
+        The first list also has all events without a channel; every other one begins with its port and has only the
+        events of that port's channels.
     """
     if sum(message.type == "midi_port" for message in messages) < 2:
         return [messages]
@@ -48,7 +48,7 @@ def split_by_port(messages: Sequence[Any]) -> list[Sequence[Any]]:
 
 
 def _without(messages: Sequence[Any], left_out: set[int], port: int | None) -> list[Any]:
-    """The messages without some and without ports but one, which comes first."""
+    """The messages without those left out, and without any port message except ``port``, which comes first."""
     rows, tick = [], 0
     for message in messages:
         tick += message.time

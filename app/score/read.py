@@ -1,27 +1,26 @@
 """Reads a MIDI file into a score.
 
-How the three formats are taken: format 0 is split by channel, and so is any track that uses several channels; the
-tracks of format 1 sound together; the patterns of format 2 follow one another in the order of the file, each beginning
-where the one before ends, with the tempo it left.
+Formats: a track of format 0, and any track with several channels, is split by channel; tracks of format 1 sound
+together; patterns of format 2 follow one another in file order, each starting at the end of the previous one with its
+last tempo.
 
-A channel is one of its port (meta events 33 and 9): tracks of other ports do not set it up. Which channels have
-melodies, rhythm parts and sound effects `app.score.sound_module` knows.
+A channel belongs to a port (meta events 33 and 9): tracks of other ports do not affect it. `app.score.sound_module`
+decides between melodic channels, rhythm parts and sound effects.
 
-What a note is: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* note of its pitch and channel
-that still sounds (first in, first out). A pitch that is struck again ends there and begins again, as in takes
-(`app.score.sounding`), where its own end comes late: where the channel is one melody then, or where the pitch would
-sound three times at once. Two players on one channel may have one pitch together, and what lasts into the next note by
-less than a quarter of its length is legato; such notes overlap. A note-off and a note-on at one tick are two notes in a
-row. A note of no length lasts one tick.
+Note-offs: a note-on with velocity 0 is a note-off. A note-off ends the *oldest* sounding note of its pitch and channel
+(first in, first out). If a pitch is struck again and the first note's end comes late, the first note ends at the new
+onset, as in takes (`app.score.sounding`): applied if the channel becomes monophonic by it, or if the pitch would sound
+three times at once. Two players on one channel may hold one pitch together, and an overlap of less than a quarter of a
+note is legato; such notes stay. A note-off and a note-on at one tick separate two notes. A note without length lasts
+one tick.
 
-A note that no note-off ends lasts until the next note of its channel begins, and four quarters at most: a lost note-off
-must neither make a second player of a line nor a drone of hours, and the end of the track, where a synthesiser would
-stop, may be far away. "All notes off" and "all sound off" end it before that. Where a pitch has lost a note-off, the
-first one after a note ends it unless the pitch is struck again before; first in, first out would give every note the
-end of the one after it. Two notes of such a pitch at one tick are one.
+A note without a note-off lasts until the next onset on its channel, at most four quarters: a lost note-off must not add
+a second player or a drone of hours, and the end of the track may be far away. "All notes off" and "all sound off" end
+it earlier. Once a pitch has lost a note-off, the first note-off after each of its notes ends that note unless the pitch
+is struck again before; first in, first out would shift every end by one note. Two such notes at one tick become one.
 
-Markers and cue points are markers of the piece, whichever track holds them; one that several tracks repeat is one, and
-one without a text is none.
+Markers and cue points of any track become markers of the piece; repetitions in several tracks are merged, and empty
+texts dropped.
 """
 
 from __future__ import annotations
@@ -60,19 +59,19 @@ _LONGEST_MARKER = 1000
 
 
 def read_midi(path: Path, *, encoding: str | None = None, maps: Sequence[MapChoice]) -> Score:
-    """Read a MIDI file or a score in MusicXML; names, programs and ranges decide who plays what.
+    """Read a MIDI file or a MusicXML score; players are assigned by names, programs and ranges.
 
     Parameters
     ----------
     encoding : str, optional
-        Of the file's texts; otherwise guessed text by text (`app.score.texts`).
+        Encoding of the file's texts; otherwise guessed (`app.score.texts`).
     maps : sequence of MapChoice
-        The instruments that can be played.
+        The available instruments.
 
     Raises
     ------
     FileError
-        If it cannot be read; what can be read in part opens, and the score's warnings say what was left out.
+        The file cannot be read. A file that is readable in part opens, with warnings about the missing content.
     """
     contents = read_contents(path, encoding=encoding)
     parts, unplayed, warnings = parts_of(contents.channels, maps, score_of(contents))
@@ -86,12 +85,12 @@ def read_contents(
     apart: Collection[tuple[int, int]] = (),
     assumed: Assumed | None = None,
 ) -> PieceContents:
-    """Read the notes, tempo, metres and markers of a MIDI file, or of a score in MusicXML, which says all else itself.
+    """Read the notes, tempo, metres and markers of a MIDI file or of a MusicXML score.
 
     Parameters
     ----------
     encoding, apart, assumed
-        Of a MIDI file, as `_midi_contents` has them.
+        For MIDI files only, as in `_midi_contents`.
 
     Raises
     ------
@@ -116,10 +115,10 @@ def _midi_contents(
     Parameters
     ----------
     assumed : Assumed, optional
-        The metres of a file without time signatures; by default what its notes say.
+        Metres for a file without time signatures; by default guessed from its notes.
     apart : collection of (int, int)
-        Track and channel of those that are players of their own, whatever the channels of a track have in common: those
-        of a project that was made from the file.
+        Track and channel of those that stay separate players even if the channels of their track belong together: the
+        ones of the project that was made from the file.
     """
     container = read_container(path)
     quarter = ticks_per_quarter_of(container)
@@ -153,8 +152,9 @@ def _midi_contents(
 
 
 def _tracks(container: Container, unended: int, file: str) -> tuple[list[TrackEvents], list[int], list[Message]]:
-    """The tracks of a file, those of several ports by port after the others, which keep their numbers; how many events
-    each track without notes has; and what was repaired."""
+    """Return the tracks of a file, where tracks of several ports are split and the additional ports come last; the
+    number of events of each track without notes; and messages about repairs.
+    """
     warnings = list(container.warnings)
     tracks: list[TrackEvents] = []
     more: list[TrackEvents] = []
@@ -185,7 +185,7 @@ def _track_warnings(events: TrackEvents, index: int) -> list[Message]:
 
 
 def _require_few(parts: int, file: str) -> None:
-    """Refuse more parts than any piece has; every track with notes has one at least."""
+    """Raise FileError if there are more parts than `MOST_STREAMS`."""
     if parts > MOST_STREAMS:
         raise FileError("midi.too_many_parts", file=file, parts=parts, most=MOST_STREAMS)
 
@@ -216,7 +216,7 @@ def _markers(tracks: Sequence[TrackEvents], texts: TextDecoder) -> tuple[Marker,
 
 
 def _title(first: TrackEvents, texts: TextDecoder, alone: bool) -> str:
-    """The name of the first track, if it is the piece's and not a player's."""
+    """Title of the piece: the first track's name, if that track has no notes or is the only one."""
     if first.channels and not alone:
         return ""
     return texts.read(first.name)[:MOST_NAME]

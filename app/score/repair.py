@@ -1,12 +1,11 @@
-"""Makes the bytes of a track such that mido can read them, losing only what cannot be understood.
+"""Repairs the bytes of a MIDI track for mido, dropping only what cannot be parsed.
 
-System exclusive messages that are split over several events (SMF 1.0, "F7 sysex events") become one where the last part
-stands; mido would take each for a message.
+System exclusive messages split over several events (SMF 1.0, "F7 sysex events") are joined at the place of the last
+part; mido would read each part as a message.
 
-What mido refuses or misreads: variable-length quantities of more than four bytes, which it makes numbers of any size
-of; system messages other than exclusive ones, running status after them or after an
-exclusive message, meta events with impossible contents, an event cut off by the end of the track. A value above 127 is
-taken for 127, as mido does when it is asked to clip.
+Repairs cover everything that mido rejects or misreads: variable-length quantities of more than four bytes; system
+messages other than exclusive ones, and running status after them or after an exclusive message; meta events with
+impossible contents; an event cut off by the end of the track. Data bytes above 127 become 127, as with mido's ``clip``.
 """
 
 from __future__ import annotations
@@ -40,16 +39,16 @@ _OVERLONG = re.compile(rb"[\x80-\xff]{4}")
 
 
 class Repaired(msgspec.Struct, frozen=True):
-    """A track that mido reads.
+    """A repaired track, in bytes that mido can read.
 
     Attributes
     ----------
     truncated_at : int or None
-        Offset in the track of the event that its end cuts off.
+        Offset in the track of an event that is cut off by the track's end; None if there is none.
     skipped : int
-        Bytes that are no events.
+        Number of bytes that belong to no event.
     first_skipped : int
-        Offset of the first of them; the track's length if there are none.
+        Offset of the first skipped byte; the track's length if none was skipped.
     """
 
     data: bytes
@@ -63,7 +62,7 @@ class _TruncatedError(Exception):
 
 
 def track_messages(track: TrackChunk, index: int, file: str) -> tuple[mido.MidiTrack, list[Message]]:
-    """The messages of one track, repaired as far as needed."""
+    """Parse the messages of one track, repaired if needed, with warnings about the repairs."""
     until = last_suspicious(track.data)
     repair = repaired(track.data, until) if until else None
     try:
@@ -102,27 +101,28 @@ def _repair_warnings(repair: Repaired, track: TrackChunk, index: int) -> list[Me
 
 
 def last_suspicious(data: bytes) -> int:
-    """Offset after the last byte that may be a system message's status, or part of a quantity that is too long; 0 if
-    there is none.
+    """Offset after the last byte that might be a system message's status or part of an overlong quantity; 0 if there is
+    none.
 
-    Up to there mido may misread the track without noticing; the search is for bytes, so a text or a long delta may
-    look like one.
+    Up to this offset mido might misread the track silently. The search is bytewise, so texts and long delta times may
+    cause false alarms.
     """
     after_status = 1 + max(data.rfind(status) for status in _SUSPICIOUS)
     return max([after_status, *(match.end() for match in _OVERLONG.finditer(data))])
 
 
 def repaired(data: bytes, until: int | None = None) -> Repaired:
-    """Copy a track event by event, each channel message with its status, without the events the score does not need.
+    """Copy a track event by event, each channel message with its own status byte, without events that the score does
+    not use.
 
-    Events that follow an end of the track are copied too, if all of them are events or another end is the last of them.
+    Events after an end-of-track are copied too, if they can all be parsed or end with another end-of-track.
 
     Parameters
     ----------
     data : bytes
         The events of a track.
     until : int, optional
-        From the first event at or after this offset on, the bytes are taken as they are.
+        Offset from which the bytes are copied unchecked, beginning with the first event there.
     """
     copy, at = _TrackCopy(data), 0
     while at < len(data):
@@ -138,7 +138,7 @@ def repaired(data: bytes, until: int | None = None) -> Repaired:
 
 
 class _TrackCopy:
-    """A track that is being copied: ``delta`` are the ticks since the last event that was."""
+    """Copy of a track in progress; ``delta`` is the number of ticks since the last copied event."""
 
     def __init__(self, data: bytes) -> None:
         self.delta = 0
@@ -155,7 +155,7 @@ class _TrackCopy:
         return Repaired(out, None, self._skipped, self._first_skipped)
 
     def after_event(self, event_at: int, at: int) -> int:
-        """Copy the event whose status is at an offset; where the next one begins."""
+        """Copy the event whose status byte is at ``event_at``, and return the offset of the next event."""
         byte = _byte(self._data, at)
         if byte == 0xFF:
             return self._after_meta(at)
@@ -216,7 +216,7 @@ class _TrackCopy:
         return end
 
     def closed(self, truncated_at: int | None) -> Repaired:
-        """The track with an end, and without what follows the end it had where that is no music."""
+        """Return the copied track with an end-of-track, without content after the original end if that is not music."""
         properly = self._data.endswith(bytes([0xFF, _END_OF_TRACK, 0]))
         broken = truncated_at is not None
         if self._ended is not None and (broken or (self._skipped > self._ended[2] and not properly)):
@@ -231,8 +231,7 @@ class _TrackCopy:
 
 
 def _goes_on(data: bytes, at: int) -> bool:
-    """Return whether the event at an offset continues a system exclusive message: an F7 event that begins none
-    itself."""
+    """Return whether the event at an offset is an F7 event that continues a system exclusive message."""
     try:
         _, at = _variable_length(data, at)
         if _byte(data, at) != 0xF7:
@@ -244,7 +243,7 @@ def _goes_on(data: bytes, at: int) -> bool:
 
 
 def _after_system_message(data: bytes, at: int) -> int:
-    """Return the place after a system message and its data, as far as these are there."""
+    """Return the offset after a system message and those of its data bytes that are present."""
     size = _SYSTEM_DATA.get(data[at], 0)
     at += 1
     while size and at < len(data) and data[at] < 0x80:
@@ -259,7 +258,7 @@ def _byte(data: bytes, at: int) -> int:
 
 
 def _variable_length(data: bytes, at: int) -> tuple[int, int]:
-    """A variable-length quantity (at most 4 bytes) and the offset after it."""
+    """Parse a variable-length quantity (at most 4 bytes); returns value and offset after it."""
     value = 0
     for _ in range(4):
         byte = _byte(data, at)
@@ -271,7 +270,7 @@ def _variable_length(data: bytes, at: int) -> tuple[int, int]:
 
 
 def encoded_length(value: int) -> bytes:
-    """A variable-length quantity as bytes; what exceeds 28 bits takes more of them, which mido reads."""
+    """Encode a variable-length quantity; values above 28 bits take more than four bytes, which mido reads."""
     encoded = [value & 0x7F]
     while value := value >> 7:
         encoded.append(value & 0x7F | 0x80)

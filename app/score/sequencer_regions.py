@@ -1,7 +1,7 @@
-"""Regions of one track, which a sequencer wrote one after the other for a single player, and lines spread over tracks.
+"""Joins tracks that one player plays: consecutive regions written by a sequencer, and lines spread over tracks.
 
-Regions have one name, channel and program, and each begins where the one before has ended. Players of one name who play
-together or in alternation are several.
+Regions have the same name, channel and program, and each begins after the previous one has ended. Tracks of one name
+that overlap or alternate belong to several players.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LEGATO_SHARE: Final = 0.5
 
 
 def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
-    """The places of channels that are one player's, in the order of their first ones; most stand alone."""
+    """Groups of channel indices, one for each player, ordered by first channel; most groups have one channel."""
     alone = _alone(channels)
     same: dict[tuple[object, ...], list[int]] = {}
     for place, channel in enumerate(channels):
@@ -41,7 +41,7 @@ def groups(channels: Sequence[TrackChannel]) -> list[tuple[int, ...]]:
 
 
 def _alone(channels: Sequence[TrackChannel]) -> frozenset[int]:
-    """The places of named melodies that are all their track has on their channel."""
+    """Indices of melodic channels with a name that have no second part in their track and channel."""
     owners: dict[tuple[int, int], list[int]] = {}
     for place, channel in enumerate(channels):
         owners.setdefault((channel.track, channel.channel), []).append(place)
@@ -54,17 +54,19 @@ def _key(channel: TrackChannel) -> tuple[object, ...]:
 
 
 def are_one_line(channels: Sequence[TrackChannel]) -> bool:
-    """Return whether channels are one player's: regions of one track, or all that a line is spread over."""
+    """Return whether the channels belong to one player: consecutive regions of a track, or a line spread over
+    tracks.
+    """
     return is_spread(channels) or follow_one_another(channels)
 
 
 def is_spread(channels: Sequence[TrackChannel]) -> bool:
-    """Return whether one line is spread over channels."""
+    """Return whether the channels are those of one line spread over tracks (`app.score.lines_spread_over_tracks`)."""
     return len(channels) > 1 and len({channel.line for channel in channels}) == 1 and channels[0].line >= 0
 
 
 def follow_one_another(channels: Sequence[TrackChannel]) -> bool:
-    """Return whether channels are regions of one track, in their order."""
+    """Return whether the channels are consecutive regions of one track, in order."""
     if len(channels) < 2 or len(set(map(_key, channels))) > 1:
         return False
     return all(
@@ -76,9 +78,9 @@ def follow_one_another(channels: Sequence[TrackChannel]) -> bool:
 
 
 def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
-    """The first of some channels, with the curves, the muted spans and the marks of all.
+    """The first channel with the curves, muted spans and marks of all of them.
 
-    Where the channels do not follow one another the curves are those of the first that has any.
+    If the channels do not follow one another, the curves are those of the first channel that has any.
     """
     curves = next((channel.curves for channel in channels if channel.curves), ())
     if not is_spread(channels) and follow_one_another(channels):
@@ -93,7 +95,7 @@ def joined(channels: Sequence[TrackChannel]) -> TrackChannel:
 
 
 def _curves(channels: Sequence[TrackChannel]) -> tuple[ControllerCurve, ...]:
-    """The curves of regions: each holds from where the region before has ended."""
+    """Join the curves of consecutive regions; each region's curve applies from the end of the previous region."""
     starts = [0, *(max(before.end_ticks) for before in channels[:-1]), LAST_TICK + 1]
     kinds = sorted({curve.kind for channel in channels for curve in channel.curves})
     return tuple(_curve(kind, channels, starts) for kind in kinds)

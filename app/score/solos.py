@@ -1,6 +1,6 @@
-"""Words over the staff of several players that say who of them plays: "1. Solo", "2.", "a2", "tutti".
+"""Words over a staff of several players that give the music to one of them: "1. Solo", "2.", "a2", "tutti".
 
-One player has what follows such a number until another word, or until notes sound together again; the others rest.
+After such a number one player plays until the next word or until notes overlap again; the others rest.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ Word = tuple[int, int]
 
 
 def words_of_players(texts: Sequence[tuple[int, str]]) -> tuple[Word, ...]:
-    """The words of a track about who plays, in order."""
+    """Words in a track's texts about the playing players, in order of ticks."""
     return tuple(sorted((tick, who) for tick, text in texts if (who := _says(text)) is not None))
 
 
 def _says(text: str) -> int | None:
-    """Return who plays: a player, or 0 for all; None: the text speaks of something else."""
+    """Return the player's number in a text, 0 for all players, or None for another text."""
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _ALL.fullmatch(words):
         return 0
@@ -51,12 +51,12 @@ def _says(text: str) -> int | None:
 
 
 def solo_notes(notes: Sequence[Note], words: Sequence[Word]) -> dict[str, int]:
-    """The player of each note, by its id, that one player has alone.
+    """The notes played by one player alone, as a mapping from note id to player.
 
     Parameters
     ----------
     notes : sequence of Note
-        Those of all players of a staff, by onset, each once.
+        Notes of all players of a staff, by onset, without duplicates.
     """
     alone: dict[str, int] = {}
     ends = [*(tick for tick, _ in words[1:]), None]
@@ -78,14 +78,14 @@ def _together(one: Note, other: Note) -> bool:
 def with_solos(
     voices: Sequence[tuple[Note, ...]], alone: dict[str, int], original: dict[str, str]
 ) -> list[tuple[Note, ...]]:
-    """The voices of a staff, in which what one player has alone is that player's and no one else's.
+    """Move the notes that one player has alone to that player's voice and remove them from the others.
 
     Parameters
     ----------
     alone : dict of note id to player
-        From 1; a player who is not there is none.
+        Player of each solo note, from 1; numbers beyond the voices are ignored.
     original : dict of note id to note id
-        The ids that notes of players in unison have in the file.
+        Id in the file of each note played in unison.
     """
     there = {id: who for id, who in alone.items() if who <= len(voices)}
     own: list[list[Note]] = [

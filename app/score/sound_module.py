@@ -1,8 +1,8 @@
-"""Sounds of a file's channels on a sound module: melodies, rhythm parts, sound effects, and their programs.
+"""Sound of every channel on a sound module: melody, rhythm part or sound effect, and its programs.
 
-General MIDI has its drum kit on channel 10. The systems that extend it have rhythm parts on any channel, and melodies
-on channel 10. Messages that decide are gathered from all tracks, in the order of their ticks; at one tick a reset comes
-first, for a track of settings need not be the first of a file, then what says the part's mode, then banks and programs.
+General MIDI has its drum kit on channel 10. Systems that extend it allow rhythm parts on any channel and melodies on
+channel 10. The relevant messages are collected from all tracks in order of ticks; at one tick resets come first (the
+track of settings need not be the first of the file), then part modes, then banks and programs.
 
 GM (General MIDI System Level 1, MMA 1991)
     "GM System On" (universal 09 01). Channel 10 alone has percussion; banks mean nothing.
@@ -20,14 +20,14 @@ XG (Yamaha MU80 and MU100 data lists)
 GM2 (General MIDI 2, MMA RP-024)
     "GM2 System On" (universal 09 03). Bank MSB 120 is percussion, 121 a melody; program 56 of percussion is effects.
 
-A bank takes effect at the next program change. One that no program change follows before the first note does at that
-note: the two were written in the wrong order. Roland's checksum is not looked at, as other programs do not, and
-messages for every device are heeded.
+A bank takes effect at the next program change. If none follows before the first note, it takes effect at that note: the
+two were written in the wrong order. Roland checksums are ignored, as in other programs, and broadcast messages are
+accepted.
 
-Where no reset is in a file, or those of GS and of XG both, a bank of 120, 126 or 127 is read as XG and GM2 have it, as
-FluidSynth's "xg" bank selection does, but the name of a wind instrument says more (`ChannelSound.certain`). On channel
-10 a bank of less than 120 makes a melody in XG alone, as there; many files have bank 0 everywhere and mean drums. With
-the number of a kit for its program such a channel stays percussion.
+Without a reset, or with resets of both GS and XG, banks 120, 126 and 127 are read as in XG and GM2, like FluidSynth's
+"xg" bank selection, but the name of a wind instrument has priority (`ChannelSound.certain`). On channel 10 a bank below
+120 makes a melody in XG only; many files have bank 0 everywhere and mean drums. A channel with such a bank stays
+percussion if its program is a kit number.
 """
 
 from __future__ import annotations
@@ -57,18 +57,18 @@ _MOST_CHANGES: Final = 256
 
 
 class Setup(NamedTuple):
-    """A message that changes what a channel sounds like.
+    """A message that changes a channel's sound.
 
     Attributes
     ----------
     number : int
-        Its place among those of its track.
+        Index among the messages of its track.
     channel : int
         -1: a system exclusive message.
     value : int or bytes
-        A program, the MSB of a bank, or a message without its F0 and F7.
+        A program, a bank MSB, or a system exclusive message without F0 and F7.
     port : Port or None
-        What the track had said about it before; None: nothing.
+        The port selected in the track at this point; None if there was none.
     """
 
     tick: int
@@ -80,14 +80,14 @@ class Setup(NamedTuple):
 
 
 class Setups(NamedTuple):
-    """Setups of one track.
+    """Messages of one track that change sounds.
 
     Attributes
     ----------
     first_onsets : mapping of int to int
-        Where the first note of each channel with notes begins.
+        First onset of each channel with notes.
     port : Port or None
-        Of its notes.
+        Port of the track's notes.
     """
 
     setups: Sequence[Setup]
@@ -96,11 +96,11 @@ class Setups(NamedTuple):
 
 
 def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, list[tuple[int, ChannelSound]]]]:
-    """Return what each channel with notes of each track sounds like, and from which tick on.
+    """Return the sounds over time of each channel with notes, for each track.
 
-    A track's own banks and programs go before those of other tracks, for the channels of large scores are shared. Those
-    of a track without notes on a channel hold for all that have some; those of other tracks with notes only where a
-    track has none itself.
+    A track's own banks and programs precede those of other tracks, since large scores share channels. Settings in a
+    track without notes on the channel apply to all tracks with notes; settings in other tracks with notes apply only to
+    a track that has none.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def channel_sounds(tracks: Sequence[Setups], quarter: int) -> list[dict[int, lis
     Returns
     -------
     list of dict of int to list of (tick, ChannelSound)
-        By channel; ticks ascend, and the first entry holds from the beginning.
+        For each track, by channel; ticks ascend, and the first entry applies from the beginning.
     """
     modes = _modes(tracks, {track.port or FIRST_PORT for track in tracks if track.first_onsets})
     given = _given(tracks)
@@ -140,14 +140,16 @@ def _step(track: int, setup: Setup) -> SoundChange:
 
 
 class _Given(NamedTuple):
-    """Banks and programs of a channel that tracks give to others: tracks without notes on it, and those with some."""
+    """Banks and programs of a channel that apply to other tracks: from tracks without notes on it, and from tracks with
+    notes.
+    """
 
     settings: list[SoundChange]
     others: list[SoundChange]
 
 
 def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
-    """Banks and programs for other tracks, by port and channel."""
+    """Banks and programs that apply to other tracks, by port and channel."""
     given: dict[tuple[Port | None, int], _Given] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:
@@ -162,13 +164,12 @@ def _given(tracks: Sequence[Setups]) -> dict[tuple[Port | None, int], _Given]:
 
 
 def _listening(port: Port) -> tuple[Port | None, ...]:
-    """Return where settings may be addressed to that a port heeds: itself, its number without the device's name, all
-    ports."""
+    """Return the addresses whose settings a port receives: itself, its number without device name, and all ports."""
     return tuple(dict.fromkeys((port, (port[0], b""), None)))
 
 
 def _addressed(port: Port | None, track: Setups) -> Port | None:
-    """The port to which a message goes; None: all, from a track of settings that names none."""
+    """Port to which a message is addressed; None for all ports, if a track without notes names none."""
     if port is not None or not track.first_onsets:
         return port
     return track.port or FIRST_PORT
@@ -182,7 +183,7 @@ _Parameter: TypeAlias = Literal["mode", "receive", "bend"]
 
 
 class _PartValue(NamedTuple):
-    """A parameter of a part, 0..15, that is set by a message."""
+    """A parameter of a part (0..15) with the value that a message sets."""
 
     other_port: bool
     part: int
@@ -191,7 +192,7 @@ class _PartValue(NamedTuple):
 
 
 def _meaning(message: bytes) -> list[_Reset | _PartValue]:
-    """Return what a system exclusive message says about systems and parts."""
+    """Return the resets and part parameters in a system exclusive message; empty for other messages."""
     if message[:1] == b"\x7e" and len(message) >= 4 and message[2] == 9:
         systems: dict[int, System] = {1: "gm", 2: "", 3: "gm2"}
         return [_Reset(systems[message[3]])] if message[3] in systems else []
@@ -217,7 +218,7 @@ def _roland(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _Par
 
 
 def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _PartValue]:
-    """A parameter of XG that is changed."""
+    """Resets and part parameters in a Yamaha XG message."""
     if (high, middle) == (0, 0) and low in (0x7E, 0x7F):
         return [_Reset("xg")]
     if high != 8 or middle >= 32:
@@ -228,7 +229,7 @@ def _yamaha(high: int, middle: int, low: int, data: bytes) -> list[_Reset | _Par
 def _part_values(
     other_port: bool, part: int, low: int, data: bytes, places: Mapping[_Parameter, int]
 ) -> list[_Reset | _PartValue]:
-    """The parameters that data lie on, which begin at an address."""
+    """Part parameters covered by data that begin at an address."""
     return [
         _PartValue(other_port, part, parameter, data[place - low])
         for parameter, place in places.items()
@@ -242,7 +243,7 @@ _CENTRE, _MOST_BENT = 0x40, 24
 
 
 class _Row(NamedTuple):
-    """Effects of a system exclusive message, in the order in which they apply."""
+    """Effects of one system exclusive message, in the order in which they apply."""
 
     tick: int
     rank: int
@@ -252,12 +253,12 @@ class _Row(NamedTuple):
 
 
 def _modes(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[list[SoundChange]]]:
-    """Resets and modes by port and channel."""
+    """Resets and part modes by port and channel."""
     return _by_port(tracks, ports, ("receive", "mode"), _port_modes)
 
 
 def module_ranges(tracks: Sequence[Setups], ports: Iterable[Port]) -> dict[Port, list[ModuleRange]]:
-    """Return the ranges of pitch bends that messages to sound modules set, by port, in the order of time."""
+    """Return the pitch bend ranges that messages to sound modules set, by port, in the order of time."""
     return _by_port(tracks, ports, ("receive", "bend"), _port_ranges)
 
 
@@ -267,8 +268,9 @@ def _by_port(
     parameters: Collection[_Parameter],
     made_of: Callable[[Sequence[_Row]], list[_Made]],
 ) -> dict[Port, list[_Made]]:
-    """Resets and some parameters of parts, by port. A port that no message resets is one of several that a module has,
-    which a reset at another port is for too."""
+    """Collect resets and some part parameters by port. A port without a reset of its own takes the resets of other
+    ports, as ports of the same module.
+    """
     rows: dict[Port | None, list[_Row]] = {}
     for place, track in enumerate(tracks):
         for setup in track.setups:
@@ -299,8 +301,9 @@ def _by_port(
 
 
 def _port_ranges(rows: Sequence[_Row]) -> list[ModuleRange]:
-    """The ranges of one port's channels: a reset is every channel's, a range that of the channel on which its part
-    receives."""
+    """Bend ranges for the channels of one port: a reset applies to all channels, a range to the channel on which its
+    part receives.
+    """
     receive = list(range(16))
     found = []
     for row in rows:
@@ -321,8 +324,9 @@ def _order(row: _Row) -> tuple[int, int, int, int]:
 
 
 def _port_modes(rows: Sequence[_Row]) -> list[list[SoundChange]]:
-    """The same of one port, by channel: a reset is every channel's, a mode that of the channel on which its part
-    receives."""
+    """Mode changes for the channels of one port: a reset applies to all channels, a mode to the channel on which its
+    part receives.
+    """
     steps: list[list[SoundChange]] = [[] for _ in range(16)]
     modes: dict[int, bool] = {}
     receive = list(range(16))
@@ -347,8 +351,9 @@ def _port_modes(rows: Sequence[_Row]) -> list[list[SoundChange]]:
 
 
 def _channel_mode(channel: int, modes: Mapping[int, bool], receive: Sequence[int]) -> bool | None:
-    """Return whether the parts that receive on a channel are rhythm parts, if messages say so: those that were moved
-    there, or the one that has the channel anyway. A melody among them counts."""
+    """Return whether the parts that receive on a channel are rhythm parts; None if no message says. Parts moved to the
+    channel count before its own part; one melodic part makes it melodic.
+    """
     moved = [part for part, own in enumerate(receive) if own == channel != part]
     if moved:
         return all(modes.get(part, part == DRUM_CHANNEL) for part in moved)

@@ -1,7 +1,7 @@
-"""Notes that sound on an instrument that is played now, and which of them a message ends.
+"""Notes that are currently sounding on an instrument, and the notes that a message ends.
 
-One rule for the journal of a recording, takes, their MIDI files and the live player: a note that is struck again ends
-there and begins again, and only its own channel ends it.
+One rule for recording journals, takes, their MIDI files and the live player: a note struck again ends and restarts, and
+only messages on its own channel end it.
 """
 
 from __future__ import annotations
@@ -24,29 +24,29 @@ def begins(message: bytes) -> bool:
 
 
 def is_note(message: bytes) -> bool:
-    """Return whether a note begins or ends, by itself."""
+    """Return whether a message is a note-on or note-off."""
     return message[0] >> 4 in (_NOTE_OFF, _NOTE_ON)
 
 
 class SoundingNotes(Generic[T]):
-    """Notes that are sounding, the last struck at the end.
+    """The sounding notes, in the order in which they were struck.
 
     Attributes
     ----------
     notes : dict of (int, int) to T
-        By channel and pitch, what is known of each.
+        Data stored for each sounding note, by channel and pitch.
     """
 
     def __init__(self) -> None:
         self.notes: dict[Key, T] = {}
 
     def receive(self, message: bytes, known: T) -> list[tuple[Key, T]]:
-        """Take the message of a channel; the notes that it ends, a note that is struck again among them.
+        """Receive a channel message; returns the notes that it ends, including a note that is struck again.
 
         Parameters
         ----------
         known : T
-            What is known of the note, if one begins.
+            Data to store if the message begins a note.
         """
         kind, channel = message[0] >> 4, message[0] & 0x0F
         if kind in (_NOTE_OFF, _NOTE_ON):
@@ -60,13 +60,13 @@ class SoundingNotes(Generic[T]):
         return []
 
     def end_all(self) -> list[tuple[Key, T]]:
-        """End everything; the notes that sounded."""
+        """End all notes, and return the notes that were sounding."""
         ended = list(self.notes.items())
         self.notes.clear()
         return ended
 
 
 def note_off(key: Key) -> bytes:
-    """Make the message that ends a note."""
+    """Return the message that ends a note."""
     channel, pitch = key
     return bytes((_NOTE_OFF << 4 | channel, pitch, 0))

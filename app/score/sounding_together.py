@@ -1,4 +1,4 @@
-"""Number of notes of a track that sound together beyond legato, and of players they need."""
+"""Counts the notes of a track that sound together beyond legato, and the players that they need."""
 
 from __future__ import annotations
 
@@ -38,14 +38,16 @@ released does so at every place and tempo."""
 
 
 class VoiceSpans(NamedTuple):
-    """Times of notes in seconds, by onset: a note's release is where another one may begin in its voice."""
+    """Times of notes in seconds, by onset; a release is the earliest time at which another note may begin in the
+    voice.
+    """
 
     onsets: FloatArray
     ends: FloatArray
     releases: FloatArray
 
     def depths(self) -> IndexArray:
-        """Return how many notes sound when each begins, itself among them."""
+        """Return the number of notes that sound at each onset, including the new note."""
         started = np.searchsorted(self.onsets, self.onsets, side="right")
         return started - np.searchsorted(np.sort(self.releases), self.onsets, side="right")
 
@@ -63,13 +65,13 @@ def spans_of(notes: Sequence[Note], tempo_map: TempoMap) -> VoiceSpans:
 
 
 def legato_s(lengths_s: FloatArray) -> FloatArray:
-    """Return how long notes of these lengths may last into the next one of their player."""
+    """Return the longest allowed legato overlap in seconds for notes of these lengths."""
     legato = np.clip(_LEGATO_SHARE * lengths_s, LEGATO_LEAST_S, _LEGATO_MOST_S)
     return np.minimum(legato, _LEGATO_MOST_SHARE * lengths_s)
 
 
 def players_needed(spans: VoiceSpans, depths: IndexArray, pitches: IntArray) -> int:
-    """Return how many players the simultaneity of the notes calls for."""
+    """Return the number of players that the overlapping notes require."""
     doubled = _doubled(spans, pitches)
     plain = spans.of(~doubled)
     plain_depths = plain.depths() if doubled.any() else depths
@@ -84,7 +86,7 @@ def players_needed(spans: VoiceSpans, depths: IndexArray, pitches: IntArray) -> 
 
 
 def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
-    """Return which notes sound where the given number of notes sound together."""
+    """Return a mask of the notes during which at least ``more`` notes sound together."""
     counts = np.concatenate(([0], np.cumsum(depths >= more)))
     first = np.searchsorted(spans.onsets, spans.onsets, side="left")
     last = np.searchsorted(spans.onsets, spans.releases, side="left")
@@ -92,7 +94,9 @@ def _within(spans: VoiceSpans, depths: IndexArray, more: int) -> BoolArray:
 
 
 def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -> bool:
-    """Return whether this number of players is needed over several notes in a row and for a while."""
+    """Return whether ``more`` notes sound together over several consecutive notes and long enough to need that many
+    players.
+    """
     struck = depths >= more
     if np.count_nonzero(struck) < several:
         return False
@@ -108,7 +112,7 @@ def _sustained(spans: VoiceSpans, depths: IndexArray, more: int, several: int) -
 
 
 def _doubled(spans: VoiceSpans, pitches: IntArray) -> BoolArray:
-    """Return which notes only double the one before or after them in the unison or in octaves."""
+    """Return a mask of the notes that only double the note before or after them, in unison or in octaves."""
     doubled = np.zeros(len(pitches), bool)
     order = np.lexsort((pitches, spans.onsets))
     for step in range(1, 3):

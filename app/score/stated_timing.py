@@ -1,4 +1,4 @@
-"""Tempo and metres as a MIDI file states them, and what is assumed where it does not."""
+"""Tempo and metres stated in a MIDI file, with assumptions where it states none."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Assumed(msgspec.Struct, frozen=True):
     ticks_per_quarter: int
 
     def in_ticks_of(self, ticks_per_quarter: int) -> tuple[tuple[Metre, ...], int]:
-        """The metres, and the length of the pickup, in a file's own ticks."""
+        """Return the metres and the length of the pickup, converted to a file's ticks."""
         scale = Fraction(ticks_per_quarter, self.ticks_per_quarter)
         metres = {round(metre.tick * scale): metre for metre in self.metres}
         placed = tuple(msgspec.structs.replace(metre, tick=tick) for tick, metre in sorted(metres.items()))
@@ -38,7 +38,7 @@ class Assumed(msgspec.Struct, frozen=True):
 
 
 class StatedTiming(NamedTuple):
-    """The timing of a file, and what had to be left out or assumed."""
+    """Timing of a file, with messages about what was left out or assumed."""
 
     tempo_map: TempoMap
     metres: tuple[Metre, ...]
@@ -47,7 +47,7 @@ class StatedTiming(NamedTuple):
 
 
 def timing_of_file(container: Container, tracks: Sequence[TrackEvents], assumed: Assumed | None) -> StatedTiming:
-    """Return the tempo and the metres of a file, ``assumed`` where it counts in quarters and states none."""
+    """Return tempo and metres of a file; ``assumed`` metres are used if it is timed in quarters and states none."""
     tempo_map, warnings = _tempo(container, tracks)
     if container.division <= 0 or any(events.metres for events in tracks):
         metres, pickup_ticks, impossible = _stated_metres(tracks, tempo_map.ticks_per_quarter)
@@ -60,7 +60,7 @@ def timing_of_file(container: Container, tracks: Sequence[TrackEvents], assumed:
 
 
 def ticks_per_quarter_of(container: Container) -> int:
-    """Ticks of a quarter; of a file that counts in SMPTE frames those of the quarters that it is read in."""
+    """Ticks per quarter; for a file timed in SMPTE frames, of the substitute quarters that it is read with."""
     if container.division > 0:
         return container.division
     return TempoMap.of_smpte(_ticks_per_second(container.division)).ticks_per_quarter
@@ -87,12 +87,12 @@ def _left_out(id_: str, index: int, ticks: Sequence[int]) -> list[Message]:
 
 
 def _smpte_rate(division: int) -> int:
-    """Frames per second as the file says it, 29 for 29.97."""
+    """Frames per second as encoded in the file; 29 means 29.97."""
     return 256 - (division >> 8 & 0xFF)
 
 
 def _ticks_per_second(division: int) -> float:
-    """Ticks per second of a file that counts in SMPTE frames."""
+    """Ticks per second of a file timed in SMPTE frames."""
     rate = _smpte_rate(division)
     return float(_SMPTE_RATES.get(rate, Fraction(rate)) * max(division & 0xFF, 1))
 
@@ -100,9 +100,9 @@ def _ticks_per_second(division: int) -> float:
 def _stated_metres(
     tracks: Sequence[TrackEvents], ticks_per_quarter: int
 ) -> tuple[tuple[Metre, ...], int, list[Message]]:
-    """The metres, the length of the pickup and what had to be left out.
+    """Metres and pickup length stated in the file, with messages about what was left out.
 
-    A metre restated at a bar line says nothing and falls away; restated within a bar it begins a new one.
+    A metre repeated at a bar line is dropped; one repeated within a bar begins a new bar.
     """
     latest = {0: Metre(0, 4, 4)}
     warnings: list[Message] = []
@@ -137,7 +137,7 @@ def _stated_metres(
 def _assumed_metres(
     tracks: Sequence[TrackEvents], ticks_per_quarter: int, assumed: Assumed | None
 ) -> tuple[tuple[Metre, ...], int]:
-    """The metres of a file that states none, and the length of the pickup."""
+    """Metres and pickup length for a file that states none."""
     if assumed is not None:
         return assumed.in_ticks_of(ticks_per_quarter)
     melodic = (notes for events in tracks for channel, notes in events.channels.items() if channel != DRUM_CHANNEL)

@@ -1,4 +1,4 @@
-"""The notes of the tracks of a MIDI file as they are assigned: by channel, or by what belongs together."""
+"""Groups the notes of a MIDI file's tracks for assignment: by channel, or by channels that belong together."""
 
 from __future__ import annotations
 
@@ -37,7 +37,9 @@ def streams_of(
     alone: bool,
     apart: Set[tuple[int, int]],
 ) -> list[TrackChannel]:
-    """The notes of every track by channel, or by what belongs together; ``alone``: of a file with one track."""
+    """The notes of every track, grouped by channel or by channels that belong together; ``alone``: the file has one
+    track.
+    """
     lilypond = any(b"LilyPond" in text for _, text in tracks[0].texts)
     given = _given_programs(tracks)
     streams = []
@@ -89,7 +91,7 @@ def _by_kind(
     played_on: Sequence[str],
     program_at: Callable[[int], int | None],
 ) -> list[TrackChannel]:
-    """A stream of each kind of sound, and of each instrument of the player, that some channels have."""
+    """Split the notes of some channels by kind of sound and by instrument of the player."""
     kinds = [(sound.use, instrument) for sound, instrument in zip(sounds, played_on, strict=True)]
     streams = []
     for change, kind in enumerate(sorted(dict.fromkeys(kinds), key=_kind_order)):
@@ -114,7 +116,7 @@ def _by_kind(
 
 
 def _given_programs(tracks: Sequence[TrackEvents]) -> _Programs:
-    """The programs that tracks with notes give, by port and channel."""
+    """Programs set in tracks with notes, by port and channel."""
     given: dict[tuple[Port, int], set[int]] = {}
     for events in tracks:
         for channel in events.channels.keys() & events.programs.keys():
@@ -124,8 +126,9 @@ def _given_programs(tracks: Sequence[TrackEvents]) -> _Programs:
 
 
 def _lilypond_name(staff: str, voice: str) -> str:
-    """The name of a track that is called after a staff and a voice: the staff's, but the voice's where that alone tells
-    an instrument, or anything at all."""
+    """Name of a track that LilyPond named after staff and voice: the staff's, or the voice's if only that names an
+    instrument or the staff has no name.
+    """
     staff, voice = ("" if name.startswith("\\") else name for name in (staff, voice))
     found = map(vocabulary().by_name, (staff, voice))
     tells = [one is not None and not (one.vague or one.any_pitch) for one in found]
@@ -133,22 +136,26 @@ def _lilypond_name(staff: str, voice: str) -> str:
 
 
 def _kind_order(kind: tuple[Use, str]) -> tuple[int, bool]:
-    """Melodies first, so that what a player has keeps its place; of these what the track is for."""
+    """Sort key: melodies first, so that the player's main part keeps its place; among them the track's main instrument
+    first.
+    """
     use, instrument = kind
     return ("melodic", "rhythm", "effect").index(use), bool(instrument)
 
 
 def _doubled_name(name: str, instrument: str) -> str:
-    """The name of what a track's player plays on another instrument, which comes first and so is what it is read as."""
+    """Name of a track's notes on the player's second instrument; the instrument comes first, so that it is recognised
+    on reading.
+    """
     spoken = vocabulary().instruments[instrument].names[0]
     return f"{spoken} ({name})" if name else spoken
 
 
 def _program(events: TrackEvents, channels: Sequence[int], given: _Programs, first_onset: int) -> int | None:
-    """The program with which the first note of some channels sounds, the likeliest channel first.
+    """Program of the first note on some channels, likeliest channel first.
 
-    It is the track's own if it gives any, for the channels of large scores are shared by tracks. Else it is
-    what the other tracks of its port give the channel, if those with notes there agree; ``given`` has what they give.
+    The track's own program has priority, since tracks of large scores share channels; else the program that other
+    tracks of the port set in ``given``, if those with notes agree.
     """
     for channel in channels:
         own = events.programs.get(channel)

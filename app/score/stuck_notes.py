@@ -1,6 +1,7 @@
-"""Stuck notes: a note-off that comes hours after all music, as where a key or a cable was stuck while recording.
+"""Cuts stuck notes, whose note-off comes long after all other music because a key or cable stuck while recording.
 
-A note is cut where the other notes end when it sounds on for so long that the rest of the piece is little beside it.
+A note is cut at the end of the other notes if it lasts so much longer that the rest of the piece is short in
+comparison.
 """
 
 from __future__ import annotations
@@ -36,12 +37,12 @@ class _Long(NamedTuple):
 def cut_stuck_notes(
     tracks: Sequence[TrackEvents], tempo_map: TempoMap, metre_map: MetreMap, least_ticks: int
 ) -> list[Message]:
-    """Cut the stuck notes of a file, in place, and return what to say of each track with some.
+    """Cut the stuck notes of a file in place, and return a message for each track that had some.
 
     Parameters
     ----------
     least_ticks : int
-        The shortest that a note is cut to.
+        Length that a note keeps at least.
     """
     long, rest_tick, others = _candidates(tracks, tempo_map)
     if not long:
@@ -60,7 +61,7 @@ def cut_stuck_notes(
 
 
 def _candidates(tracks: Sequence[TrackEvents], tempo_map: TempoMap) -> tuple[list[_Long], int, bool]:
-    """Notes longer than `BESIDE_S`, the end of the other notes, and whether there are others."""
+    """Notes longer than `BESIDE_S`, the end of all other notes, and whether there are other notes."""
     long: list[_Long] = []
     rest_tick, others = 0, False
     for track, events in enumerate(tracks):

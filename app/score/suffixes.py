@@ -1,4 +1,4 @@
-"""Suffixes of music files; their kind is known by their content."""
+"""File name suffixes of music files; the actual format is recognised by content."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
-"""A take: the unchanged input of a wind controller during a pass, and the notes played in it.
+"""A take: unchanged input of a wind controller during one recording pass, and the notes played in it.
 
-A take is never changed: it is cleaned, quantised and cut again from the same events after a change of
-settings.
+A take is never modified; after a change of settings it is cleaned, quantised and cut again from the same events.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ _BEND_RANGE = 8192
 
 
 class ControllerMapping(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Controllers that send the player's breath and lips.
+    """MIDI controllers that carry the player's breath and bite.
 
     Attributes
     ----------
@@ -46,20 +45,20 @@ class Cleaning(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     ghost_s : float
-        A note shorter than this is left out where it is soft too, or lies between two notes of a legato (fingers that
-        did not move at once); 0: none is.
+        A note shorter than this is removed if it is also soft or lies between two legato notes (fingers that did not
+        move together); 0: never.
     ghost_loudness : float
-        Soft: the breath stays below this (0..1); where no breath was sent, the velocity.
+        A note is soft if its breath (or, without breath data, its velocity) stays below this, 0..1.
     double_s : float
-        A note struck again at the same pitch within this time is one note; 0: never.
+        Two notes of one pitch within this time are joined into one; 0: never.
     overlap_s : float
-        The longest that a note may sound into the next; more is cut, so that a slur stays one.
+        Longest overlap of a note with the next; more is cut, leaving a slur.
     quantise : float
-        0..1: how far onsets are drawn to the grid.
+        Strength of quantising onsets to the grid, 0..1.
     grid_quarters : float
         The grid's step.
     align : float
-        0..1: how far notes are drawn to those of the score that they are taken for; 0: they are not compared.
+        Strength of moving notes to the matched notes of the score, 0..1; 0: no comparison.
     """
 
     ghost_s: float = 0.05
@@ -77,17 +76,18 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True, r
     Attributes
     ----------
     id : str
-        ``"take:1"`` and so on; unique in the project, never used again.
+        ``"take:1"`` and so on; unique in the project, never reused.
     colour : str
         ``"#rrggbb"``; empty: the player's.
     device : str
-        The port it came from.
+        Name of the MIDI input port.
     recorded : str
-        When, as ISO 8601 in UTC; empty where no one knows.
+        Time of the recording, ISO 8601 in UTC; empty if unknown.
     tempo_map : TempoMap
         The tempo map during the recording: the events keep their places in the music when the piece's tempo changes.
     start_us, end_us : int
-        Performance time of its beginning and end, microseconds; tick 0 of ``tempo_map`` is 0, the pre-roll negative.
+        Begin and end in performance time, microseconds; time 0 is tick 0 of ``tempo_map``, and the pre-roll is
+        negative.
     times_us : tuple of int
         Performance time of every event, ascending.
     messages : tuple of str
@@ -109,33 +109,33 @@ class Take(msgspec.Struct, frozen=True, dict=True, forbid_unknown_fields=True, r
 
     @property
     def number(self) -> int:
-        """The number in its id."""
+        """The number in the take's id."""
         return int(self.id.rpartition(":")[2])
 
     @cached_property
     def played(self) -> Played:
-        """Notes and curves of the events; a take with another name or cleaning was played the same."""
+        """Notes and curves of the events; cached independently of the take's name and cleaning settings."""
         return _PLAYED.step(_played, self.times_us, self.messages, self.mapping, self.end_us)
 
     @property
     def start_tick(self) -> float:
-        """Return where it begins in the music."""
+        """Return the start of the take in ticks."""
         return self.tempo_map.ticks(self.start_us / 1e6)
 
     @property
     def end_tick(self) -> float:
-        """Return where it ends in the music."""
+        """Return the end of the take in ticks."""
         return self.tempo_map.ticks(self.end_us / 1e6)
 
 
 @dataclass(frozen=True, eq=False)
 class Controlled:
-    """A controller over time: a step function; times ascend.
+    """A MIDI controller over time: a step function; times ascend.
 
     Attributes
     ----------
     times_s, values : float64, shape (n,)
-        Values as `app.score.model.ControllerCurve` has them.
+        Times, and values in the units of `app.score.model.ControllerCurve`.
     """
 
     times_s: FloatArray
@@ -149,15 +149,15 @@ class Controlled:
 
 @dataclass(frozen=True, eq=False)
 class Played:
-    """The notes and curves of a take, as they were played; all arrays of notes have one length, in order of onset.
+    """Notes and curves of a take as played; note arrays have equal length and are ordered by onset.
 
     Attributes
     ----------
     onsets_s, ends_s : float64
-        Performance time. A note that was held at the end ends with the take.
+        Performance time. A note still held at the end of the take ends there.
     pitches, velocities : int64
     curves : mapping of CurveKind to Controlled
-        ``breath`` and ``bite`` by the take's mapping, the others as they came.
+        ``breath`` and ``bite`` by the take's mapping, the others as received.
     """
 
     onsets_s: FloatArray
@@ -174,7 +174,7 @@ _PLAYED: Final[IdentityCache[Played]] = IdentityCache(64)
 
 
 def _played(times_us: tuple[int, ...], messages: tuple[str, ...], mapping: ControllerMapping, end_us: int) -> Played:
-    """Decode a take; messages that say nothing of notes, breath or lips are passed over."""
+    """Decode the events of a take; messages without effect on notes, breath or lips are skipped."""
     notes: list[tuple[float, float, int, int]] = []
     sounding: SoundingNotes[tuple[float, int]] = SoundingNotes()
     sent: dict[CurveKind, tuple[list[float], list[float]]] = {}
@@ -215,7 +215,7 @@ def is_wired(message: mido.Message, mapping: ControllerMapping) -> bool:
 
 @lru_cache(8192)
 def decoded(raw: str) -> mido.Message | None:
-    """A message of a channel; None for any other, and for bytes that are none."""
+    """Parse a channel message from hexadecimal; None for any other message and for invalid bytes."""
     try:
         message = mido.Message.from_bytes(bytes.fromhex(raw))
     except (ValueError, IndexError, TypeError, KeyError):
@@ -224,7 +224,7 @@ def decoded(raw: str) -> mido.Message | None:
 
 
 def is_message(raw: str) -> bool:
-    """Return whether this is one MIDI message in hexadecimal."""
+    """Return whether the text is one MIDI message in hexadecimal."""
     try:
         mido.Message.from_bytes(bytes.fromhex(raw))
     except (ValueError, IndexError, TypeError, KeyError):
@@ -235,12 +235,12 @@ def is_message(raw: str) -> bool:
 def curve_values(
     message: mido.Message, mapping: ControllerMapping, ranges: BendRanges | None = None
 ) -> Iterator[tuple[CurveKind, float]]:
-    """Return what a message says of breath, bite and bend, as values of a part's curves.
+    """Return the breath, bite and bend values that a message sets, as values of a part's curves.
 
     Parameters
     ----------
     ranges : BendRanges, optional
-        Of the controller's channels, which follow what the message says of them; without them the usual ones.
+        Bend ranges of the controller's channels, updated by the message; the usual ones if None.
     """
     source, value = _source(message)
     ranges = BendRanges() if ranges is None else ranges
@@ -266,7 +266,7 @@ _USUAL: Final[Mapping[str, CurveKind]] = {
 
 
 def _source(message: mido.Message) -> tuple[str, float]:
-    """Name a message's source, as a `BreathSource` or `BiteSource`, with its value 0..1, a bend's -1..1."""
+    """Return the source of a message as a `BreathSource` or `BiteSource`, and its value 0..1, for a bend -1..1."""
     if message.type == "control_change":
         return f"cc{message.control}", message.value / 127.0
     if message.type == "aftertouch":

@@ -1,8 +1,8 @@
-"""Tracks of a MIDI file that were played on a wind controller, and their notes without unintended ones.
+"""Detects MIDI tracks that were played on a wind controller, and removes their unintended notes.
 
-A file of ``suisou record`` says that it is one. Any other track has to be a single line with a breath that was sent
-while it was played, and either a name that wind controllers have or notes that lie off the beat and a breath that falls
-in its rests, as nobody draws it.
+Files written by ``suisou record`` are marked. Any other track must be a single line with breath data sent while it was
+played, and either have the name of a wind controller, or have notes off the beat and a breath that drops in the rests,
+unlike hand-drawn curves.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _LEAST_NOTES: Final = 4
 
 
 def take_reason(channel: TrackChannel, tempo_map: TempoMap) -> TakeReason:
-    """Say why a track looks like a take recorded from a wind controller; empty if it does not."""
+    """Return the evidence that a track is a take recorded from a wind controller; empty if it is not."""
     if channel.recorded:
         return "recorded"
     if channel.use != "melodic" or len(channel.pitches) < _LEAST_NOTES:
@@ -59,15 +59,14 @@ def take_reason(channel: TrackChannel, tempo_map: TempoMap) -> TakeReason:
 
 
 def _is_named(name: str) -> bool:
-    """Return whether one of a track's words is what wind controllers are called, beside any instrument they sound
-    like."""
+    """Return whether the name contains the name of a wind controller, possibly next to an instrument's name."""
     known = vocabulary()
     found = [*known.all_by_name(name), *map(known.by_name, name.split())]
     return any(instrument is not None and instrument.family == _FAMILY for instrument in found)
 
 
 def without_faults(channel: TrackChannel, tempo_map: TempoMap) -> tuple[TrackChannel, dict[Fault, list[Note]]]:
-    """A stream with its notes cleaned as a take's, and the notes that are left out by why, as they were played."""
+    """A channel with its notes cleaned as a take's; and the removed notes by reason, as played."""
     clean = clean_notes(notes_as_played(channel, tempo_map), Cleaning())
     before = channel.notes()
     found: dict[Fault, list[Note]] = {}
@@ -84,7 +83,7 @@ def without_faults(channel: TrackChannel, tempo_map: TempoMap) -> tuple[TrackCha
 
 
 def notes_as_played(channel: TrackChannel, tempo_map: TempoMap) -> Played:
-    """A stream as a take has its notes, with the curve that carries its breath."""
+    """Notes of a channel in the form of a take, with the curve that carries its breath."""
 
     def seconds(ticks: list[int]) -> FloatArray:
         return tempo_map.seconds(np.array(ticks, np.float64))
@@ -110,8 +109,9 @@ def _is_one_line(notes: Played) -> bool:
 
 
 def _is_blown(notes: Played, breath: Controlled) -> bool:
-    """Return whether the breath changes all the time while notes sound, and stops at all: of one that never does, as is
-    drawn for the dynamics, it is not known where the tongue stopped it."""
+    """Return whether the breath keeps changing while notes sound and stops at least once. A curve that never stops, as
+    drawn for dynamics, does not show tonguing.
+    """
     if breath.values.min() > _SILENT:
         return False
     inside = _among(notes, breath.times_s)
@@ -127,7 +127,7 @@ def _among(notes: Played, times_s: FloatArray) -> np.ndarray[tuple[int], np.dtyp
 
 
 def _falls_in_rests(notes: Played, breath: Controlled) -> bool:
-    """Return whether the breath stops in the rests; where there is none, before the first note."""
+    """Return whether the breath drops to silence in the rests or, without rests, before the first note."""
     starts_s = np.concatenate(([-1.0 + notes.onsets_s[0]], np.maximum.accumulate(notes.ends_s)[:-1]))
     rests = notes.onsets_s - starts_s >= _REST_S
     middles_s = (0.5 * (starts_s + notes.onsets_s))[rests]

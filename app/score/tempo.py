@@ -1,4 +1,4 @@
-"""Tempo map: musical ticks to seconds and back, exactly piecewise linear."""
+"""Tempo map: converts ticks to seconds and back, exactly piecewise linear."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ DEFAULT_MICROSECONDS_PER_QUARTER = 500_000.0
 
 
 class TempoChange(msgspec.Struct, frozen=True):
-    """A tempo from one tick on.
+    """A tempo from a tick on.
 
     Attributes
     ----------
     tick : int
-        Where it begins.
+        Tick at which it begins.
     microseconds_per_quarter : float
-        Integral in files that count ticks per quarter; what SMPTE files give is rarely integral.
+        Whole number in files timed in quarters; rarely one in SMPTE files.
     """
 
     tick: int
@@ -33,12 +33,11 @@ class TempoChange(msgspec.Struct, frozen=True):
 
 
 class TempoMap(msgspec.Struct, frozen=True, dict=True):
-    """Ticks to seconds and back.
+    """Converts ticks to seconds and back.
 
-    Tick 0 is second 0. The first tempo extends backwards, so that the pre-roll has times too; the last one extends
-    forwards. A file whose division is SMPTE (frames per second and ticks per frame) has no quarters: one constant
-    tempo of 120 quarters per minute stands in, as nearly as whole ticks per quarter allow, and ticks keep their exact
-    duration.
+    Tick 0 is second 0. The first tempo also applies before tick 0, for the pre-roll; the last one has no end. A file
+    with an SMPTE division (frames per second and ticks per frame) has no quarters: it gets a constant tempo of 120
+    quarters per minute, as nearly as whole ticks per quarter allow, and ticks keep their exact duration.
 
     Attributes
     ----------
@@ -51,7 +50,9 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
 
     @classmethod
     def of_changes(cls, ticks_per_quarter: int, changes: list[TempoChange]) -> TempoMap:
-        """Build a map from changes in any order; of several at one tick the last counts, and repetitions fall away."""
+        """Build a map from changes in any order; of several at one tick the last one counts, and repetitions are
+        dropped.
+        """
         latest = {0: DEFAULT_MICROSECONDS_PER_QUARTER}
         for change in sorted(changes, key=lambda change: change.tick):
             latest[change.tick] = change.microseconds_per_quarter
@@ -69,7 +70,7 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _table(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Ticks and seconds where each tempo begins, and its seconds per tick; each float64, shape (changes,)."""
+        """Start tick and second of each tempo, and its seconds per tick; each float64, shape (changes,)."""
         ticks = np.array([change.tick for change in self.changes], np.float64)
         slopes = np.array([change.microseconds_per_quarter for change in self.changes], np.float64)
         slopes = slopes / (1e6 * self.ticks_per_quarter)
@@ -135,14 +136,16 @@ class TempoMap(msgspec.Struct, frozen=True, dict=True):
 
 
 def _piecewise_at(x: float, pieces: _Pieces) -> float:
-    """`_piecewise` at one place, for which numpy takes ten times as long."""
+    """Evaluate the function of `_piecewise` at a single place, ten times as fast as with numpy."""
     knots, values, slopes = pieces
     piece = max(bisect_right(knots, x) - 1, 0)
     return values[piece] + (x - knots[piece]) * slopes[piece]
 
 
 def _piecewise(x: AnyFloatArray | AnyIntArray, knots: FloatArray, values: FloatArray, slopes: FloatArray) -> FloatArray:
-    """A piecewise linear function whose outer pieces extend; ``values`` are at the ``knots``, ``slopes`` after them."""
+    """Evaluate a piecewise linear function: ``values`` at the ``knots``, ``slopes`` after them; the outer pieces extend
+    without end.
+    """
     places = np.asarray(x, np.float64)
     piece = np.maximum(np.searchsorted(knots, places, side="right") - 1, 0)
     result: FloatArray = values[piece] + (places - knots[piece]) * slopes[piece]

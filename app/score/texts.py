@@ -1,10 +1,9 @@
-"""The texts of a MIDI file, which does not say how they are encoded.
+"""Decodes the texts of a MIDI file, whose encoding is not stated in the file.
 
-Unicode is known by itself: a byte order mark, or bytes that are valid UTF-8. The remaining texts are in one of the
-encodings that programs wrote before it, nearly always the same one in a whole file, so they decide together. Each
-encoding has a cost: how unlikely its characters are next to one another in a language that is written in it. A name
-that the vocabulary of instruments knows is the best evidence. A text that is much likelier in another encoding has that
-one.
+Unicode is recognised by a byte order mark or by valid UTF-8. All other texts of a file usually share one legacy
+encoding, so they are judged together: each encoding has a cost, the improbability of its characters in sequence in a
+language written in it. Instrument names known to the vocabulary are the strongest evidence. A text that is much
+likelier in another encoding is decoded with that one.
 """
 
 from __future__ import annotations
@@ -58,12 +57,12 @@ class TextDecoder:
         Names of tracks and instruments.
     others : iterable of bytes
     encoding : str, optional
-        Overrides the guess; what it cannot decode becomes U+FFFD.
+        Overrides the guess; undecodable bytes become U+FFFD.
 
     Attributes
     ----------
     encoding : str
-        The one given, else the one guessed for the texts that are not Unicode; empty where all are.
+        The given or guessed encoding of the texts that are not Unicode; empty if all are Unicode.
     """
 
     def __init__(self, names: Iterable[bytes], others: Iterable[bytes] = (), encoding: str | None = None) -> None:
@@ -77,7 +76,7 @@ class TextDecoder:
         self._read: dict[bytes, str] = {}
 
     def read(self, data: bytes) -> str:
-        """A text, without what is not printed and space around it."""
+        """Decode a text, without unprintable characters and surrounding space."""
         if data not in self._read:
             text = self._decoded(data)
             self._read[data] = "".join(c for c in text if c.isprintable() or c.isspace()).strip()
@@ -103,7 +102,7 @@ class TextDecoder:
 
 
 def _unicode(data: bytes) -> str | None:
-    """A text in Unicode; None if it is in another encoding."""
+    """Decode a text as Unicode; None if it is in another encoding."""
     for mark, encoding in _BOMS:
         if data.startswith(mark):
             return data.decode(encoding, errors="replace")
@@ -121,12 +120,12 @@ def _unicode(data: bytes) -> str | None:
 
 
 class _Encoding(msgspec.Struct, frozen=True):
-    """A text encoding that programs have written into MIDI files.
+    """A legacy text encoding found in MIDI files.
 
     Attributes
     ----------
     prior : float
-        How unlikely it is before a text is seen.
+        Cost of the encoding in advance, before any text is seen.
     """
 
     name: str
@@ -135,7 +134,7 @@ class _Encoding(msgspec.Struct, frozen=True):
 
 
 def _evidence(encoding: str, data: bytes) -> float:
-    """Return how much the vocabulary knows of a name in an encoding, by more than its ASCII letters."""
+    """Return how strongly a text in an encoding matches instrument names; ASCII letters alone count nothing."""
     text = data[:_MOST_BYTES].decode(encoding, errors="replace")
     found = vocabulary().by_name(text)
     if found is None or found == vocabulary().by_name(_NOT_ASCII.sub(" ", text)):
@@ -146,13 +145,13 @@ def _evidence(encoding: str, data: bytes) -> float:
 
 @cache
 def _single() -> frozenset[tuple[str, ...]]:
-    """Characters that are names of instruments by themselves."""
+    """Single characters that are instrument names."""
     return frozenset((name,) for one in vocabulary().instruments.values() for name in one.names if len(name) == 1)
 
 
 @cache
 def _known_characters() -> frozenset[str]:
-    """Those of the vocabulary that are written without spaces."""
+    """Characters of scripts without spaces that occur in instrument names."""
     return frozenset(c for one in vocabulary().instruments.values() for name in one.names for c in name if is_wide(c))
 
 
@@ -162,18 +161,18 @@ def _cost_of(encoding: str) -> Callable[[str], float]:
 
 
 def _cost(encoding: str, data: bytes) -> float:
-    """Return how unlikely bytes are as a text in an encoding."""
+    """Return the cost of bytes as a text in an encoding: the higher, the less likely."""
     text = data.decode(encoding, errors="replace")
     return _cost_of(encoding)(text)
 
 
 def _wide_cost(frequent: frozenset[str], level: Callable[[str], float]) -> Callable[[str], float]:
-    """The cost of a text in a script of wide characters.
+    """Return a cost function for texts in a script of wide characters.
 
     Parameters
     ----------
     level : callable
-        The cost of a character that is not frequent.
+        Cost of a character that is not in ``frequent``.
     """
 
     def cost(text: str) -> float:
@@ -198,7 +197,7 @@ def _wide_cost(frequent: frozenset[str], level: Callable[[str], float]) -> Calla
 
 
 def _is_half(c: str) -> bool:
-    """Return whether a character is a half width kana or a mark of one."""
+    """Return whether a character is half-width kana or half-width kana punctuation."""
     return "\uff61" <= c <= "\uff9f"
 
 
@@ -207,7 +206,9 @@ def _bytes_of(c: str, encoding: str) -> bytes:
 
 
 def _east_asian(c: str) -> float:
-    """The cost of what all these encodings have: full width letters and punctuation, Greek, Cyrillic, lines."""
+    """Cost of characters that all East Asian encodings share: full-width letters and punctuation, Greek, Cyrillic, box
+    lines.
+    """
     if "\uff01" <= c <= "\uff5e" or c in "、。・「」『』（）！？～：；，．　★☆♪♭♯①②③④⑤⑥⑦⑧⑨ⅠⅡⅢⅣⅤ":
         return _FREQUENT
     return 2 * _ODD if "\ue000" <= c <= "\uf8ff" else _ODD
@@ -248,7 +249,7 @@ def _korean(c: str) -> float:
 
 
 def _cyrillic_cost(text: str) -> float:
-    """The cost of a text in Russian; its letters stand in words that begin with a capital or are all capitals."""
+    """Cost of a text in Russian; words begin with a capital or are all capitals."""
     total = 0.0
     for place, c in enumerate(text):
         if c < "\x80":
@@ -270,7 +271,7 @@ def _cyrillic_cost(text: str) -> float:
 
 
 def _latin_cost(text: str) -> float:
-    """The cost of a text in a Western language: letters with accents stand alone in words of plain letters."""
+    """Cost of a text in a Western language; accented letters are single within words of plain letters."""
     total = 0.0
     for place, c in enumerate(text):
         if c < "\x80":
@@ -294,13 +295,12 @@ def _latin_cost(text: str) -> float:
 
 
 def _dos_cost(text: str) -> float:
-    """The cost of a Cyrillic text of DOS, whose code page has lines and blocks too: as Windows has it, but that no text
-    is drawn."""
+    """Cost of a Cyrillic text in the DOS code page, with a penalty for box-drawing characters."""
     return _cyrillic_cost(text) + 2.0 * sum("\u2500" <= c <= "\u25ff" for c in text)
 
 
 def _greek_cost(text: str) -> float:
-    """The cost of a Greek text: small letters in words, of which one has an accent."""
+    """Cost of a Greek text: words of small letters with one accent each."""
     total = 0.0
     for place, c in enumerate(text):
         if c < "\x80":
@@ -325,7 +325,7 @@ _FRENCH: Final = re.compile("č[cdfgprs]")
 
 
 def _central_cost(text: str) -> float:
-    """The cost of a text in Polish, Czech, Slovak or Hungarian: as in the West, with other letters."""
+    """Cost of a text in Polish, Czech, Slovak or Hungarian: as `_latin_cost` with their accented letters."""
     western = "".join("é" if c.lower() in CENTRAL else c for c in text if c.lower() in CENTRAL or c.isascii())
     others = sum(c >= "\x80" and c.lower() not in CENTRAL for c in text)
     return _latin_cost(western) + 3.0 * _NO_WORD * (others + len(_FRENCH.findall(text)))

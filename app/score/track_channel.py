@@ -1,4 +1,4 @@
-"""The notes of one track on one channel, as they are read and as instruments are chosen for them."""
+"""Notes of one track on one channel, with everything that serves the choice of an instrument."""
 
 from __future__ import annotations
 
@@ -20,41 +20,42 @@ class TrackChannel(msgspec.Struct, frozen=True):
     track : int
         Counted from 0.
     name, instrument_name : str
-        The track's texts for people, empty if there are none.
+        The track's names in the file, empty if there are none.
     onset_ticks, end_ticks, pitches, velocities, numbers : list of int
-        One entry per note, by onset; ``numbers`` is the note's place among the track's note-ons, from 1.
+        One entry per note, by onset; ``numbers`` is the index among the track's note-ons, from 1.
     reported : tuple of str
-        Of a track that says nothing itself: ids of the instruments that it may be for.
+        For a track without information about its instrument: ids of instruments suggested by the title or the ensemble.
     reported_by : {"title", "ensemble"}
-        What says so: the piece's title, or the staves together (`app.score.ensembles`).
+        Source of ``reported``: the title of the piece, or the combination of staves (`app.score.ensembles`).
     played_on : str
-        Id of the instrument that its player changes to for these notes (`app.score.doublings`); empty: that of the
-        track.
+        Id of the instrument that the player changes to for these notes (`app.score.doublings`); empty for the main
+        instrument.
     change : int
-        Which of its player's instruments that is, from 0.
+        Index of that instrument among the player's, from 0.
     muted : tuple of (start, end)
-        Spans of ticks in which the track is played with a mute.
+        Spans of ticks that are played with a mute.
     stopped : tuple of (start, end)
-        Those of them in which the hand stops the bell.
+        Those of the muted spans in which the hand stops the bell.
     mute_kinds : tuple of (tick, kind)
-        Which mute is in the bell from there on, where it is named.
+        Kind of mute from each tick on, where it is named.
     recorded : bool
-        The file says that it is a take of ``suisou record``.
+        Whether the file is marked as a take of ``suisou record``.
     solos : tuple of (tick, player)
-        Who of several players has the notes alone from there on, from 1; 0: all play (`app.score.solos`).
+        Player who has the notes alone from each tick on, from 1; 0: all play (`app.score.solos`).
     desks : tuple of (number, player, players)
-        Notes, by their numbers, that are for one of so many players by the voices of their staff, from 1.
+        Notes, by their numbers, that belong to one player of several by the voices of the staff: the player from 1, and
+        the number of players.
     use : {"melodic", "rhythm", "effect"}
-        What its channel is on a sound module while it plays (`app.score.sound_module`).
+        Kind of the channel on a sound module (`app.score.sound_module`).
     certain : bool
-        A message says so that means nothing else.
+        Whether ``use`` was set by an unambiguous message.
     struck : list of int
-        Of a rhythm part: the sounds of its notes as General MIDI numbers them; empty where they are its pitches.
+        For a rhythm part: General MIDI numbers of the notes' sounds; empty where they equal the pitches.
     line : int
-        The first of the tracks over which its line is spread (`app.score.lines_spread_over_tracks`); -1: it has the
-        line to itself.
+        Index of the first of the tracks over which the line is spread (`app.score.lines_spread_over_tracks`); -1: not
+        spread.
     marks, source
-        As those of a `Part`; marks are of the ids that `notes` gives.
+        As in `Part`; marks use the ids that `notes` returns.
     """
 
     track: int
@@ -87,15 +88,15 @@ class TrackChannel(msgspec.Struct, frozen=True):
 
     @property
     def place(self) -> tuple[int, int, int]:
-        """Track, channel and instrument, as the parts made of the channel have them."""
+        """Track, channel and instrument index, as in the parts made from it."""
         return self.track, self.channel, self.change
 
     def notes(self) -> list[Note]:
-        """The notes, in the same order."""
+        """The notes as `Note` values, in the same order."""
         ids = [f"{self.track + 1}:{number}" for number in self.numbers]
         durations = map(sub, self.end_ticks, self.onset_ticks)
         return list(map(Note, ids, self.onset_ticks, durations, self.pitches, self.velocities))
 
     def seats(self, players: int) -> dict[str, int]:
-        """The player of each note whose voice is for one of so many players, by the note's id."""
+        """Player of each note, by note id, for notes whose voice is assigned to one of this number of players."""
         return {f"{self.track + 1}:{number}": player for number, player, of in self.desks if of == players}

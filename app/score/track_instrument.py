@@ -1,4 +1,4 @@
-"""The instrument that a track's names, its program or the piece's title give to it."""
+"""Finds the instrument of a track from its names, its program or the title of the piece."""
 
 from __future__ import annotations
 
@@ -34,8 +34,9 @@ _UNISON = re.compile(r"(?<!\w)[aà] ?([2-4])(?!\w)")
 
 
 def players_named(name: str) -> int:
-    """Return how many players a track's name says it is for: 2 in "Horn 1.2", "Cl. I/II" and "Trumpet a2", 4 in "Trb.
-    1-4"; 1 where it says nothing about it."""
+    """Return the number of players in a track's name: 2 in "Horn 1.2", "Cl. I/II" and "Trumpet a2", 4 in "Trb. 1-4"; 1
+    if it names none.
+    """
     together = _UNISON.search(name)
     if together:
         return int(together[1])
@@ -48,18 +49,18 @@ def players_named(name: str) -> int:
 
 
 def recognised(channel: TrackChannel) -> Instrument | None:
-    """The instrument that a track's names or numbers, or else the title, give to it; None if they give none."""
+    """The instrument given by a track's names or numbers, else by the title; None if there is none."""
     said = said_of(channel)
     return vocabulary().instruments[channel.reported[0]] if said is None and len(channel.reported) == 1 else said
 
 
 def use_of(channel: TrackChannel) -> Use:
-    """Return what a track is: a melody, a rhythm part, whose notes name the sounds of a drum kit, or sound effects.
+    """Return whether a track is a melody, a rhythm part (its notes are drum kit sounds) or sound effects.
 
-    What the sound module was set to decides, but where that is only what channel 10 or a bank usually is, a name of
-    anything but percussion makes it a melody. The name of drums or of another untuned percussion makes a rhythm part of
-    any channel; so does the program, where no name is more exact. Tuned percussion stays a melody, and so does a tune
-    of a wind's program that is called after a drum.
+    The settings of the sound module decide. If they are only defaults (channel 10, a bank), a name other than
+    percussion makes the track a melody. The name of drums or other untuned percussion makes any channel a rhythm part;
+    so does its program, if no name is more specific. Tuned percussion stays a melody, and so does a wind instrument's
+    tune named after a drum.
     """
     telling, vague = _named(channel)
     if channel.use == "melodic":
@@ -69,8 +70,9 @@ def use_of(channel: TrackChannel) -> Use:
 
 
 def sounds_of(channel: TrackChannel) -> list[int]:
-    """The sounds of a rhythm part's notes as General MIDI numbers them: of a single drum that has one pitch outside a
-    kit's usual numbers, as notation has it, the drum's own."""
+    """General MIDI numbers of a rhythm part's sounds; notation often gives a single drum one arbitrary pitch, which is
+    replaced by the drum's number.
+    """
     if channel.struck or channel.use != "melodic":
         return channel.struck or channel.pitches
     found = _untuned(channel, *_named(channel))
@@ -84,7 +86,7 @@ def sounds_of(channel: TrackChannel) -> list[int]:
 
 
 def _untuned(channel: TrackChannel, telling: Instrument | None, vague: Instrument | None) -> Instrument | None:
-    """The percussion without pitch that a track's names, or without one its program, give to it."""
+    """The untuned percussion given by a track's names or, without a name, by its program."""
     words = vocabulary()
     numbered = None if channel.program is None else words.by_program(channel.program)
     found = numbered if telling is None and vague is None else telling
@@ -98,15 +100,13 @@ def _untuned(channel: TrackChannel, telling: Instrument | None, vague: Instrumen
 
 
 def _is_after_a_drum(channel: TrackChannel, named: Instrument, numbered: Instrument) -> bool:
-    """Return whether a wind's tune is called after a drum, as "The Little Drummer Boy" is, by what its name and its
-    program mean."""
+    """Return whether a wind instrument's tune is merely titled after a drum, such as "The Little Drummer Boy"."""
     drum = numbered.kind == "wind" and vocabulary().stroke(named.names[0]) is not None
     return drum and not _names_kit(channel.pitches)
 
 
 def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]:
-    """Return the instruments that a track's names mean: the first that is certain, and the first that may mean a part
-    of any instrument."""
+    """Return the instruments in a track's names: the first definite one, and otherwise the first vague one."""
     words = vocabulary()
     named = [found for text in (channel.name, channel.instrument_name) if text and (found := words.by_name(text))]
     telling = next((found for found in named if not found.vague), None)
@@ -114,7 +114,7 @@ def _named(channel: TrackChannel) -> tuple[Instrument | None, Instrument | None]
 
 
 def called(channel: TrackChannel, instrument: Instrument) -> str:
-    """Return the usual name of a track's instrument; the score's own ("和太鼓") where it is one of various."""
+    """Return the usual name of a track's instrument; for a collective instrument the name in the score ("和太鼓")."""
     own = (
         text for text in (channel.name, channel.instrument_name) if text and vocabulary().by_name(text) == instrument
     )
@@ -122,12 +122,12 @@ def called(channel: TrackChannel, instrument: Instrument) -> str:
 
 
 def is_named(channel: TrackChannel) -> bool:
-    """Return whether someone named a track, not the program that wrote it."""
+    """Return whether a track has a name given by a person rather than by a program."""
     return not all(map(is_no_name, (channel.name, channel.instrument_name)))
 
 
 def is_no_name(text: str) -> bool:
-    """Return whether a track's name is what a program calls a track that no one has named, or none."""
+    """Return whether a text is empty or a default track name of some program."""
     return _SAYS_NOTHING.fullmatch(text) is not None
 
 
@@ -137,8 +137,9 @@ def _names_kit(pitches: Sequence[int]) -> bool:
 
 
 def says_nothing(channel: TrackChannel) -> bool:
-    """Return whether a melody has neither a name nor a program that is more than a section's; the piano's program is
-    what many programs write for none."""
+    """Return whether a melody has no informative name or program; programs of a whole section do not count, nor does
+    the piano's, a common default.
+    """
     if channel.played_on or is_named(channel) or any(_named(channel)):
         return False
     numbered = None if channel.program is None else vocabulary().by_program(channel.program)
@@ -146,7 +147,9 @@ def says_nothing(channel: TrackChannel) -> bool:
 
 
 def by_program_alone(channel: TrackChannel) -> Instrument | None:
-    """The wind that nothing but a track's program names; None where a name does, or the program names none."""
+    """The wind instrument of a melodic track given only by its program; None if names give one, or if it is no wind
+    instrument.
+    """
     telling, _ = _named(channel)
     if channel.played_on or channel.program is None or telling is not None or use_of(channel) != "melodic":
         return None
@@ -155,8 +158,9 @@ def by_program_alone(channel: TrackChannel) -> Instrument | None:
 
 
 def _member(channel: TrackChannel) -> Instrument | None:
-    """The instrument of its program's family that a track's name says by a size or key alone: "Alto" among saxophones;
-    of a name that is an instrument's too, as "Baritone", only where voices are called so."""
+    """The instrument that a size or key in the name selects from the program's family: "Alto" among saxophones. A word
+    that is also an instrument ("Baritone") counts only if voices are named so.
+    """
     words = vocabulary()
     numbered = None if channel.program in (None, _NO_PROGRAM) else words.by_program(channel.program or _NO_PROGRAM)
     if numbered is None or numbered.kind != "wind" or use_of(channel) != "melodic":
@@ -169,14 +173,14 @@ def _member(channel: TrackChannel) -> Instrument | None:
 
 
 def said_of(channel: TrackChannel) -> Instrument | None:
-    """Instrument that a track names, in the ensemble that it is in."""
+    """Instrument named by a track; None if only the ensemble suggests one."""
     if channel.reported and channel.reported_by == "ensemble":
         return None
     return (None if channel.played_on else _member(channel)) or said_plainly(channel)
 
 
 def said_plainly(channel: TrackChannel) -> Instrument | None:
-    """Instrument that the names or the program of a track name."""
+    """Instrument given by the names or the program of a track."""
     words = vocabulary()
     if channel.played_on:
         return words.instruments[channel.played_on]
@@ -200,10 +204,10 @@ def said_plainly(channel: TrackChannel) -> Instrument | None:
 
 
 def named_by_title(channels: Sequence[TrackChannel], title: str) -> list[TrackChannel]:
-    """Give the winds that a piece's title names to the tracks that say nothing themselves.
+    """Assign the wind instruments named in the title to the tracks without information about theirs.
 
-    As many as there are such tracks go to them in their order ("oboe and bassoon"); else each of them may be any of
-    those named, as its notes fit. A section alone ("brass quintet") leaves it to them who of the section plays.
+    If their numbers are equal, they are assigned in order ("oboe and bassoon"); else each track may be any of them,
+    decided by its notes. A section ("brass quintet") leaves the choice within the section open.
     """
     silent = [index for index, channel in enumerate(channels) if said_of(channel) is None]
     winds = [found for found in vocabulary().all_by_name(title) if found.kind == "wind"]

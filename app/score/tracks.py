@@ -1,4 +1,4 @@
-"""The messages of one MIDI track, gathered by what they are about."""
+"""Collects the messages of one MIDI track by subject."""
 
 from __future__ import annotations
 
@@ -58,23 +58,23 @@ class TrackEvents(msgspec.Struct):
     channels : dict of channel to ChannelNotes
         Channels with notes.
     setups : list of Setup
-        What changes the sounds of channels.
+        Messages that change the sounds of channels.
     port : Port or None
-        Where the notes go; None: the track does not say.
+        Port of the notes; None if the track names none.
     sounds : dict of channel to list of (tick, ChannelSound)
-        What channels with notes sound like from each tick on, once it is known of all tracks.
+        Sounds of channels with notes from each tick on; set once all tracks are collected.
     controls : dict of (channel, kind) to dict of tick to value
         The last value of each tick; of bends the share of the range their channel has.
     parameters : list of (tick, channel, control, value)
-        Controllers that set the range (`app.score.bend_range`).
+        Controllers that set the pitch bend range (`app.score.bend_range`).
     after_end : int
-        Notes that follow an end of the track, which is none then.
+        Number of notes after an end-of-track, which is then ignored.
     hanging, zero_length : int
         Notes without an end, notes without a length.
     beyond : int
-        Events behind the last tick that a score has; they were left out.
+        Number of events dropped because they are after the last allowed tick.
     end_tick : int
-        Where the track ends.
+        Tick of the track's end.
     """
 
     name: bytes = b""
@@ -98,7 +98,7 @@ class TrackEvents(msgspec.Struct):
 
     @property
     def last_tick(self) -> int:
-        """Return where the last note ends; 0 without notes."""
+        """Return the tick at which the last note ends; 0 without notes."""
         return max((max(notes.end_ticks) for notes in self.channels.values()), default=0)
 
     def notes(self, channels: Collection[int]) -> ChannelNotes:
@@ -113,12 +113,12 @@ class TrackEvents(msgspec.Struct):
 
     @property
     def said_of_sounds(self) -> Setups:
-        """Return what the track says about the sounds of channels."""
+        """Return the track's messages about the sounds of channels."""
         first_onsets = {channel: notes.onset_ticks[0] for channel, notes in self.channels.items()}
         return Setups(self.setups, first_onsets, self.port)
 
     def sound_at(self, channel: int, tick: int) -> ChannelSound:
-        """Return what a channel with notes sounds like at a tick."""
+        """Return the sound of a channel with notes at a tick."""
         changes = self.sounds[channel]
         return changes[max(bisect_right(changes, tick, key=itemgetter(0)) - 1, 0) if len(changes) > 1 else 0][1]
 
@@ -127,7 +127,7 @@ class TrackEvents(msgspec.Struct):
         return all(sound.use == "melodic" for _, sound in self.sounds[channel])
 
     def take_turns(self, channels: Collection[int]) -> bool:
-        """Return whether no note of one channel sounds into a note of another."""
+        """Return whether notes of the channels never overlap those of another one."""
         spans = sorted(
             (onset, end, channel)
             for channel in channels
@@ -149,9 +149,9 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
     messages : iterable of mido messages
         With delta times.
     begin_tick : int
-        Where the track begins.
+        Tick at which the track begins.
     most_unended_ticks : int
-        The longest that a note lasts which nothing ends.
+        Longest length of a note without note-off.
     """
     events = TrackEvents()
     sounding: dict[int, dict[int, deque[int]]] = {}
@@ -202,14 +202,14 @@ def gather(messages: Iterable[Any], begin_tick: int, most_unended_ticks: int) ->
 
 
 def _until_end(events: TrackEvents, messages: Sequence[Any]) -> Sequence[Any]:
-    """The messages of a track up to its end, or all where notes follow it: it is none then."""
+    """The messages up to the end-of-track; all messages if notes follow it."""
     ends = next((place for place, message in enumerate(messages) if message.type == "end_of_track"), len(messages))
     events.after_end = sum(message.type == "note_on" and message.velocity > 0 for message in messages[ends:])
     return messages if events.after_end else messages[: ends + 1]
 
 
 def _note_other(events: TrackEvents, message: Any, kind: str, tick: int) -> None:
-    """Keep a message that is about no note."""
+    """Store a message that is not about notes."""
     if tick > LAST_TICK:
         events.beyond += 1
     elif kind == "control_change":
@@ -255,7 +255,7 @@ def _set_up(
 
 
 def _connect(events: TrackEvents, message: Any) -> None:
-    """Take a port or a device's name. A track whose notes have begun stays where they went."""
+    """Apply a port or device name; ignored once the track has notes."""
     if events.channels:
         return
     number, device = events.port or FIRST_PORT
@@ -266,7 +266,7 @@ def _connect(events: TrackEvents, message: Any) -> None:
 
 
 def _close(events: TrackEvents) -> None:
-    """Give notes without length a tick."""
+    """Give notes without length one tick."""
     for notes in events.channels.values():
         ends = notes.end_ticks
         for index, (onset, end) in enumerate(zip(notes.onset_ticks, ends, strict=True)):
@@ -276,7 +276,7 @@ def _close(events: TrackEvents) -> None:
 
 
 def no_notes(tracks: Sequence[TrackEvents], counts: Sequence[int], texts: TextDecoder) -> list[Message]:
-    """Report the tracks of a file without notes, ``counts`` events each; nothing for other files."""
+    """Report the tracks of a file without notes, with ``counts`` events each; empty for other files."""
     if any(events.channels for events in tracks):
         return []
     warnings = [Message("midi.no_notes", {"tracks": len(tracks)})]

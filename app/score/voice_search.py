@@ -1,4 +1,4 @@
-"""The voices that play the notes of chords: a search for the least movement of all players together."""
+"""Assigns the notes of chords to voices: a search for the least movement of all players together."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ class _Hypothesis(NamedTuple):
 def assigned_voices(
     onsets: Sequence[float], groups: Sequence[list[LastPlayed]], count: int, rests_s: Sequence[float]
 ) -> list[tuple[int, ...]]:
-    """For each group of notes struck together, highest first, the voices that play them.
+    """For each group of notes struck together (highest first), the voices that play them.
 
-    A beam search over the onsets: what a choice costs shows only when the next chord forces the voices apart.
+    A beam search over the onsets, since the cost of a choice shows only when the next chord forces the voices apart.
     """
     everyone = tuple(range(count))
     beam = [_Hypothesis(0.0, (LastPlayed(-1, -1.0, -1.0),) * count, None)]
@@ -74,7 +74,7 @@ def assigned_voices(
 def _best(
     beam: list[_Hypothesis], candidates: list[tuple[float, int, tuple[int, ...]]], sounding: list[LastPlayed]
 ) -> list[_Hypothesis]:
-    """The cheapest hypotheses that leave the voices in different states."""
+    """The cheapest hypotheses among those that leave the voices in different states."""
     candidates.sort()
     states: dict[tuple[LastPlayed, ...], _Hypothesis] = {}
     limit = candidates[0][0] + _HOPELESS_COST
@@ -98,7 +98,9 @@ def _in_order(free: int, size: int) -> tuple[tuple[int, ...], ...]:
 
 
 def _choices(free: int, costs: list[list[float]]) -> tuple[tuple[int, ...], ...]:
-    """The ways to give a group (rows) to free voices (columns) in order; of too many the cheapest alone."""
+    """Ordered assignments of a group's notes (rows) to free voices (columns); only the cheapest ones if there are too
+    many.
+    """
     if comb(free, len(costs)) <= _CHOICES:
         return _in_order(free, len(costs))
     from scipy.optimize import linear_sum_assignment  # heavy, and seldom needed

@@ -1,17 +1,16 @@
-"""Division of one track among players: their number, and the notes of each.
+"""Divides one track among players: their number, and the notes of each.
 
-Notes that overlap are legato: a player of keys or of a wind controller holds a note some way into the next. Only where
-notes go on sounding together beyond that, over several notes and for a while, or in much of the track, there is another
-player (`app.score.sounding_together`). A note that lasts into the next of its player is shortened to a legato overlap
-that planning accepts (`LEGATO_OVERLAP_S`), so that the slur can still be seen. Unplayable notes are excluded: the notes
-struck together with those of the players there are, the lowest first. `split_voices` returns both.
+Overlapping notes are usually legato: a player holds a note briefly into the next. Another player is assumed only if
+notes sound together beyond that, over several notes and for some time, or in much of the track
+(`app.score.sounding_together`). A note that overlaps the next one of its player is shortened to `LEGATO_OVERLAP_S`, the
+overlap that planning accepts, so that the slur remains visible. Notes beyond the number of players are left out, lowest
+first. `split_voices` returns both.
 
-Voice 0 is the highest. Notes struck together go to voices in their order, so player 1 has the upper note of a chord of
-two; a line stays with its player until a chord forces otherwise (the least movement in all). A line that goes on
-alone for a quarter or longer is played by all the players of a section (*a2*); of several lines on one staff it is one
-player's, and the others rest.
+Voice 0 is the highest. Notes struck together go to voices in order, so player 1 has the upper note of a pair; a line
+stays with its player until a chord forces a change (least total movement). A line alone for a quarter or longer is
+played by all players of a section (*a2*); if several lines share a staff, by one player while the others rest.
 
-At most `MOST_VOICES` players share a track: no section divides further.
+At most `MOST_VOICES` players share a track.
 """
 
 from __future__ import annotations
@@ -47,23 +46,25 @@ _ROUNDING_S = 1e-9
 
 
 class TrackVoices(NamedTuple):
-    """The notes of a track, divided into voices for its players.
+    """Notes of a track divided into voices for its players, with the notes that were changed or left out.
 
     Attributes
     ----------
     voices : list of tuple of Note
-        Voice 0, the highest, first; none empty, each by onset. A note that several players have has an id
-        of its own with each of the others (`unison_id`).
+        Notes of each voice by onset, voice 0 (the highest) first; none is empty. A note shared by several players has a
+        separate id with each further player (`unison_id`).
     together : list of Note
-        The notes that call for another player: those struck while others sound, beyond what is legato.
+        Notes that require another player: struck while others sound, beyond legato.
     left_out : list of Note
-        Those no one plays, by onset.
+        Notes without a player, by onset.
     shortened : list of Note
-        Those that lasted further into the next note of their player than legato notes do, as they were.
+        Notes that were shortened since they overlapped their player's next note by more than a legato overlap, in their
+        original length.
     unisons : sequence of Note
-        Those that were left out because the one player has each of them already: two voices of a staff in unison.
+        Notes dropped as duplicates, because the single player already has each of them: two voices of a staff in
+        unison.
     solos : sequence of str
-        Ids of those that words over the staff give to one player.
+        Ids of notes that words over the staff give to one player.
     """
 
     voices: list[tuple[Note, ...]]
@@ -75,18 +76,18 @@ class TrackVoices(NamedTuple):
 
 
 def is_one_voice(notes: Sequence[Note], tempo_map: TempoMap) -> bool:
-    """Return whether one player can play the notes, which are by onset, and plays all of them."""
+    """Return whether one player can play all of the notes, given by onset."""
     return not notes or int(spans_of(notes, tempo_map).depths().max()) == 1
 
 
 def unison_id(id: str, voice: int) -> str:
-    """The id of a note of the file that the player of another voice has too: numbered beyond every note-on."""
+    """Id of a copy of a file's note for the player of another voice; numbers are beyond all note-ons."""
     track, _, number = id.rpartition(":")
     return f"{track}:{int(number) + _UNISON_NUMBERS * (voice + 1)}"
 
 
 def file_id(id: str) -> str:
-    """The id that a note of several players has in the file."""
+    """Id in the file of a note that several players share."""
     track, _, number = id.rpartition(":")
     return f"{track}:{int(number) % _UNISON_NUMBERS}"
 
@@ -101,23 +102,24 @@ def split_voices(
     unison: bool = False,
     in_turn: bool = False,
 ) -> TrackVoices:
-    """Share the notes of one track among those who play it.
+    """Divide the notes of one track among its players.
 
     Parameters
     ----------
     notes : sequence of Note
-        By onset.
+        The notes by onset.
     most : int
         Voices.
     least : int
-        Players there are where notes are ever struck together, as a name says ("Horn 1.2"); what one of them could
-        play alone is played by all.
+        Number of players if notes are ever struck together, from a name such as "Horn 1.2"; single lines are played by
+        all of them.
     every_chord : bool
-        A player for every note that ever sounds together with others, however short.
+        Whether to add a player for every note that sounds together with others, however briefly.
     unison : bool
-        The players are of one section: what one of them could play alone is played by all, if they move together.
+        Whether the players are one section: a line that one could play alone is played by all, if they move together.
     in_turn : bool
-        Words say who of those whom the name counts plays: there are that many even if only one line is written.
+        Whether words select the playing player: the number of players is then that of the name, even if only one line
+        is written.
     """
     if not notes:
         return TrackVoices([], [], [], [])
@@ -155,7 +157,7 @@ def split_voices(
 
 
 def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
-    """The places of notes struck together with one of their pitch that sounds as long or longer."""
+    """Indices of notes that duplicate another note of the same pitch and onset which lasts as long or longer."""
     found: set[int] = set()
     last: dict[int, int] = {}
     onsets, ends = spans.onsets.tolist(), spans.ends.tolist()
@@ -172,8 +174,9 @@ def _unisons(notes: Sequence[Note], spans: VoiceSpans) -> set[int]:
 
 
 def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> list[int]:
-    """The notes that find a free voice if each takes one until its release: no section is larger, so what sounds
-    beyond it is no music that could be saved."""
+    """Notes that find a free voice if each occupies one until its release; further notes exceed any section and are
+    dropped.
+    """
     sounding: list[float] = []
     kept = []
     onsets, releases = spans.onsets[order].tolist(), spans.releases[order].tolist()
@@ -187,11 +190,11 @@ def _first(spans: VoiceSpans, _: IntArray, order: IndexArray, count: int) -> lis
 
 
 def _playable(spans: VoiceSpans, pitches: IntArray, order: IndexArray, count: int) -> list[int]:
-    """The notes that so many players can play, by onset and from the highest; releases are brought forward, in place,
+    """Notes that this number of players can play, by onset and from the highest; releases are moved earlier in place
     where a player must leave a note for the next one.
 
-    Of more notes struck together than there are players the lowest are left out, and the lower of two that double each
-    other; else the note that ends first ends where the next one begins.
+    If more notes are struck together than there are players, the lowest are dropped, and the lower of two in octaves or
+    unison; otherwise the note that ends first is cut at the next onset.
     """
     onsets, _, releases = spans
     sounding: list[int] = []
@@ -241,7 +244,7 @@ def _voices(spans: VoiceSpans, pitches: IntArray, kept: list[int], count: int, t
 
 
 def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
-    """Return where the chord begins that each note belongs to; a note alone is its own."""
+    """Return the onset of the chord to which each note belongs; for a single note its own onset."""
     struck = onsets.tolist()
     begin, free = -1.0, -1.0
     for place, (onset, release) in enumerate(zip(struck.copy(), releases.tolist(), strict=True)):
@@ -253,8 +256,9 @@ def _chords(onsets: FloatArray, releases: FloatArray) -> FloatArray:
 
 
 def _legato(notes: Sequence[Note], spans: VoiceSpans, tempo_map: TempoMap) -> tuple[tuple[Note, ...], list[Note]]:
-    """The notes of one player, none of which lasts into the next longer than planning accepts; and those that did so
-    for longer than legato notes do."""
+    """Notes of one player with overlaps shortened to `LEGATO_OVERLAP_S`; and the original of each note that overlapped
+    by more than legato does.
+    """
     long = np.flatnonzero(spans.ends[:-1] > spans.onsets[1:] + LEGATO_OVERLAP_S)
     if not len(long):
         return tuple(notes), []
@@ -271,7 +275,7 @@ def _legato(notes: Sequence[Note], spans: VoiceSpans, tempo_map: TempoMap) -> tu
 
 
 def _move_together(spans: VoiceSpans, kept: IndexArray) -> bool:
-    """Return whether notes that sound together mostly begin together."""
+    """Return whether most notes that sound together also begin together."""
     own = spans.of(kept)
     together = np.flatnonzero(own.depths() > 1)
     begun = own.onsets[together] - own.onsets[np.maximum(together - 1, 0)] <= CHORD_S
@@ -280,7 +284,7 @@ def _move_together(spans: VoiceSpans, kept: IndexArray) -> bool:
 
 
 def _with_unisons(voices: list[tuple[Note, ...]], tempo_map: TempoMap) -> list[tuple[Note, ...]]:
-    """The voices with what one of them plays alone for a quarter or longer played by all."""
+    """The voices, with passages of a quarter or longer that one of them plays alone copied to all of them."""
     quarter = tempo_map.ticks_per_quarter
     rows = sorted(
         ((note.onset_tick, voice, note) for voice, notes in enumerate(voices) for note in notes),
@@ -315,7 +319,7 @@ def _with_unisons(voices: list[tuple[Note, ...]], tempo_map: TempoMap) -> list[t
 
 
 def _next(onsets: list[int], tick: int) -> float:
-    """The first onset at a tick or after it."""
+    """The first onset at or after a tick; infinity if there is none."""
     place = bisect_left(onsets, tick)
     return onsets[place] if place < len(onsets) else inf
 

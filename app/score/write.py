@@ -1,9 +1,8 @@
-"""Writes a score as a MIDI file of format 1: a conductor's track, one track for every part, and one for the percussion.
+"""Writes a score as a MIDI file of format 1: a conductor track, one track for each part, and one for percussion.
 
-What the file holds comes back as it was when `app.score.read` reads it: title, division, tempo, metres, pickup and
-markers; of every part its name, what plays it, every note's onset, length, pitch and velocity, and every step of its
-controller curves; of the percussion every hit, on channel 10 as General MIDI numbers it. What a MIDI file has no place
-for does not:
+`app.score.read` restores from the file: title, division, tempo, metres, pickup and markers; for every part its name,
+instrument, all notes (onset, length, pitch, velocity) and all controller steps; all percussion hits, on channel 10 with
+General MIDI numbers. MIDI cannot hold the following:
 
 - The notes of parts no one plays, the percussion aside; how long its notes were; ids of notes and parts, which count
   tracks and note-ons. Voices that shared a track get one each. A part without notes is written and not read as one.
@@ -20,9 +19,8 @@ for does not:
   the file sets for them, its end the highest of them (8191/8192). Texts lose control characters and spaces around them.
 - A metre that only restates the one before at a bar line; a short first bar is read as a pickup.
 
-The bite goes to controller 16 ("general purpose controller 1"): MIDI has no controller for it, and one that has a
-meaning (1, modulation; 77, vibrato depth) would add a vibrato to the one that was played. The standard leaves
-16 to each device.
+The bite is written to controller 16 ("general purpose controller 1"), which the standard leaves to devices: MIDI has no
+bite controller, and one with a meaning (1, modulation; 77, vibrato depth) would add vibrato to the one that was played.
 """
 
 from __future__ import annotations
@@ -65,12 +63,12 @@ _Event: TypeAlias = tuple[int, int, mido.Message | mido.MetaMessage]
 
 
 class PartPlayer(msgspec.Struct, frozen=True):
-    """Name and instrument choice of the player of a part.
+    """Name and instrument of the player of a part, for writing.
 
     Attributes
     ----------
     name : str
-        What the part's track is called.
+        Name of the part's track.
     choice : MapChoice
         The instrument.
     """
@@ -80,29 +78,29 @@ class PartPlayer(msgspec.Struct, frozen=True):
 
 
 class MidiFile(msgspec.Struct, frozen=True):
-    """A MIDI file, and what it could not hold."""
+    """Bytes of a MIDI file, and warnings about content that it cannot hold."""
 
     data: bytes
     warnings: tuple[Message, ...]
 
 
 def write_midi(score: Score, path: Path, performers: Mapping[str, PartPlayer] | None = None) -> tuple[Message, ...]:
-    """Write a score as a MIDI file, which appears whole or not at all.
+    """Write a score as a MIDI file; on failure no partial file remains.
 
     Parameters
     ----------
     performers : mapping of str to PartPlayer, optional
-        By part id; a part that is not there has its own name and what it is for.
+        Player of each part by part id; a missing part uses its own name and instrument.
 
     Returns
     -------
     tuple of Message
-        What the file could not hold.
+        Warnings about content that the file cannot hold.
 
     Raises
     ------
     AppError
-        ``midi.tempo_unwritable``; ``file.cannot_write``.
+        The tempo exceeds what MIDI can store, or the file cannot be written.
     """
     made = midi_file(score, performers)
     with atomic_write(path) as stream:
@@ -131,8 +129,9 @@ def midi_file(score: Score, performers: Mapping[str, PartPlayer] | None = None) 
 
 
 def _channels(parts: Sequence[Part], names: Sequence[str]) -> list[int]:
-    """A channel for each part: its own where it is the first to have it, else a free one, else one that no part of its
-    name has, for tracks of one name and channel may be read as one player's."""
+    """Choose a channel for each part: its own if no earlier part has it, else a free one, else one not used by a part
+    of the same name, since tracks with equal name and channel may be read as one player's.
+    """
     own: dict[int, int] = {}
     for index, part in enumerate(parts):
         if part.channel != DRUM_CHANNEL:
@@ -156,8 +155,7 @@ def _channels(parts: Sequence[Part], names: Sequence[str]) -> list[int]:
 
 
 def _instrument(part: Part, performer: PartPlayer | None) -> Instrument | None:
-    """Choose the instrument for readers of the file: the part's own where its player's map is for that, else the one
-    the map is for."""
+    """Instrument to write for a part: the part's own if the player's map fits it, else the map's instrument."""
     known = vocabulary().instruments
     own = known.get(part.instrument or "")
     if performer is None or (own is not None and _may_play(performer.choice, own)):
@@ -183,7 +181,7 @@ def _warnings(part: Part, name: str, performer: PartPlayer | None, score: Score)
 
 
 def _nested(notes: Sequence[Note]) -> int:
-    """Return how many notes end before one of their pitch that began before."""
+    """Return the number of notes that end before an earlier note of the same pitch does."""
     last_end: dict[int, int] = {}
     count = 0
     for note in sorted(notes, key=lambda note: (note.onset_tick, note.end_tick)):
@@ -236,7 +234,7 @@ def _part(part: Part, name: str, instrument: Instrument | None, channel: int) ->
 
 
 def _percussion(score: Score) -> list[_Event]:
-    """The hits, each until the next one of its sound, and a sixteenth at most."""
+    """Percussion hits as notes, each until the next hit of the same sound, at most a sixteenth."""
     events: list[_Event] = [(0, _OFF, mido.MetaMessage("track_name", name=vocabulary().instruments[_KIT].names[0]))]
     longest = max(score.ticks_per_quarter // 4, 1)
     again: dict[int, int] = {}
@@ -261,8 +259,9 @@ def _steps(curve: ControllerCurve, channel: int) -> list[_Event]:
 
 
 def _bends(curve: ControllerCurve, channel: int) -> list[_Event]:
-    """The steps of a pitch bend, after the range they need; said also where it is the usual one, since another part may
-    have set the channel's."""
+    """Pitch bend messages of a curve, preceded by the bend range they need; always written, since another part may have
+    set the channel's range.
+    """
     semitones = range_for(curve.values)
     events: list[_Event] = [
         (0, _PROGRAM, mido.Message("control_change", channel=channel, control=control, value=value))

@@ -1,4 +1,4 @@
-"""A take as a MIDI file of its own: format 1, a track of tempo and metre, a track of what was played."""
+"""Writes a take as a MIDI file of format 1: a track with tempo and metre, and a track with the played messages."""
 
 from __future__ import annotations
 
@@ -27,10 +27,11 @@ def write_take(
     beats_per_minute: float = 120.0,
     end_us: int | None = None,
 ) -> int:
-    """Write what was played from time 0 on; the number of notes.
+    """Write the messages from time 0 on, and return the number of notes.
 
-    Of what was before that stays how the controllers stood, and notes played a little early or still held, which begin
-    at 0. Notes that are held at the end end with it, and one that is struck again ends there: it is a wind instrument.
+    From messages before time 0 only controller states are kept, and notes that were played slightly early or are still
+    held, which are moved to 0. Notes held at the end are ended there; a note struck again ends first, since a wind
+    instrument sounds a pitch once.
 
     Parameters
     ----------
@@ -43,12 +44,12 @@ def write_take(
     beats_per_minute : float
         Quarters.
     end_us : int, optional
-        Where the take ends, if not with its last message.
+        End of the take; by default the time of the last message.
 
     Raises
     ------
     FileError
-        ``file.cannot_write`` (file, reason).
+        The file cannot be written.
     """
     last_us = max(end_us or 0, times_us[-1] if times_us else 0, 0)
     played = from_zero(ended(times_us, messages, last_us))
@@ -74,8 +75,9 @@ def write_take(
 
 
 def ended(times_us: Sequence[int], messages: Sequence[bytes], last_us: int) -> list[tuple[int, mido.Message]]:
-    """The messages with their times, and exactly one end for every note: where it is struck again too, and at last for
-    those without; ends without a begin are left out."""
+    """The messages with their times and exactly one end for every note, also before it is struck again and at the end
+    of the take; ends without a beginning are dropped.
+    """
     found: list[tuple[int, bytes]] = []
     sounding: SoundingNotes[None] = SoundingNotes()
     for time_us, message in zip(times_us, messages, strict=True):
@@ -91,7 +93,7 @@ def ended(times_us: Sequence[int], messages: Sequence[bytes], last_us: int) -> l
 
 
 def from_zero(played: Sequence[tuple[int, mido.Message]]) -> list[tuple[int, mido.Message]]:
-    """Shift a take's messages to start from time 0: see `write_take`."""
+    """Shift a take's messages to start at time 0, as `write_take` describes."""
     state: dict[tuple[object, ...], mido.Message] = {}
     begun: dict[tuple[int, int], tuple[int, mido.Message]] = {}
     early: list[mido.Message] = []
