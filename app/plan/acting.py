@@ -1,4 +1,4 @@
-"""Amounts of each layer for a player: the parameters, adjusted by style and habits."""
+"""Amount of each layer of acting for a player: the parameters, scaled by style and habits."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ from metadata.acting import AMOUNTS, Habit, Style, names_in
 
 
 class Acting(msgspec.Struct, frozen=True):
-    """Amounts of a player's layers; 1 is what a good concert shows, 0 nothing of the layer.
+    """Amounts of a player's layers of acting; 1 is the level of a good concert, 0 switches the layer off.
 
     Attributes
     ----------
     sway, weight_shift, bell_height : float
         Leaning with the music, moving from foot to foot, the bell with the melody.
     phrase : float
-        What trunk and head do by phrase, bar and accent.
+        Motion of trunk and head with phrase, bar and accent.
     stillness : float
         Share 0..1 of the bars in which trunk and head keep still.
     footwork, tap : float
-        Heels, steps to the other foot; how often toes tap with the beat.
+        Amount of heel lifts and steps to the other foot; frequency of toe taps with the beat.
     breath : float
-        How much chest, belly and shoulders show the air.
+        How visibly chest, belly and shoulders breathe.
     cue : float
         Size of nods and bell at an entry.
     face : float
         Brows, lids, cheeks and nostrils.
     lips : float
-        What the lips do within a held note.
+        Lip motion within a held note.
     gaze : float
-        How much the eyes leave the music.
+        Frequency of looks away from the music.
     blink : float
-        How often the lids close.
+        Frequency of blinks.
     gestures : float
-        What is done before the first note, in long rests and after the last.
+        Amount of gestures before the first note, in long rests and after the last note.
     """
 
     sway: float = 1.0
@@ -74,7 +74,7 @@ _NOT_BY_SECTION: Final = frozenset({"stillness", "blinks"})
 
 
 def acting_of(parameters: PlayerParameters) -> Acting:
-    """Acting of a player with these parameters, in which style and habits are included already; see `with_style`."""
+    """Acting of a player with these parameters, which must already include style and habits; see `with_style`."""
     usual = Acting()
     shown = {}
     for name in AMOUNTS:
@@ -90,15 +90,15 @@ def with_style(
     styles: Mapping[str, Style],
     habits: Mapping[str, Habit],
 ) -> PlayerParameters:
-    """The parameters with what style, habits, the player's own variation and the whole section make of the amounts;
-    those of layers that are off are 0.
+    """Return the parameters with their amounts scaled by style, habits, the player's own variation and the section's
+    intensity; amounts of disabled layers become 0.
 
-    To be done once. A style, habit or layer that is not there changes nothing.
+    Apply only once. Unknown styles, habits and layers have no effect.
 
     Parameters
     ----------
     section_intensity : float
-        Multiplies what everybody shows.
+        Factor for the acting of all players.
     """
     style = styles.get(parameters.style)
     factors = [] if style is None else [style.factors]

@@ -1,8 +1,8 @@
-"""Doubling: changes of one musician between several instruments, and the remaining plan for each.
+"""Doubling: changes of a musician between several instruments, and the events that remain for each.
 
-The change is in the middle of the rest between the last note of one and the first of the next: the first is put aside,
-the hand moves, the second is picked up. Players are assumed to need about two seconds: the three steps at an
-unhurried pace and a small margin.
+A change is in the middle of the rest between the last note of one instrument and the first of the next: the first is
+put aside, the hand moves, the second is picked up. About two seconds are assumed: three steps at an unhurried pace and
+a small margin.
 """
 
 from __future__ import annotations
@@ -39,11 +39,12 @@ class InstrumentChange(msgspec.Struct, frozen=True):
     before, after : str
         Ids of the players of the two.
     start_s, put_s, taken_s, end_s : float
-        When the first leaves its place, when it is put aside, when the hand reaches the second, and when that is up.
+        Times at which the first instrument leaves its place, it is put aside, the hand reaches the second, and the
+        second is up.
     rest_s : float
-        From the end of the last note to the start of the next; negative where they sound at once.
+        Seconds from the end of the last note to the start of the next; negative if they overlap.
     note_id : str
-        Of that next note.
+        Id of the next note.
     """
 
     before: str
@@ -57,12 +58,13 @@ class InstrumentChange(msgspec.Struct, frozen=True):
 
 
 def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
-    """Return when a musician changes: after a note, and where there is the time before the breath for the next one.
+    """Return the instrument changes of a musician: between two notes, before the breath for the second one if there is
+    time.
 
     Parameters
     ----------
     played : mapping of str to PlayerPlan
-        By player, in order: everything the musician plays.
+        Plans of all players that the musician plays, in order.
     """
     rows = [
         (event.start_s, event.end_s, place, player, event.note_id)
@@ -94,7 +96,7 @@ def changes(played: Mapping[str, PlayerPlan]) -> tuple[InstrumentChange, ...]:
 
 
 def in_hands(player_id: str, first: str, found: Sequence[InstrumentChange]) -> tuple[tuple[float, float], ...]:
-    """Return when a player's instrument is in the hands of a musician who begins with that of ``first``."""
+    """Return the spans in which a player's instrument is in hand, for a musician who begins with that of ``first``."""
     spans, since_s = [], float("-inf") if player_id == first else None
     for change in found:
         if change.before == player_id and since_s is not None:
@@ -108,7 +110,7 @@ def in_hands(player_id: str, first: str, found: Sequence[InstrumentChange]) -> t
 
 
 def first_played(played: Mapping[str, PlayerPlan]) -> str:
-    """The player whose instrument a musician holds at the start."""
+    """The player whose instrument the musician holds at the start."""
     begun = [
         (plan.fingerings[0].start_s, place, player)
         for place, (player, plan) in enumerate(played.items())
@@ -130,7 +132,7 @@ E = TypeVar("E", bound=_Event)
 
 
 def held_plan(plan: PlayerPlan, first: str, found: Sequence[InstrumentChange], names: Mapping[str, str]) -> PlayerPlan:
-    """Player's plan for one instrument: events while it is put aside are removed, except manual corrections.
+    """A player's plan without the events while the instrument is put aside; manual corrections stay.
 
     Parameters
     ----------
@@ -139,13 +141,13 @@ def held_plan(plan: PlayerPlan, first: str, found: Sequence[InstrumentChange], n
     found : sequence of InstrumentChange
         The musician's, in order.
     names : mapping of str to str
-        Names of players, by id.
+        Names of players by id.
     """
     spans = in_hands(plan.player_id, first, found)
     ends_s = [end_s for _, end_s in spans]
 
     def meets(start_s: float, end_s: float) -> bool:
-        """Return whether an event takes place while the instrument is in the hands."""
+        """Return whether an event overlaps a span with the instrument in hand."""
         first = bisect_right(ends_s, start_s)
         return first < len(spans) and spans[first][0] < end_s
 

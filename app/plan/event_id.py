@@ -1,4 +1,4 @@
-"""Ids of events: a kind, and what the event belongs to. They stand in users' files."""
+"""Ids of events: a kind, and the note, tick or name it belongs to. They are stored in project files."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ MOST_DIGITS: Final = 10
 
 
 class EventId(NamedTuple):
-    """An id in its parts; its text is ``"<kind>:<of>"``, from the second breath within a note on ``"<kind>.2:<of>"``.
+    """Parts of an event id; its text is ``"<kind>:<of>"``, from the second breath within a note on ``"<kind>.2:<of>"``.
 
     Attributes
     ----------
     kind : str
     of : str
-        Id of a note, ``"@"`` and a tick, a name; or a rule and one of these.
+        A note id, ``"@"`` and a tick, or a name; or a rule followed by one of these.
     number : int
-        Counts those of one kind that belong to the same.
+        Counts events of one kind at the same place, from 1.
     """
 
     kind: str
@@ -28,13 +28,13 @@ class EventId(NamedTuple):
     @classmethod
     @lru_cache(maxsize=8192)
     def parse(cls, text: str) -> EventId:
-        """Return the parts of an id; kept, since planning asks for those of each breath several times."""
+        """Parse an id; cached, since planning parses those of each breath several times."""
         numbered, _, of = text.partition(":")
         kind, _, number = numbered.partition(".")
         return cls(kind, of, int(number) if number.isdecimal() and len(number) < MOST_DIGITS else 1)
 
     def __str__(self) -> str:
-        """Return the id."""
+        """Return the id as text."""
         return f"{self.kind}:{self.of}" if self.number == 1 else f"{self.kind}.{self.number}:{self.of}"
 
     @property
@@ -44,7 +44,7 @@ class EventId(NamedTuple):
 
     @property
     def places(self) -> Iterator[str]:
-        """Possible names of the note or the tick: ``of``, and its rest behind each colon (``strained:1:5``)."""
+        """Possible note ids or ticks in the id: ``of``, and the rest of it after each colon (``strained:1:5``)."""
         rest = self.of
         yield rest
         while ":" in rest:

@@ -1,4 +1,4 @@
-"""Events that are only made by hand: poses held and curves laid over what is generated."""
+"""Events that exist only by hand: held poses, styles and additive curves."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ PoseTarget: TypeAlias = Literal["bell", "head", "left_elbow", "right_elbow", "to
 
 
 class PoseEvent(msgspec.Struct, frozen=True, gc=False):
-    """A part of the body held differently over a span: whole from ``start_s`` to ``end_s``, with a fade before and one
-    after it. Angles as in `app.plan.by_hand.corrections.PoseCorrection`."""
+    """A part of the body posed differently from ``start_s`` to ``end_s``, with a fade before and after. Angles as in
+    `app.plan.by_hand.corrections.PoseCorrection`.
+    """
 
     id: str
     target: PoseTarget
@@ -33,8 +34,9 @@ class PoseEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class StyleEvent(msgspec.Struct, frozen=True, gc=False):
-    """A region in which the player plays in another style: ``acting`` is what is shown in it, ``usual`` what elsewhere.
-    It comes and goes within the region."""
+    """A span in which a player plays in another style: ``acting`` within it, ``usual`` elsewhere. The style fades in
+    and out within the span.
+    """
 
     id: str
     style: str
@@ -66,9 +68,10 @@ class CurveSegment(msgspec.Struct, frozen=True, gc=False):
 
 
 class AdditiveEvent(msgspec.Struct, frozen=True, gc=False):
-    """A curve that is added to a channel (`app.plan.by_hand.additive_curve`). Ticks are of its first and last key,
-    seconds from when it begins to come in to when it is gone. ``low`` and ``high`` are how far the channel goes; values
-    are in the channel's unit, weighted."""
+    """A curve added to a channel (`app.plan.by_hand.additive_curve`). Ticks are those of its first and last key;
+    seconds include fading in and out. ``low`` and ``high`` are the limits of the channel; values are in its unit,
+    weighted.
+    """
 
     id: str
     channel: str

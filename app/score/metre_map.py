@@ -298,7 +298,9 @@ class MetreMap(msgspec.Struct, frozen=True, dict=True):
 
 
 def _beats(starts: IntArray, counts: IntArray, wholes: IntArray, denominators: IntArray) -> tuple[IntArray, IntArray]:
-    """Place ``counts`` beats of ``wholes / denominators`` ticks after each start, and number them from 0 within each."""
+    """Place ``counts`` beats of ``wholes / denominators`` ticks after each start, and number them from 0 within
+    each.
+    """
     before = np.cumsum(counts) - counts
     numbers = np.arange(counts.sum()) - np.repeat(before, counts)
     ticks: IntArray = np.repeat(starts, counts) + numbers * np.repeat(wholes, counts) // np.repeat(denominators, counts)

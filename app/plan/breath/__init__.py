@@ -1,1 +1,1 @@
-"""Breaths: where they are taken, how deep, and how far the air reaches."""
+"""Breaths: their places and depths, and the air supply."""

@@ -1,4 +1,4 @@
-"""The air there is at each note, by the breaths that rests, silences and the animator give."""
+"""Air supply at each note, given the breaths in rests, in silences and by hand."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from app.plan.music.piece import EPSILON
 
 
 class GivenBreaths(NamedTuple):
-    """The breaths that rests, silences and the animator give.
+    """Breaths that are decided before the search for catch breaths: in rests, in silences and by hand.
 
     Attributes
     ----------
     generated : tuple of BreathEvent
-        What the rules made of rests, ...
+        Breaths that the rules made in rests.
     kept : tuple of BreathEvent
-        ... less what was removed or set by hand.
+        The generated ones without those removed or set by hand.
     may : (N,) bool
-        Before which notes the rules may make a breath.
+        Mask of notes before which the rules may add a breath.
     """
 
     generated: tuple[BreathEvent, ...]
@@ -35,16 +35,16 @@ class GivenBreaths(NamedTuple):
 
 
 class AirStock(NamedTuple):
-    """The air there is without catch breaths, and what these could bring.
+    """Air supply without catch breaths, and the air that catch breaths could add.
 
     Attributes
     ----------
     used, steady_used : (N + 1,) float
-        As of `BreathScore`, less what breaths within notes and through the nose bring.
+        As in `BreathScore`, less the air gained by breaths within notes and through the nose.
     refill : (N,) float
-        Part of the lungs that the breath before each note fills.
+        Share of the lungs filled by the breath before each note.
     air_s : (N,) float
-        How much air there is at each note.
+        Seconds of air available at each note.
     """
 
     used: FloatArray
@@ -55,7 +55,9 @@ class AirStock(NamedTuple):
 
 
 def air_stock(breather: Breather, score: BreathScore, given: GivenBreaths, spare: dict[int, BreathEvent]) -> AirStock:
-    """Air that each note uses and that each breath before a note can draw, for the search for breaths."""
+    """Air used by each note, and air that a breath before each note can add, as input of the search for catch
+    breaths.
+    """
     times, lung_s = breather.times, score.lung_s
     used, steady_used, refill = air_taken(breather, score, given, spare)
     length_s = catch_lengths_s(score.steady, times, score.rests.sounding_tick)
@@ -77,8 +79,9 @@ def air_stock(breather: Breather, score: BreathScore, given: GivenBreaths, spare
 def air_taken(
     breather: Breather, score: BreathScore, given: GivenBreaths, spare: Collection[int] = ()
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The air used, as it is played and at the tempo of the score, and the part of the lungs that the breath before
-    each note fills; rests before notes of ``spare`` give none."""
+    """Air used (as played, and at the score's tempo), and the share of the lungs filled by the breath before each note;
+    rests before notes in ``spare`` add none.
+    """
     refill = np.zeros(len(breather.notes))
     within: dict[int, list[_Within]] = {}
     for event in (*given.kept, *given.by_hand):
@@ -98,7 +101,7 @@ def air_taken(
 
 
 class _Within(NamedTuple):
-    """A breath within a note, and the part of the lungs that it fills."""
+    """A breath within a note: its start, and the share of the lungs it fills."""
 
     start_s: float
     end_s: float
@@ -113,8 +116,9 @@ def _breathe_within(
     refill: FloatArray,
     lung_s: float,
 ) -> None:
-    """Count breaths within a note, each its start and the part of the lungs it fills: lungs are counted from note to
-    note, so what is held before the first of them is counted with the note before, as if they came before this one."""
+    """Account for breaths within a note. Lungs are counted from note to note, so the air used before the first such
+    breath is added to the previous note, as if the breaths came before this note.
+    """
     onset_s, end_s = float(breather.times.onset_s[index]), float(breather.times.played_end_s[index])
     first_s, last_s = max(breaths[0].start_s - onset_s, 0.0), max(end_s - breaths[-1].end_s, 0.0)
     held_s = end_s - breaths[0].start_s - sum(breath.end_s - breath.start_s for breath in breaths)
@@ -131,7 +135,7 @@ def _breathe_within(
 
 
 def _lasts_s(score: BreathScore, breather: Breather, event: BreathEvent) -> float:
-    """Return how long a breath is, as the score would have it where a rest gives it."""
+    """Return the length of a breath in seconds; for one in a rest, at the tempo of the score."""
     index, length_s = breather.number_of(event), event.end_s - event.start_s
     if index == 0 or event.corrected or score.gaps is not None or event.is_within:
         return length_s

@@ -1,4 +1,4 @@
-"""Depths of breaths, and places where their air does not last."""
+"""Depths of breaths, and problems where the air does not last."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ LEAST_DEPTH = 0.3
 def with_depths(
     events: tuple[BreathEvent, ...], used: FloatArray, lung_s: float, refill: FloatArray, index_of: dict[str, int]
 ) -> tuple[BreathEvent, ...]:
-    """Depths by what the phrase to come needs, within what the time allows. Those set by hand stay."""
+    """Set the depth of each breath to what the next phrase needs, limited by the available time. Depths set by hand
+    stay.
+    """
     breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()
     result = []
     for event in events:
@@ -40,7 +42,7 @@ def with_depths(
 def too_long(
     notes: tuple[Note, ...], times: LineTimes, used: FloatArray, lung_s: float, refill: FloatArray
 ) -> list[Problem]:
-    """Problems of stretches that take more air than there is."""
+    """A problem for each stretch of notes that needs more air than is available."""
     level = levels(used, lung_s, refill)
     starts: IntArray = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
     ends = np.append(starts[1:], len(notes))

@@ -1,12 +1,12 @@
-"""Breaths of a player.
+"""Plans the breaths of a player.
 
-Which rests are breathed in says `app.plan.breath.rests_for_breath`: by seconds, playing and air. How, says the length
-of the rest in felt beats (T6 of the 2018 thesis; the thresholds are the player's): below last_beat the breath takes the
-whole rest; in [last_beat, prepare) the last beat; from prepare on a preparatory motion comes in the beat before that.
-Every breath ends at the onset it serves. Where no rest serves within the lungs' budget, and at clear ends of phrases
-once some of the air is used, a catch breath is taken: in the short silence there, or out of the tail of the note
-before, whose lips then leave early while its sound stays. In runs whose notes are too short for that the player leaves
-out a note: its lips leave at once.
+`app.plan.breath.rests_for_breath` chooses the rests to breathe in by their length in seconds, the playing before, and
+the air left. The length of the rest in felt beats decides the kind of breath (T6 of the 2018 thesis; the thresholds are
+player parameters): below last_beat the breath takes the whole rest; in [last_beat, prepare) the last beat; from prepare
+on a preparatory motion is added in the beat before. Every breath ends at the onset that follows it. If no rest comes
+before the air runs out, and at clear phrase ends once some air is used, a catch breath is taken in a short silence or
+out of the tail of the previous note, whose lips then leave early while its sound goes on. If running notes are too
+short for that, the player leaves out a note.
 """
 
 from __future__ import annotations
@@ -40,18 +40,18 @@ from instrument_maps.wind import Air
 
 
 class BreathPlan(msgspec.Struct, frozen=True):
-    """Breaths of a line, with what else follows from them.
+    """Breaths of a part, and the notes they shorten or replace.
 
     Attributes
     ----------
     generated_ids : frozenset of str
-        Every event the rules made, removed ones among them.
+        Ids of all events that the rules made, including removed ones.
     early_end_s : dict of int to float
-        Notes (by index) whose lips leave early for a catch breath, and when.
+        By note index: time at which the lips leave early for a catch breath.
     catches : tuple of int
-        Notes (by index) before which a catch breath is taken; players of the same part avoid them.
+        Indices of notes with a catch breath before them; other players of the same part avoid these places.
     left_out : tuple of int
-        Notes (by index) that are left out for catch breaths; players of the same rhythm leave out others.
+        Indices of notes left out for catch breaths; other players of the same rhythm leave out different ones.
     """
 
     events: tuple[BreathEvent, ...]
@@ -76,21 +76,20 @@ def plan_breaths(
     envelope: BreathEnvelope | None,
     written: WrittenMarks | None = None,
 ) -> BreathPlan:
-    """Place every breath of a line.
+    """Place every breath of a part.
 
     Parameters
     ----------
     air : Air or None
-        How long a lungful lasts on the instrument, as its map says.
+        Air use of the instrument, from its map.
     shared : BreathConstraints
-        Where others of a unison breathe.
+        Places where other players in unison breathe.
     seeds : Seeds
-        What distinguishes this player where places are equally good.
+        Random choice between equally good places, different for each player.
     envelope : BreathEnvelope or None
-        The breath that was blown. Where it shows breaths, they are where it has gaps and nowhere else but at breath
-        marks.
+        The recorded breath. If it shows breaths, they are placed in its gaps and at breath marks only.
     written : WrittenMarks, optional
-        Breath marks, at which a breath is always taken, and slurs, within which none is taken while there is air.
+        Breath marks, where a breath is always taken, and slurs, within which none is taken while there is air.
     """
     if not notes:
         return BreathPlan((), (), frozenset(), {}, ())
@@ -122,14 +121,14 @@ def plan_breaths(
 
 
 class _RestsUsed(NamedTuple):
-    """Breaths in rests that are taken.
+    """Rests that are used for breathing.
 
     Attributes
     ----------
     needs, decided : RestNeeds, Decided
-        By note.
+        Conditions and decisions for each note.
     spare : dict of int to BreathEvent
-        The breaths in rests that are not needed, by their notes.
+        Breaths in rests that are not needed, by note index.
     """
 
     needs: RestNeeds
@@ -169,8 +168,9 @@ def _given(
 
 
 def _is_unused(breather: Breather, score: BreathScore, event: BreathEvent) -> bool:
-    """Return whether no breath is taken in a rest, unless as a catch breath: the rest is too short without a part of
-    the note before, or it is under a slur."""
+    """Return whether a rest gets no breath except possibly a catch breath: it is too short without shortening the
+    previous note, or it is under a slur.
+    """
     index = breather.number_of(event)
     is_marked = index > 0 and bool(breather.written.breath[index - 1])
     if event.end_s - event.start_s < CATCH_MIN_S - EPSILON and (is_marked or breather.parameters.breath_need > 0.0):
@@ -180,7 +180,7 @@ def _is_unused(breather: Breather, score: BreathScore, event: BreathEvent) -> bo
 
 
 def _rests_used(breather: Breather, score: BreathScore, given: GivenBreaths) -> _RestsUsed:
-    """Decide which rests are breathed in: the first breath, those set by hand, written and blown always are."""
+    """Choose the rests to breathe in; the first breath and breaths set by hand, written or recorded are always used."""
     _, steady_used, refill = air_taken(breather, score, given)
     needs = rest_needs(score.rests.lasts_s, breather.parameters.breath_need, score.lung_s)
     certain = [*breather.marked, *(breather.number_of(event) for event in given.by_hand)]
@@ -201,7 +201,7 @@ def _rests_used(breather: Breather, score: BreathScore, given: GivenBreaths) -> 
 def _in_rests(
     breather: Breather, score: BreathScore, given: GivenBreaths, rests: _RestsUsed, catches: list[int]
 ) -> list[BreathEvent]:
-    """The breaths in rests that are taken, each with its preparation and its reason; catch breaths among them."""
+    """Breaths taken in rests, each with its preparation and reason, including catch breaths in rests."""
     unused = rests.spare.keys() - set(catches)
     result = []
     for event in given.kept:
@@ -222,7 +222,9 @@ def _in_rests(
 
 
 def _cut_notes(breather: Breather, events: tuple[BreathEvent, ...]) -> tuple[dict[int, float], list[Problem]]:
-    """The notes whose lips leave early for a breath, and when; what is to be said where a hand set it so."""
+    """Notes whose lips leave early for a breath, with the time; and problems if a breath set by hand cuts a note too
+    much.
+    """
     times = breather.times
     early_end_s: dict[int, float] = {}
     problems = []

@@ -1,4 +1,4 @@
-"""The breaths in rests, or in the silences of a recorded breath."""
+"""Breaths in rests, or in the silences of a recorded breath curve."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def rest_breaths(
     frame: TimeFrame,
     rests: Rests,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths that the rests may give, by the thresholds; `because` says why each is taken."""
+    """Breaths in rests, shaped by the thresholds; `because` adds the reason for each."""
     silence, written = rests.sounding_tick.astype(np.float64), rests.written_tick.astype(np.float64)
     silence[0] = written[0] = _before_first(times, piece, frame)
     beats = piece.beat_ticks_at(times.onset_tick)
@@ -58,9 +58,9 @@ def blown_breaths(
     frame: TimeFrame,
     gaps: BreathGaps,
 ) -> tuple[BreathEvent, ...]:
-    """The breaths of a recorded breath curve: in the gaps, each shaped by its length as in a rest.
+    """Breaths in the gaps of a recorded breath curve, each shaped by its length as in a rest.
 
-    What the rests of the score say counts only before the first note and before notes that were not blown.
+    Rests of the score are used only before the first note and before notes without recorded breath.
     """
     known = np.flatnonzero(gaps.length_s >= BREATH_S - EPSILON)
     end_tick, end_s = times.onset_tick.copy(), times.onset_s.copy()
@@ -99,13 +99,13 @@ class _Silences(NamedTuple):
     Attributes
     ----------
     serving : (K,) int64
-        The notes before which a breath is taken.
+        Indices of the notes after the silences.
     silence : (N,) float64
-        Ticks of silence before each note as written, which decides the kind of breath ...
+        Written length in ticks of the silence before each note; decides the kind of breath.
     room : (N,) float64
-        ... as it sounds, which the breath has to fit into ...
+        Length in ticks of the silence as it sounds; limits the breath.
     end_tick, end_s : (N,)
-        ... and where it ends.
+        End of the silence.
     """
 
     serving: IntArray
@@ -116,7 +116,7 @@ class _Silences(NamedTuple):
 
 
 class _Report(NamedTuple):
-    """Reasons of breaths and their preparations: by note, length in beats, and thresholds."""
+    """Data for the reasons of breaths and preparations: note, length in beats, and thresholds."""
 
     breath: Callable[[int, float, bool, bool], Message]
     preparation: Callable[[int, float], Message]
@@ -131,7 +131,7 @@ def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
 def _in_silences(
     notes: tuple[Note, ...], silences: _Silences, piece: Piece, parameters: PlayerParameters, reported: _Report
 ) -> tuple[BreathEvent, ...]:
-    """Breaths in silences, by the thresholds."""
+    """Breaths in the given silences, shaped by the thresholds."""
     serving, silence, room, end_tick, end_s = silences
     beats = piece.beat_ticks_at(end_tick)
     rests, beat = silence / beats, beats[serving]
@@ -166,7 +166,7 @@ def _event(id: str, start: tuple[int, float], end: tuple[int, float], reason: Me
 
 
 def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Message) -> BreathEvent:
-    """A breath from one second to another."""
+    """A breath between two times in seconds."""
     start, end = ((round(piece.clock.ticks(at_s)), at_s) for at_s in (start_s, end_s))
     return _event(id, start, end, reason)
 
@@ -194,7 +194,9 @@ def _rest_reason(
 
 
 def because(reason: Message, why: Mapping[str, Argument]) -> Message:
-    """The reason of a breath in a rest, with why it is taken: ``why`` is the id of a text, the rest its arguments."""
+    """Add to the reason of a breath in a rest why the rest is used; ``why`` has the id of that text and its
+    arguments.
+    """
     return reason if reason.id == "breath.first" else Message(reason.id, {**reason.arguments, **why})
 
 
@@ -210,5 +212,5 @@ def within_note(note: Note, piece: Piece, start_s: float, end_s: float) -> Breat
 
 @lru_cache(maxsize=1024, typed=True)
 def _preparation(rest_beats: float, prepare_beats: float) -> Message:
-    """Equal ones are kept once: there are thousands. Of equal numbers a whole one is said otherwise."""
+    """Message about a preparatory motion; cached, so that thousands of equal messages share one object."""
     return Message("breath.preparation", {"rest_beats": rest_beats, "prepare_beats": prepare_beats})

@@ -1,7 +1,7 @@
-"""Possible lengths of a catch breath before each note of a part.
+"""Available time for a catch breath before each note of a part.
 
-It is taken in the silence there, and out of the tail of the note before; where that is too little, notes are left out
-for it, and the one before them is shortened: as players do in running notes that nothing interrupts.
+A catch breath uses the silence before the note and part of the previous note's tail. If that is too short, notes are
+left out and the note before them is shortened, as players do in uninterrupted running notes.
 """
 
 from __future__ import annotations
@@ -33,16 +33,16 @@ MOST_DROPPED = 2
 
 @dataclass(frozen=True, eq=False)
 class Room:
-    """Room for a catch breath before each note, each (N,); 0 where there is none.
+    """Time for a catch breath before each note, each array (N,); 0 where none is possible.
 
     Attributes
     ----------
     length_s : float64
-        How long it is, with every note begun.
+        Length in seconds without leaving out a note.
     drop_s : float64
-        How long it is where notes are left out for it; only where there is no other.
+        Length in seconds if notes are left out; 0 where ``length_s`` is not.
     dropped : int64
-        How many notes before it are left out.
+        Number of notes before it that are left out.
     """
 
     length_s: FloatArray
@@ -51,17 +51,17 @@ class Room:
 
     @property
     def lasts_s(self) -> FloatArray:
-        """(N,): how long it is, of the one kind or the other."""
+        """Length (N,) in seconds of a catch breath before each note, with or without notes left out."""
         return np.where(self.length_s > 0.0, self.length_s, self.drop_s)
 
     def with_marks(self, marked: Sequence[int], times: LineTimes) -> Room:
-        """The room where breath marks of the score stand before some notes: as long as the note before allows, however
-        short that is, and no note around is left out for another breath.
+        """Apply breath marks of the score: before marked notes the breath may be as long as the previous note allows,
+        however short, and notes around marks are not left out for other breaths.
 
         Parameters
         ----------
         times : LineTimes
-            The line as it sounds.
+            Times of the notes as they sound.
         """
         if not marked:
             return self
@@ -74,25 +74,25 @@ class Room:
         return Room(length_s, np.where(free, self.drop_s, 0.0), self.dropped)
 
     def left_out(self, catches: Sequence[int]) -> tuple[int, ...]:
-        """The notes (by index) that are left out for catch breaths before some notes."""
+        """Indices of the notes left out for the given catch breaths."""
         dropping = [index for index in catches if self.length_s[index] == 0.0]
         return tuple(note for index in dropping for note in range(index - int(self.dropped[index]), index))
 
     def apart(self, catches: Sequence[int]) -> list[int]:
-        """Keep those catch breaths that are not taken before a note that is itself left out for the next."""
+        """Drop catch breaths before notes that are themselves left out for the next catch breath."""
         gone = set(self.left_out(catches))
         return [index for index in catches if index not in gone]
 
 
 def catch_lengths_s(score: LineTimes, times: LineTimes, rests: IntArray) -> FloatArray:
-    """(N,): how long a catch breath before each note may be: the rest there, else also a part of the note before.
+    """Longest catch breath (N,) in seconds before each note: the rest plus a part of the previous note.
 
     Parameters
     ----------
     score : LineTimes
-        The line at the tempo of the score, which decides whether there is a breath ...
+        Times at the tempo of the score, which decide whether a breath is possible.
     times : LineTimes
-        ... and as it sounds, which may leave less room for it.
+        Times as they sound, which may leave less room.
     rests : (N,) int64
         Ticks of rest before each note; a silence without a rest is the end of a detached note.
     """
@@ -111,8 +111,8 @@ def _length_s(times: LineTimes, rests: IntArray, least_s: float) -> FloatArray:
 
 
 def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntArray]:
-    """Return how long a catch breath before each note may be that takes the place of the notes before, and of how many:
-    as few as will do. The first note of a line is never left out.
+    """Return the length of a catch breath before each note that replaces previous notes, and the number of notes
+    replaced, as few as possible. The first note of a part is never replaced.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntA
     Returns
     -------
     (N,) float64, (N,) int64
-        0 where `MOST_DROPPED` notes give no breath either.
+        Length in seconds and number of notes; 0 if even `MOST_DROPPED` notes give no breath.
     """
     count = len(times.onset_s)
     length_s, dropped = np.zeros(count), np.zeros(count, np.int64)
@@ -139,7 +139,7 @@ def drop_lengths_s(score: LineTimes, times: LineTimes) -> tuple[FloatArray, IntA
 
 
 def _left_out_s(times: LineTimes, notes: int) -> tuple[FloatArray, FloatArray]:
-    """(N - notes - 1,): the usual and the longest duration of a breath for which a number of notes is left out."""
+    """Usual and longest duration (N - notes - 1,) of a breath that replaces this number of notes."""
     span_s = times.onset_s[notes + 1 :] - times.onset_s[1:-notes] + gaps_s(times)[1:-notes]
     before_s = times.duration_s[: -notes - 1]
     share_s = CATCH_NOTE_SHARE * before_s

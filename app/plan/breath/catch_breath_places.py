@@ -1,4 +1,4 @@
-"""Best places for catch breaths: where no rest comes in time, and at clear ends of phrases."""
+"""Chooses the places of catch breaths: where the air would run out before the next rest, and at clear phrase ends."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ NEAR = MOST_DROPPED
 
 
 class AirSupply(NamedTuple):
-    """The air of a line.
+    """Air supply of a part.
 
     Attributes
     ----------
@@ -47,9 +47,9 @@ class AirSupply(NamedTuple):
     lung_s : float
         `lungful_s`.
     refill : (N,) float64
-        Part of the lungs that the breath before each note fills; 0 where there is none.
+        Share of the lungs filled by the breath before each note; 0 without a breath.
     free_s : float
-        Air that is used before a breath is taken for a phrase's end alone.
+        Seconds of air that must be used before a breath is taken for a phrase end alone.
     """
 
     used: FloatArray
@@ -59,20 +59,20 @@ class AirSupply(NamedTuple):
 
 
 def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: IntArray, room: Room) -> list[int]:
-    """Indices of the notes before which a catch breath is taken.
+    """Indices of the notes with a catch breath before them.
 
-    Between two breaths that the rests give, the cheapest chain of places such that no stretch takes more air than
-    there is (a shortest path; the cost of a place falls with how good a phrase end it is, and below 0 at a clear one).
-    Where nothing helps, the stretch stays.
+    Between two given breaths, finds the cheapest chain of places such that no stretch needs more air than there is (a
+    shortest path; a place costs less the better a phrase end it is, and below 0 at a clear one). If no chain suffices,
+    the stretch stays short of air.
 
     Parameters
     ----------
     may : (N,) bool
-        Before which notes the rules may place a breath.
+        Mask of notes before which the rules may place a breath.
     missing : (N,) int64
-        How many other players of the same rhythm leave out each note.
+        Number of other players of the same rhythm that leave out each note.
     room : Room
-        What is left out of a line is left out only where nothing else gives the air.
+        Available time before each note; notes are left out only if nothing else gives enough air.
     """
     used, lung_s, refill, free_s = lungs
     level = levels(used, lung_s, refill)
@@ -119,7 +119,9 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
 
 
 def _stretches(lungs: AirSupply, level: FloatArray) -> list[tuple[int, int, bool]]:
-    """The notes from one given breath to the next where a catch breath may be taken, and whether air is short there."""
+    """Stretches of notes between given breaths in which a catch breath is possible, and whether each is short of
+    air.
+    """
     used, lung_s, refill, free_s = lungs
     starts = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
     ends = np.append(starts[1:], len(refill))
@@ -130,7 +132,9 @@ def _stretches(lungs: AirSupply, level: FloatArray) -> list[tuple[int, int, bool
 
 
 def _dropping_costs(line: ComparedLine, at: IntArray, dropped: IntArray, missing: IntArray) -> FloatArray:
-    """(K,): what breaths cost that notes before are left out for: as one before those would, and for these."""
+    """Costs (K,) of breaths that replace notes: the cost of a breath before the replaced notes plus that of leaving
+    them out.
+    """
     cost = place_costs(line, at - dropped, dropped)
     cost += DROPPED_COST * dropped + slur_costs(line, at)
     before = np.concatenate(([0], np.cumsum(missing)))
@@ -142,23 +146,23 @@ def _dropping_costs(line: ComparedLine, at: IntArray, dropped: IntArray, missing
 def cheapest_chain(
     used: bytes, played: bytes, cost: bytes, drawn: bytes, level: float, lung_s: float, free_s: float, *, steps: int = 1
 ) -> tuple[tuple[int, ...], bool]:
-    """The places, and whether the air lasts with them.
+    """Return the cheapest places of catch breaths in one stretch, and whether the air lasts with them.
 
-    Label by label: what is left of the best way so far, and what the catch breath adds, is the air of a place. That way
-    may leave too little air for what follows; in several steps the best way to each amount of air is kept.
+    Label-setting search: the air at a place is what the best path so far left plus what the catch breath adds. With
+    several ``steps`` the best path is kept for each amount of air, since the cheapest one may leave too little.
 
-    Remembered by its numbers: an edit leaves nearly all stretches of a line as they were.
+    Cached by its arguments, since an edit leaves most stretches unchanged.
 
     Parameters
     ----------
     used, played : bytes of (K + 2,) float64
-        Air used, and seconds played, until the stretch begins, until each place, and until it ends.
+        Air used and seconds played up to the start of the stretch, up to each place, and up to its end.
     cost, drawn : bytes of (K,) float64
-        What each place costs, and the air that a catch breath brings there.
+        Cost of each place, and the air that a catch breath adds there.
     free_s : float
-        Air used without which no place costs less than `LEAST_COST`.
+        Air used below which no place costs less than `LEAST_COST`.
     steps : int
-        Amounts of air in the lungs that are told apart.
+        Number of amounts of air in the lungs that are kept apart.
     """
     used_s, played_s = np.frombuffer(used), np.frombuffer(played)
     costs, drawn_s = np.frombuffer(cost).tolist(), np.frombuffer(drawn).tolist()

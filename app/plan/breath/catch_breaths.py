@@ -1,4 +1,4 @@
-"""Catch breaths: before which notes they are taken, how, and why."""
+"""Catch breaths: their places, their form and their reasons."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ from app.plan.music.piece import EPSILON, LineTimes, Seeds
 def catch_breath_notes(
     breather: Breather, score: BreathScore, stock: AirStock, may: BoolArray, shared: BreathConstraints, seeds: Seeds
 ) -> list[int]:
-    """The notes before which catch breaths are taken: decided at the tempo of the score, corrected where a change of
-    tempo takes more air."""
+    """Indices of notes with a catch breath before them: chosen at the tempo of the score, corrected where tempo changes
+    need more air.
+    """
     taken = np.zeros(len(breather.notes), dtype=bool)
     taken[list(shared.caught)] = True
     missing = np.bincount(np.array(shared.left_out, np.int64), minlength=len(breather.notes))
@@ -58,7 +59,7 @@ def catch_breath_notes(
 def catch_breaths(
     breather: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
 ) -> list[BreathEvent]:
-    """The catch breaths before some notes, but for those in rests that would have given one."""
+    """Catch breath events before the given notes, except in rests that have a breath of their own."""
     found: dict[int, BreathEvent] = {}
     if score.gaps is not None:
         blown = [index for index in catches if score.gaps.played[index] and not breather.written.breath[index - 1]]
@@ -70,7 +71,7 @@ def catch_breaths(
 def _made(
     breather: Breather, score: BreathScore, stock: AirStock, catches: list[int], after_hold: Collection[int]
 ) -> dict[int, BreathEvent]:
-    """Catch breaths out of the notes before, by the notes that they come before."""
+    """Catch breaths out of the tail of the previous note, by index of the note after."""
     if not catches:
         return {}
     notes, times, room = breather.notes, breather.times, stock.room
@@ -128,14 +129,14 @@ def _made(
 
 
 def _catch(breather: Breather, rests: IntArray, index: int) -> str:
-    """Message of a catch breath for lack of air: by the slur that it is under."""
+    """Message id of a catch breath for lack of air, depending on the slur above it."""
     if not breather.written.joined[index - 1]:
         return "breath.catch"
     return "breath.catch_rest_slurred" if rests[index] > 0 else "breath.catch_slurred"
 
 
 def _dropping(breather: Breather, index: int, dropped: int, why: dict[str, Argument]) -> Message:
-    """Reason of a breath that notes are left out for: by the slurs over them."""
+    """Reason of a breath for which notes are left out, depending on the slurs over them."""
     arguments: dict[str, Argument] = {"after_note": breather.notes[index - 1].id, **why}
     if dropped > 1:
         arguments["first_note"] = breather.notes[index - dropped].id
@@ -150,8 +151,9 @@ def _dropping(breather: Breather, index: int, dropped: int, why: dict[str, Argum
 
 
 def _needed_s(stock: AirStock, lung_s: float, first: IntArray, last: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Air that stretches of notes take, and that there is for them: as it is played, or at the tempo of the score
-    where they are short of air only there."""
+    """Air needed by stretches of notes and air available, in seconds: as played if the stretch is short of air only
+    when played, else at the tempo of the score.
+    """
     played_s, steady_s = (used[last] - used[first] for used in (stock.used, stock.steady_used))
     full_s = levels(stock.steady_used, lung_s, stock.refill)[first] * lung_s
     is_short = played_s > stock.air_s[first]
@@ -159,7 +161,7 @@ def _needed_s(stock: AirStock, lung_s: float, first: IntArray, last: IntArray) -
 
 
 def _not_for_air(stock: AirStock, lung_s: float, catches: list[int]) -> set[int]:
-    """The notes among these before which the air would last until the next breath."""
+    """The notes among ``catches`` before which the air would also last without the catch breath."""
     share = stock.refill.copy()
     share[catches] = np.minimum(stock.room.lasts_s[catches] / FULL_BREATH_S, 1.0)
     breaths = np.flatnonzero(share > 0.0)
@@ -177,7 +179,7 @@ def _not_for_air(stock: AirStock, lung_s: float, catches: list[int]) -> set[int]
 
 
 def broken_slurs(breather: Breather, caught: list[BreathEvent], room: Room, rests: IntArray) -> list[Problem]:
-    """Return what is to be said of catch breaths under slurs, unless they are written too, or in a rest.
+    """Return problems for catch breaths under slurs; none for those that are marked in the score or in a rest.
 
     Parameters
     ----------
@@ -197,7 +199,7 @@ def broken_slurs(breather: Breather, caught: list[BreathEvent], room: Room, rest
 
 
 def hasty_at_marks(breather: Breather, caught: list[BreathEvent]) -> list[Problem]:
-    """Return what is to be said of breaths at marks after notes too short to give one its time."""
+    """Return problems for breath marks after notes too short for an unhurried breath."""
     problems = []
     for event in caught:
         before, lasts_s = breather.number_of(event) - 1, event.end_s - event.start_s

@@ -1,4 +1,4 @@
-"""Air supply: how far one breath reaches."""
+"""Air supply: air used by notes and gained by breaths."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ HASTY_SHARE = 0.4
 
 
 def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelope | None = None) -> FloatArray:
-    """(N + 1,): air taken by all notes before each, and by all, in seconds of playing at mezzoforte.
+    """Air (N + 1,) used by all notes before each note, and by all, in seconds of playing at mezzoforte.
 
     Parameters
     ----------
     envelope : BreathEnvelope or None
-        The breath, where it shows when air is blown: then all of it counts, also between the notes.
+        Recorded breath; if it shows when air is blown, all of it counts, also between notes.
     """
     lasts_s = times.duration_s
     # The dynamic of the phrases takes the air, not how each of their notes turned out.
@@ -60,7 +60,7 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
 
 
 def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
-    """Return how much more air a loudness takes than mezzoforte does."""
+    """Return the air use at a loudness relative to mezzoforte."""
     if air is None:
         low, high = LOUDNESS_RANGE
         return np.interp(loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])
@@ -69,12 +69,12 @@ def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
 
 
 def lungful_s(parameters: PlayerParameters, air: Air | None = None) -> float:
-    """Return how long a player's full breath lasts at mezzoforte: what the map says, on lungs of the player's size."""
+    """Return the seconds that a full breath lasts at mezzoforte: the map's value scaled to the player's lungs."""
     return parameters.lung_s * (1.0 if air is None else min(air.mezzoforte_s, STALE_S) / USUAL_LUNG_S)
 
 
 def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
-    """(N,): how full the lungs are (0..1) at each note's onset, after the breath before it."""
+    """Fill level (N,) of the lungs, 0..1, at each note's onset, after the breath before it."""
     # No one enters on empty lungs: without any breath before the first note (removed by hand) a normal one is assumed.
     here, before = (0.5 if refill[0] == 0.0 else 0.0), 0
     breaths = np.flatnonzero(refill > 0.0)
@@ -90,14 +90,14 @@ def levels(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
 
 
 def short_catches(used: FloatArray, lung_s: float, refill: FloatArray, filled: FloatArray) -> IntArray:
-    """(K,): before which notes the catch breaths are not where the air lasts.
+    """Indices (K,) of notes before which catch breaths do not provide enough air.
 
-    From the one before the first stretch that takes more air than there is to the next rest that gives a breath.
+    Covers the notes from the catch breath before the first stretch that is short of air to the next breath in a rest.
 
     Parameters
     ----------
     refill, filled : (N,) float
-        What the breaths in rests bring, and what they and the catch breaths bring.
+        Share of the lungs filled by breaths in rests, and by all breaths.
     """
     starts = np.unique(np.concatenate(([0], np.flatnonzero(filled > 0.0))))
     ends = np.append(starts[1:], len(filled))
@@ -111,9 +111,9 @@ def short_catches(used: FloatArray, lung_s: float, refill: FloatArray, filled: F
 
 
 def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray) -> FloatArray:
-    """(N + 1,): air used (`air_used_s`), less what is breathed in through the nose while the cheeks blow.
+    """Air used (N + 1,) as from `air_used_s`, less the air inhaled through the nose during circular breathing.
 
-    After each breath of ``refill`` (`levels`) the lungs go down to `CIRCULAR_SHARE` of what is in them, and stay so.
+    After each breath in ``refill`` (`levels`) the lungs empty to the share `CIRCULAR_SHARE` and stay at it.
     """
     result = used.copy()
     level = 0.5 if refill[0] == 0.0 else 0.0
@@ -127,5 +127,5 @@ def with_circular_breathing(used: FloatArray, lung_s: float, refill: FloatArray)
 
 
 def drawn_share(length_s: float) -> float:
-    """Part of the lungs that a breath of this length fills."""
+    """Share of the lungs filled by a breath of this length."""
     return min(length_s / FULL_BREATH_S, 1.0)

@@ -1,10 +1,10 @@
-"""Suitability of the place before each note for a catch breath: ends of phrases.
+"""Rates the place before each note as a phrase end, for catch breaths.
 
-What speaks for a phrase's end is added up as log odds. They were learned by logistic regression on sung lines, which
-say where their phrases end: the Essen Folksong Collection (Schaffrath, 1995; marked phrases of 902 songs) and the
-OpenScore Lieder Corpus (CC0; of 393 songs the places after a comma, full stop or breath mark). Half the log odds of a
-slur over the place are taken off, as engraved wind parts have slurs. The features are those of Temperley (The Cognition
-of Basic Musical Structures, 2001, ch. 3: gaps, equal phrases, parallel metre), as far as a MIDI file shows them.
+The evidence is summed as log odds. The weights were learned by logistic regression on vocal lines with known phrases:
+the Essen Folksong Collection (Schaffrath, 1995; marked phrases of 902 songs) and the OpenScore Lieder Corpus (CC0; in
+393 songs the places after a comma, full stop or breath mark). Half the log odds of a slur over the place are removed,
+since engraved wind parts have slurs. The features are those of Temperley (The Cognition of Basic Musical Structures,
+2001, ch. 3: gaps, equal phrases, parallel metre) that a MIDI file shows.
 """
 
 from __future__ import annotations
@@ -91,16 +91,16 @@ TAKEN_COST: Final = 6.0
 
 
 class ComparedLine(NamedTuple):
-    """A line, and what is known of it where places for breaths are compared.
+    """A part with the data needed to compare places for breaths.
 
     Attributes
     ----------
     rests : (N,) int64
-        Ticks of rest before each note, as `app.plan.music.rests.rest_ticks` finds them.
+        Ticks of rest before each note, from `app.plan.music.rests.rest_ticks`.
     taken : (N,) bool
-        Before which notes another player of the same line breathes.
+        Mask of notes before which another player of the same part breathes.
     seeds : Seeds
-        What distinguishes this player where places are equally good.
+        Random choice between equally good places, different for each player.
     """
 
     times: LineTimes
@@ -112,23 +112,23 @@ class ComparedLine(NamedTuple):
 
 
 class _Places(NamedTuple):
-    """Notes and where they stand in their bars.
+    """Notes with their positions in the bar.
 
     Attributes
     ----------
     onsets, steps, strength : (N,) int64
-        Where the notes would stand in a score, ticks to the next one, and how strong their places are.
+        Quantised onset in ticks, ticks to the next onset, and metrical strength.
     bars : (B,) int64
     beat : (K,) int64
         Ticks of the felt beat at each place.
     falls : (K,) int64
-        How much weaker each place is than the one of the note before.
+        Number of levels by which each place is metrically weaker than that of the previous note.
     runs : (K,) bool
-        Whether notes run there.
+        Whether the place is within running notes.
     like : (K,) float64
         `_like_entries`.
     long : (K,) float64
-        How long the note before is for the notes around, in octaves, 0 to 2.
+        Length of the previous note relative to the notes around it, in octaves, 0 to 2.
     """
 
     onsets: IntArray
@@ -143,14 +143,14 @@ class _Places(NamedTuple):
 
 
 def place_costs(line: ComparedLine, at: IntArray, dropped: IntArray | int = 0) -> FloatArray:
-    """(K,): what a breath before each of the notes ``at`` (1 and up) costs.
+    """Cost (K,) of a breath before each of the notes ``at`` (1 and up).
 
-    Below 0 the end of the phrase asks for a breath while there is air.
+    Below 0 at a clear phrase end, where a breath is taken even with air left.
 
     Parameters
     ----------
     dropped : (K,) int64
-        How many notes from there on are left out for it.
+        Number of notes from there on that are left out for the breath.
     """
     if not len(at):
         return np.zeros(0)
@@ -185,7 +185,7 @@ def _places(line: ComparedLine, at: IntArray, dropped: IntArray | int) -> _Place
 
 
 def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray) -> FloatArray:
-    """(K,): log odds of a phrase's end before each of the notes ``at``, but for those of any place."""
+    """Log odds (K,) of a phrase end before each of the notes ``at``, without the constant term."""
     steps, runs, falls = places.steps, places.runs, places.falls
     shorter = np.clip(np.log2(steps[at - 1] / steps[at]), -2.0, 2.0)
     moves = np.diff(times.pitch)[at - 1]
@@ -203,7 +203,7 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
 
 
 def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
-    """(K,): what speaks for and, mostly, against breaths among running, dotted and staccato notes."""
+    """Costs (K,) of breaths among running, dotted and staccato notes; mostly positive."""
     onsets, steps, strength, runs, falls = places.onsets, places.steps, places.strength, places.runs, places.falls
     times, rest = line.times, line.rests[at] > 0
     # Slurs that are known say where a short note before a bar line is an upbeat.
@@ -221,29 +221,32 @@ def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
 
 
 def _in_a_row(short: BoolArray) -> BoolArray:
-    """(N,): whether a note and the one before it stand in a row of at least three for which ``short`` is true."""
+    """Mask (N,) of notes that, with the note before, are in a row of at least three notes for which ``short`` is
+    true.
+    """
     here = np.append(False, short[:-1] & short[1:])
     result: BoolArray = here & (np.append(here[1:], False) | np.append(False, here[:-1]))
     return result
 
 
 def _are_dotted(long: IntArray, short: IntArray) -> BoolArray:
-    """(K,): whether notes and the ones after them are dotted, or double-dotted, and short."""
+    """Mask (K,) of pairs of lengths that form a dotted or double-dotted figure."""
     doubly: BoolArray = np.abs(long - 7 * short) < short // 2
     return (long > 2 * short) & (long < 4 * short) | doubly
 
 
 def slur_costs(line: ComparedLine, at: IntArray) -> FloatArray:
-    """(K,): what a breath before each of the notes ``at`` costs for the slur that leads to it."""
+    """Cost (K,) of a breath before each of the notes ``at`` due to a slur that leads to the note."""
     heard = -SLURRED * (1.0 - _legato(line)) * line.times.slurs_next[at - 1]
     written = np.where(line.rests[at] > 0, -SLURRED, -WRITTEN_SLUR)
     return np.asarray(np.where(line.written.joined[at - 1], written, heard), dtype=np.float64)
 
 
 def _legato(line: ComparedLine) -> float:
-    """0..1: how far notes are slurred throughout, so that slurs say nothing about phrases; those of a score always do.
+    """Share, 0..1, to which the whole part is played legato, so that heard slurs indicate no phrases; slurs of a score
+    always count.
 
-    Notes before a rest do not count, nor repeated notes: a key has to be let go before it is pressed again.
+    Ignores notes before a rest and repeated notes, where a key must be released before it is pressed again.
     """
     if line.written.is_score:
         return 0.0
@@ -257,7 +260,7 @@ BAR_STRENGTH: Final = 3
 
 
 def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:
-    """(K,): 3 where a bar begins, 2 in its middle, 1 on another felt beat, 0 elsewhere."""
+    """Metrical strength (K,): 3 at a bar line, 2 in mid-bar, 1 on another felt beat, 0 elsewhere."""
     place = np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)
     since = ticks - bars[place]
     length = np.append(np.diff(bars), 0)
@@ -268,7 +271,7 @@ def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray
 
 
 def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
-    """(K,): share of the notes entering after rests that do so at each place's position in the bar."""
+    """Share (K,) of the entries after rests that have the same position in the bar as each place."""
     place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
     bar = _usual_bar(bars)
     phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)
@@ -293,7 +296,7 @@ def _usual_bar(bars: IntArray) -> int:
 
 
 def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> BoolArray:
-    """(N,): whether the next notes have the rhythm and the direction of what came after a rest."""
+    """Mask (N,) of notes that start a repetition of the rhythm and direction with which a phrase after a rest began."""
     count = len(steps)
     result = np.zeros(count, dtype=bool)
     if count > AGAIN_NOTES:
@@ -316,7 +319,7 @@ def _rest_follows(rests: IntArray, onsets: IntArray, at: IntArray, beat_ticks: I
 
 
 def _lengths_around(duration_s: FloatArray) -> FloatArray:
-    """(N,): the median length of the eight notes before each, as far as there are any."""
+    """Median length (N,) of up to eight notes before each note."""
     count = len(duration_s)
     around = np.empty(count)
     if count > 8:

@@ -1,7 +1,7 @@
-"""Choice of rests to breathe in: by length, by the playing since the last breath, and by the air used.
+"""Chooses the rests to breathe in, by their length, the playing since the last breath, and the air used.
 
-In a long rest a player breathes whatever was played before; the shorter a rest is, the more must have been played, or
-the less air be left. `app.plan.breath.breaths_in_rests` decides how a rest is used that is breathed in.
+In a long rest a player always breathes; the shorter the rest, the longer the playing before or the less the air left
+must be. `app.plan.breath.breaths_in_rests` then shapes the breath.
 """
 
 from __future__ import annotations
@@ -42,16 +42,16 @@ SHORT_LEAST_PLAYED_S: Final = 1.5
 
 
 class RestNeeds(NamedTuple):
-    """Conditions for a breath in the rest before each note: (N,) float64 each.
+    """Conditions for a breath in the rest before each note, each array (N,) float64.
 
     Attributes
     ----------
     least_s : seconds
-        Playing since the last breath without which it is not breathed in, ...
+        Seconds of playing since the last breath below which the rest is never used.
     played_s : seconds
-        ... with which it is, ...
+        Seconds of playing since the last breath from which the rest is always used.
     share : 0..1
-        ... or with so much of the lungs used up.
+        Share of the lungs used up from which the rest is used.
     """
 
     least_s: FloatArray
@@ -60,7 +60,7 @@ class RestNeeds(NamedTuple):
 
 
 class Decided(NamedTuple):
-    """Choice of rests to breathe in, with the values it was made by: (N,) each.
+    """Decision for each rest, with the values behind it, each array (N,).
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Decided(NamedTuple):
     played_s : float64
         Seconds that sounded since the last breath in a rest.
     spent : float64
-        Part of the lungs that is used up, 0..1.
+        Share of the lungs that is used up, 0..1.
     """
 
     breathed: BoolArray
@@ -109,16 +109,16 @@ def rest_needs(rest_s: FloatArray, need: float, lung_s: float) -> RestNeeds:
 
 
 def breathed_in(used: FloatArray, played_s: FloatArray, lung_s: float, refill: FloatArray, needs: RestNeeds) -> Decided:
-    """Decide rest by rest, each by what those before it left in the lungs.
+    """Decide rest by rest, since each decision changes the air left for the next.
 
     Parameters
     ----------
     used : (N + 1,) float64
         `app.plan.breath.lungs.air_used_s`.
     played_s : (N + 1,) float64
-        Seconds that sounded before each note, and in all.
+        Seconds that sounded before each note, and in total.
     refill : (N,) float64
-        Part of the lungs that a breath before each note would fill; 0 where there is none.
+        Share of the lungs that a breath before each note would fill; 0 without one.
     """
     places = np.flatnonzero(refill > 0.0)
     level, before_s, air_s = (0.5 if refill[0] == 0.0 else 0.0), 0.0, 0.0

@@ -1,4 +1,4 @@
-"""The line that is breathed for, as a score would have it: its rests, its air, the breaths that were recorded."""
+"""Input of the breath planning: a part in notated timing, with its rests, its air use and recorded breaths."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from instrument_maps.wind import Air
 
 
 class Breather(NamedTuple):
-    """A player with the notes of one breathing line; ``index_of`` is by their ids."""
+    """A player with the notes of one part for breath planning; ``index_of`` maps note ids to indices."""
 
     notes: tuple[Note, ...]
     times: LineTimes
@@ -34,32 +34,32 @@ class Breather(NamedTuple):
 
     @property
     def marked(self) -> list[int]:
-        """The notes before which the score has a breath mark."""
+        """Indices of the notes with a breath mark before them."""
         found: list[int] = (1 + np.flatnonzero(self.written.breath[:-1])).tolist()
         return found
 
     def number_of(self, event: BreathEvent) -> int:
-        """The note that a breath is before, or within."""
+        """Index of the note that a breath precedes or lies within."""
         return self.index_of[EventId.parse(event.id).of]
 
 
 class BreathScore(NamedTuple):
-    """Breathing clues of a part.
+    """Timing and air of a part that decide its breaths.
 
     Attributes
     ----------
     written, steady : LineTimes
-        As a score would have it, and that without short changes of tempo, by which is decided what is needed.
+        Notated timing, and the same without short tempo changes, which decides how much air is needed.
     sounded_s : (N,) float64
-        How long each note sounds, at the tempo of the score.
+        Sounding length of each note at the tempo of the score.
     gaps : BreathGaps or None
-        Where the breath that was blown shows breaths.
+        Gaps in the recorded breath, if it shows breaths.
     used, steady_used : (N + 1,) float
         `app.plan.breath.lungs.air_used_s` of both.
     lung_s : float
         `app.plan.breath.lungs.lungful_s`.
     within : tuple of BreathEvent
-        Breaths that were recorded within notes.
+        Recorded breaths within notes.
     """
 
     written: LineTimes
@@ -97,15 +97,14 @@ def read_score(breather: Breather, air: Air | None, envelope: BreathEnvelope | N
 
 
 def _rests(steady: LineTimes, played: LineTimes, times: LineTimes, piece: Piece) -> Rests:
-    """The rests of the score, which decides what is one and how long it is.
+    """Rests of the part; the notated timing decides what counts as a rest and how long it is.
 
-    What is a rest by itself lasts at least as long as it is heard, wherever a score would have it.
-    What is so long that it is always breathed in is so at any tempo.
+    A rest is at least as long as it sounds. A rest long enough for a breath under all conditions is used at any tempo.
 
     Parameters
     ----------
     steady, played : LineTimes
-        As a score would have the line, and as it is played, both at the tempo of the score.
+        Times of the notes as notated and as played, both at the tempo of the score.
     """
     beats = piece.beat_ticks_at(times.onset_tick)
     written = rest_ticks(steady, beats)

@@ -1,9 +1,10 @@
-"""Players in unison or in octaves breathe one after another: not before the same notes, and within held notes too.
+"""Staggers breaths of players in unison or octaves: they avoid breathing before the same notes, and breathe at
+different times within held notes.
 
-In running notes that leave no other way to breathe, players of one rhythm leave out different notes, in thirds and
-chords too: what all left out together would be a hole.
+In running notes without another chance to breathe, players of the same rhythm leave out different notes, also in thirds
+and chords, so that no gap is heard.
 
-After what all of them hold, a fermata, they breathe together.
+After a fermata they breathe together.
 """
 
 from __future__ import annotations
@@ -54,22 +55,22 @@ Place: TypeAlias = int
 
 
 class SharedLine(NamedTuple):
-    """Summary of a part for others who play the same.
+    """Summary of a part for comparison with other parts.
 
     Attributes
     ----------
     places : tuple of Place
-        Of its notes.
+        Places of its notes.
     known : frozenset of Place
-        The same without order.
+        The places as a set.
     onsets : tuple of int
         The places without their pitches, and ...
     rhythm : frozenset of int
-        ... the same without order.
+        The rhythm as a set.
     ordered : tuple of int
-        Its notes in the order of their places.
+        Note indices in the order of their places.
     held_s : tuple of (int, float)
-        Notes that last at least `HELD_S`, and how long.
+        Notes that last at least `HELD_S`: place and length in seconds.
     """
 
     places: tuple[Place, ...]
@@ -85,7 +86,7 @@ class SharedLine(NamedTuple):
         return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
 
     def holds(self, place: Place, length_s: float) -> bool:
-        """Return whether a note of this length is held here about as long."""
+        """Return whether the part holds a note at a place for about this length."""
         if place not in self.known:
             return False
         for index in self.notes_at(place):
@@ -96,8 +97,9 @@ class SharedLine(NamedTuple):
 
 
 class Breathed(NamedTuple):
-    """Breaths of a player: catch breaths by the place of the note after, the notes that are left out for them by their
-    onsets, other breaths within held notes."""
+    """Breaths of a player: places of notes after catch breaths, onsets of notes left out for them, and breaths within
+    held notes.
+    """
 
     line: SharedLine
     caught: frozenset[Place]
@@ -106,18 +108,18 @@ class Breathed(NamedTuple):
 
 
 class BreathConstraints(NamedTuple):
-    """Constraints of a player's breaths by those of other players.
+    """Restrictions of a player's breaths due to other players.
 
     Attributes
     ----------
     caught : frozenset of int
-        Notes before which others of the unison take catch breaths.
+        Indices of notes before which others in unison take catch breaths.
     left_out : tuple of int
-        Notes that others of the same rhythm leave out in order to breathe, each as often as there are such others.
+        Indices of notes that others of the same rhythm leave out to breathe, repeated once for each such player.
     held : tuple of (int, tuple of float)
-        Held notes that others hold too, with the times (seconds) at which those breathe in them.
+        Held notes that others hold too, with the times in seconds at which those breathe.
     after_hold : frozenset of int
-        Notes with which all go on after what they held together: they breathe before these, not before what is held.
+        Indices of the notes that follow a common hold: all breathe before them and not before the held note.
     """
 
     caught: frozenset[int] = frozenset()
@@ -130,7 +132,7 @@ ALONE = BreathConstraints()
 
 
 def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
-    """The places of a line's notes, as a score would have them."""
+    """Summarise a part by the notated places of its notes."""
     if not len(times.onset_tick):
         return SharedLine((), frozenset(), (), frozenset(), (), ())
     quarter = piece.clock.ticks_per_quarter
@@ -145,7 +147,9 @@ def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
 
 
 def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
-    """Return the notes with which a line goes on after fermatas: the first that begin when most of the hold is over."""
+    """Return the indices of the notes with which a part continues after fermatas: the first that begin in the last part
+    of the hold or after it.
+    """
     if not held or not len(times.onset_tick):
         return frozenset()
     over = [one.start_tick + 3 * (one.release_tick - one.start_tick) // 4 for one in held]
@@ -154,8 +158,9 @@ def after_holds(held: tuple[Fermata, ...], times: LineTimes) -> frozenset[int]:
 
 
 class Met(NamedTuple):
-    """Breaths of others in unison with a part: by player the notes before which these take catch breaths, and the notes
-    that these leave out."""
+    """Breaths of other players in unison with a part: by player, the notes before which they take catch breaths, and
+    the notes they leave out.
+    """
 
     line: SharedLine
     breathed: tuple[Breathed, ...]
@@ -167,7 +172,9 @@ NO_NOTES: Final = frozenset[int]()
 
 
 def compared_with_others(line: SharedLine, breathed: tuple[Breathed, ...], before: Met | None) -> Met:
-    """Compare a line with those of players whose breaths are placed already; only those compare again who changed."""
+    """Compare a part with the players whose breaths are already planned; comparisons with unchanged players are reused
+    from ``before``.
+    """
     known = () if before is None or before.line != line else before.breathed
     caught, left_out = [], []
     for number, other in enumerate(breathed):
@@ -184,14 +191,14 @@ def compared_with_others(line: SharedLine, breathed: tuple[Breathed, ...], befor
 def shared_with(
     line: SharedLine, others: tuple[SharedLine, ...], met: Met, after_hold: frozenset[int]
 ) -> BreathConstraints:
-    """Return what a player must keep clear of.
+    """Return the restrictions of a player's breaths.
 
     Parameters
     ----------
     others : tuple of SharedLine
-        Of all other players.
+        Parts of all other players.
     met : Met
-        The line and those whose breaths are placed already.
+        Comparison with the players whose breaths are already planned.
     after_hold : frozenset of int
         `after_holds` of the player.
     """
@@ -208,19 +215,19 @@ def shared_with(
 
 
 def caught_in_unison(line: SharedLine, other: SharedLine, caught: frozenset[Place]) -> frozenset[int]:
-    """Notes of a line before which another player takes a catch breath, where both play the same.
+    """Indices of notes of a part before which another player in unison takes a catch breath.
 
     Parameters
     ----------
     caught : frozenset of Place
-        Where the other player's catch breaths are.
+        Places of the other player's catch breaths.
     """
     met = caught & line.known
     return frozenset(index for place in met for index in line.notes_at(place) if _in_unison(line, other, index))
 
 
 def left_out_in_rhythm(line: SharedLine, other: SharedLine, left_out: frozenset[int]) -> tuple[int, ...]:
-    """Notes of a line that sound when another player leaves one out, where both play the same rhythm.
+    """Indices of notes that sound when another player of the same rhythm leaves a note out.
 
     Parameters
     ----------
@@ -241,7 +248,7 @@ def _in_unison(line: SharedLine, other: SharedLine, index: int) -> bool:
 
 
 def _together(places: Sequence[int], known: frozenset[int], index: int, least: int) -> bool:
-    """Return whether a run of known places around an index has at least this length."""
+    """Return whether a run of at least ``least`` consecutive places around ``index`` is in ``known``."""
     count = 1
     for step in (-1, 1):
         place = index + step
@@ -253,7 +260,7 @@ def _together(places: Sequence[int], known: frozenset[int], index: int, least: i
 def within_held(
     notes: Sequence[Note], times: LineTimes, piece: Piece, used: FloatArray, lung_s: float, shared: BreathConstraints
 ) -> tuple[BreathEvent, ...]:
-    """Return the breaths within each note that takes most of a player's air or more, as far as others hold it on.
+    """Return breaths within each note that needs most of a player's air or more, provided that others hold the note on.
 
     Parameters
     ----------
@@ -280,9 +287,10 @@ def within_held(
 def _handed_on(
     first_s: float, last_s: float, lungful_s: float, begun_s: float, others_s: tuple[float, ...]
 ) -> list[float]:
-    """Choose when a player breathes within a note: in equal steps, no stretch longer than the air lasts, away from the
-    others' breaths; of such ways the one with the fewest breaths, the nearest to the middle. The first comes at most
-    ``begun_s`` after the note begins."""
+    """Choose times of breaths within a note: equal steps, no stretch longer than the air lasts, away from other
+    players' breaths; of these the fewest breaths, closest to the middle. The first comes at most ``begun_s`` after the
+    note begins.
+    """
     length_s, taken_s = last_s - first_s, np.array([*others_s, math.inf])
     most = max(int(length_s / LEAST_STEP_S), 1)
     least = min(max(math.ceil(length_s / lungful_s - EPSILON) - 1, 1), most)
@@ -308,14 +316,14 @@ def breathed_of(
     left_out: Sequence[int],
     events: Sequence[BreathEvent],
 ) -> Breathed:
-    """Breaths of a player, for those who play the same.
+    """Summarise a player's breaths for comparison with players in unison.
 
     Parameters
     ----------
     caught : sequence of int
-        Notes (by index) before which a catch breath is taken.
+        Indices of notes with a catch breath before them.
     left_out : sequence of int
-        Notes (by index) that are left out for one.
+        Indices of notes left out for a catch breath.
     events : sequence of BreathEvent
         All breaths of the player.
     """

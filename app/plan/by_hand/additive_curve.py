@@ -1,7 +1,7 @@
-"""Curves that an animator lays over what the generator does: keys on one channel of the body or face.
+"""Curves that an animator adds to the generated motion: keys on one channel of the body or face.
 
-A curve is anchored in the score: its keys are at ticks, and it comes in before the first and goes after the last of
-them. What it says is added to all generated layers before contacts are solved.
+Keys are anchored to ticks of the score; the curve fades in before the first key and out after the last. Its values are
+added to all generated layers before contacts are solved.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ MOST_KEYS: Final = 5000
 
 
 class AdditiveChannel(NamedTuple):
-    """Unit and limit of a value that an additive curve moves.
+    """Unit and limits of an additive curve's channel.
 
     Attributes
     ----------
     unit : {"deg", "m", "weight"}
-        Of its values.
+        Unit of the values.
     most : float
         No key of a file may be further from 0.
     """
@@ -71,7 +71,8 @@ CHANNELS: Final[dict[str, AdditiveChannel]] = BODY_CHANNELS | {
 
 class Tangent(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Handle of a key, relative to the key: ``ticks`` away (never negative, on the handle's own side) and ``value``
-    higher."""
+    above it.
+    """
 
     ticks: int
     value: float
@@ -85,10 +86,10 @@ class CurveKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     value : float
         Degrees, metres or the weight of a morph target.
     interpolation : {"bezier", "linear", "constant"}
-        How the curve goes on to the next key. A constant one holds, and goes to the next value in the least time a
+        Interpolation to the next key. A constant key holds its value, then moves to the next one in the least time a
         body needs.
     arrive, leave : Tangent or None
-        Handles before and after the key; None: automatic, without going beyond the keys.
+        Handles before and after the key; None: automatic, without overshoot.
     """
 
     tick: int
@@ -99,20 +100,20 @@ class CurveKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class AdditiveCurve(Own, frozen=True, tag="additive"):
-    """A curve over a stretch of the score. ``name`` makes its event id unique.
+    """An additive curve over a span of the score. ``name`` makes its event id unique.
 
     Attributes
     ----------
     channel : str
         One of `CHANNELS`.
     keys : tuple of CurveKey
-        At ascending ticks, at least one.
+        Keys at ascending ticks, at least one.
     blend_in_ticks, blend_out_ticks : int
-        The curve comes in so long before its first key, and goes so long after its last.
+        Ticks of fading in before the first key, and of fading out after the last.
     weight : float
-        0..1 of its values.
+        Factor of the values, 0..1.
     title : str
-        What the user calls it; may be empty.
+        Name given by the user; may be empty.
     """
 
     event_kind: ClassVar[str] = "additive"
@@ -137,5 +138,5 @@ class AdditiveCurve(Own, frozen=True, tag="additive"):
 
     @property
     def is_empty(self) -> bool:
-        """Return whether it has no keys, or not one after another."""
+        """Return whether the curve has no keys, or keys that are not in ascending order."""
         return not self.keys or any(key.tick >= following.tick for key, following in pairwise(self.keys))

@@ -1,4 +1,4 @@
-"""Additive curves of the animator, in seconds and within the limits of a body."""
+"""Converts an animator's additive curves to seconds and checks them against the limits of a body."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ REPORTED: Final[dict[str, float]] = {"deg": 1.0, "m": 0.005, "weight": 0.02}
 def plan_additive(
     corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: TempoMap
 ) -> Planned[AdditiveEvent]:
-    """The curves that are enabled as events, ordered by start, and a problem for each that a body cannot follow."""
+    """Events of the enabled curves, ordered by start, and a problem for each that a body cannot follow."""
     events: list[AdditiveEvent] = []
     problems: list[Problem] = []
     body = load_body()
@@ -98,7 +98,7 @@ def plan_additive(
 
 
 def channel_limits(channel: str, instrument: InstrumentMap, parameters: PlayerParameters, body: Body) -> Limits:
-    """Lowest and highest value of a channel, in its unit; both 0: it does not move in this posture."""
+    """Lowest and highest value of a channel, in its unit; both 0 if it cannot move in this posture."""
     if channel in POSED:
         target, angle = POSED[channel]
         return pose_limits(target, instrument, parameters, body)[angle]
@@ -120,7 +120,7 @@ def channel_limits(channel: str, instrument: InstrumentMap, parameters: PlayerPa
 
 
 def least_s(channel: str, change: float) -> float:
-    """The least time in which a body covers a distance."""
+    """The least time in seconds in which a body can change a channel by this amount, in the channel's unit."""
     unit = CHANNELS[channel].unit
     if unit == "weight":
         return LEAST_MORPH_S
@@ -129,7 +129,7 @@ def least_s(channel: str, change: float) -> float:
 
 
 def segments(curve: AdditiveCurve, clock: TempoMap) -> tuple[CurveSegment, ...]:
-    """A curve from when it begins to come in to when it is gone, weighted; segments touch one another."""
+    """Weighted segments of a curve, from the start of fading in to the end of fading out, without gaps."""
     keys, weight = curve.keys, curve.weight
     times_s = [clock.seconds(float(key.tick)) for key in keys]
     slopes = automatic_slopes(times_s, [key.value for key in keys])
@@ -169,8 +169,9 @@ def segments(curve: AdditiveCurve, clock: TempoMap) -> tuple[CurveSegment, ...]:
 
 
 def automatic_slopes(times_s: list[float], values: list[float]) -> list[float]:
-    """Slopes at keys, a second, with which no curve goes beyond its keys: 0 at the ends and at every turn, else the
-    harmonic mean of both sides (Fritsch and Butland 1984)."""
+    """Slopes at keys, per second, without overshoot: 0 at the ends and at turning points, else the harmonic mean of
+    both sides (Fritsch and Butland 1984).
+    """
     slopes = [0.0] * len(values)
     for at in range(1, len(values) - 1):
         before_s, after_s = times_s[at] - times_s[at - 1], times_s[at + 1] - times_s[at]
@@ -183,7 +184,7 @@ def automatic_slopes(times_s: list[float], values: list[float]) -> list[float]:
 
 
 def handle(key: CurveKey, clock: TempoMap, third_s: float, slope: float, *, leaves: bool) -> tuple[float, float]:
-    """Return where a key's handle is, seen from the key: seconds (negative before it) and value.
+    """Return a key's handle relative to the key: seconds (negative before it) and value.
 
     Parameters
     ----------
@@ -198,7 +199,7 @@ def handle(key: CurveKey, clock: TempoMap, third_s: float, slope: float, *, leav
 
 
 def _within(handle_: tuple[float, float], length_s: float) -> tuple[float, float]:
-    """A handle no longer than the way between two keys, as steep as before: so no time has two values."""
+    """Shorten a handle to the distance between two keys at equal slope, so that no time has two values."""
     seconds, value = handle_
     share = min(1.0, length_s / abs(seconds)) if seconds else 1.0
     return share * seconds, share * value

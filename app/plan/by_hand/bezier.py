@@ -1,6 +1,6 @@
-"""Values of curves with handles: cubic Bézier segments whose handles lie between their keys, and eased moves.
+"""Evaluates curves with handles: cubic Bézier segments whose handles lie between their keys, and eased moves.
 
-A value depends on its own time only, so any span of times has the values that it has in the whole.
+Each value depends only on its own time, so any subset of times gives the same values.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def sampled(segments: Sequence[CurveSegment], times_s: FloatArray) -> FloatArray
 
 
 def sampled_rows(table: FloatArray, times_s: FloatArray) -> FloatArray:
-    """Sample curves given as a table of segments that touch one another."""
+    """Sample a curve, given as a table of consecutive segments, at times in seconds."""
     result = np.zeros(len(times_s))
     if not len(table):
         return result
@@ -68,16 +68,16 @@ def sampled_rows(table: FloatArray, times_s: FloatArray) -> FloatArray:
 
 
 def looked_at_s(table: FloatArray, step_s: float, most: int) -> FloatArray:
-    """Ascending times at which a curve shows what it does, however long its segments are.
+    """Ascending times in seconds at which a curve is checked, bounded for long segments.
 
     Parameters
     ----------
     table : (S, 9) float64
         See `rows`.
     step_s : float
-        Times are so far apart in segments that are short enough for it.
+        Distance of the times in segments with at most ``most`` steps.
     most : int
-        Times in a segment; in a longer one they are dense where the curve's handles make it steep.
+        Number of times in longer segments; they are denser where the handles make the curve steep.
     """
     start_s, leave_s, arrive_s, end_s = table[:, 0], table[:, 4], table[:, 6], table[:, 1]
     steps = np.ceil((end_s - start_s) / step_s)
@@ -95,7 +95,9 @@ def looked_at_s(table: FloatArray, step_s: float, most: int) -> FloatArray:
 
 
 def _place(phase: FloatArray, leave: FloatArray, arrive: FloatArray) -> FloatArray:
-    """Return how far along its segment (F,) a curve is at a share of the segment's time; handles lie within 0..1."""
+    """Return the Bézier parameter (F,) at which a segment reaches each share ``phase`` of its time; handles lie within
+    0..1.
+    """
     low, high = np.zeros(len(phase)), np.ones(len(phase))
     nothing, whole = low.copy(), high.copy()
     for _ in range(HALVINGS):

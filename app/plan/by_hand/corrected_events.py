@@ -1,4 +1,4 @@
-"""Events as an animator corrected them: removed, changed and added; and the corrections that have lost their place."""
+"""Applies an animator's corrections to events, and finds corrections whose anchor no longer exists."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ Span = TypeVar("Span", GestureEvent, ExpressionEvent)
 def sound_corrections(
     corrections: tuple[Correction, ...], expressions: Collection[str], at_s: float
 ) -> Planned[Correction]:
-    """Keep the corrections that can be done, and report each that cannot: a span that ends before it begins, an
-    expression that does not exist.
+    """Keep the corrections that can be applied, and report a problem for each other one: a span that ends before it
+    begins, or an unknown expression.
 
     Parameters
     ----------
     expressions : collection of str
-        Names of the expressions there are.
+        Names of the available expressions.
     at_s : float
-        Where the problems are shown.
+        Time at which the problems are shown.
     """
     sound: list[Correction] = []
     problems = []
@@ -54,7 +54,7 @@ def sound_corrections(
 
 
 def removed_ids(corrections: tuple[Correction, ...]) -> frozenset[str]:
-    """Ids of the events that must not appear: removed, or moved to another place."""
+    """Ids of generated events that must not appear: removed ones, and those moved to another place."""
     return frozenset(item.left_out for item in corrections if item.left_out is not None)
 
 
@@ -66,7 +66,7 @@ def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, 
 def correct_embouchures(
     events: tuple[EmbouchureEvent, ...], corrections: tuple[Correction, ...]
 ) -> tuple[EmbouchureEvent, ...]:
-    """Embouchures with the values set by hand."""
+    """Embouchures with the values set by hand applied."""
     by_note = {item.note_id: item for item in corrections if isinstance(item, SetEmbouchure)}
     if not by_note:
         return events
@@ -121,7 +121,7 @@ def _corrected_spans(
 
 
 def _changed(event: Span, change: ChangeGesture | ChangeExpression | None, clock: TempoMap) -> Span:
-    """The event with what of a change is not None."""
+    """The event with all values of a change that are not None."""
     if change is None:
         return event
     start = event.start_tick if change.start_tick is None else change.start_tick
@@ -145,14 +145,14 @@ def _changed(event: Span, change: ChangeGesture | ChangeExpression | None, clock
 def orphans(
     corrections: tuple[Correction, ...], note_ids: frozenset[str], event_ids: frozenset[str], at_s: float
 ) -> tuple[Problem, ...]:
-    """A problem for every correction whose note or event is no longer there.
+    """A problem for every correction whose note or event no longer exists.
 
     Parameters
     ----------
     note_ids, event_ids : frozenset of str
         The notes of the line, and every event the generator made before removals.
     at_s : float
-        Where such a problem is shown: it has no place any more, so the performance's start.
+        Time at which the problems are shown, the start of the performance, since their own place is lost.
     """
     return tuple(
         Problem(Message("correction.orphaned", {"kind": item.tag, "anchor": item.subject}), None, at_s, at_s)

@@ -1,4 +1,4 @@
-"""Base of all corrections: what they are about, and whether they can be applied."""
+"""Base classes of all corrections: their anchor, and whether they can be applied."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def anchor(self) -> str:
-        """The note, event or name that it is bound to: its first field."""
+        """Note, event or name to which the correction is anchored: its first field."""
         return str(getattr(self, self.__struct_fields__[0]))
 
     @property
@@ -41,7 +41,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def place(self) -> tuple[str, ...]:
-        """Place of the correction: two of a player at the same place exclude one another."""
+        """Key of the correction: of two corrections with one key in a player only one can exist."""
         return self.tag, self.anchor
 
     @property
@@ -51,12 +51,12 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def named(self) -> tuple[str, str]:
-        """The name by which it is listed, after the kind of name: an event's kind."""
+        """Kind of name and name for lists; by default the kind of its event."""
         return "event", EventId.parse(self.about).kind
 
     @property
     def title(self) -> str:
-        """The name that the user gave it."""
+        """Title given by the user; empty if this kind has none."""
         return ""
 
     @property
@@ -67,42 +67,42 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def is_added(self) -> bool:
-        """True if the generator has nothing there: to delete it is to forget it."""
+        """True if the generator has no event there, so that deleting it removes the correction."""
         return False
 
     @property
     def left_out(self) -> str | None:
-        """The id of an event that must not appear."""
+        """Id of a generated event that must not appear because of the correction."""
         return None
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether its note, or the generator's event, is no longer there."""
+        """Return whether the correction's note or generated event no longer exists."""
         return False
 
 
 class OfNote(Correcting, frozen=True):
-    """A correction of what belongs to a note."""
+    """A correction anchored to a note."""
 
     note_id: str
 
     @property
     def is_added(self) -> bool:
-        """True if the generator had none here, where the correction says so."""
+        """True if the generator had no event here, if the correction records this."""
         return bool(getattr(self, "added", False))
 
     @property
     def left_out(self) -> str | None:
-        """The id of the event that it was, where it came from another note."""
+        """Id of the generated event at the note from which the correction was moved, if it was moved."""
         moved_from: str | None = getattr(self, "moved_from", None)
         return None if moved_from is None else str(EventId(EventId.parse(self.about).kind, moved_from))
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether its note is no longer there."""
+        """Return whether the correction's note no longer exists."""
         return self.note_id not in note_ids
 
 
 class OfEvent(Correcting, frozen=True):
-    """A correction of what the generator made."""
+    """A correction of a generated event."""
 
     event_id: str
 
@@ -112,16 +112,16 @@ class OfEvent(Correcting, frozen=True):
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether its event is no longer made."""
+        """Return whether the correction's event is no longer generated."""
         return self.event_id not in event_ids
 
 
 class Own(Correcting, frozen=True):
-    """Something of the animator's own; ``name`` makes its event id unique."""
+    """An event added by the animator; ``name`` makes its event id unique."""
 
     name: str
 
     @property
     def is_added(self) -> bool:
-        """True: the generator makes no such event."""
+        """Return True, since the generator makes no such event."""
         return True

@@ -1,7 +1,7 @@
-"""Corrections of an animator, anchored to note ids, event ids and ticks, so that regenerating keeps them.
+"""Corrections by an animator, anchored to note ids, event ids and ticks, so that they survive regeneration.
 
-A correction wins over the generator and its result carries ``corrected=True``. One whose anchor is gone (its note was
-deleted, its event is no longer made) is handed back as a problem, never dropped silently.
+A correction overrides the generator, and its result has ``corrected=True``. If its anchor no longer exists (a deleted
+note, an event that is no longer generated), it is reported as a problem, never dropped silently.
 """
 
 from __future__ import annotations
@@ -23,20 +23,21 @@ BY_HAND = Message("correction.by_hand")
 
 
 class PinFingering(OfNote, frozen=True, tag="pin_fingering"):
-    """Play this note with the fingering of this label; the search solves the notes around it again."""
+    """Play a note with the fingering of this label; the search adapts the fingerings around it."""
 
     event_kind: ClassVar[str] = "fingering"
     label: str
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind and label of the fingering that the correction names."""
+        """Kind of name and label of the fingering."""
         return "fingering", self.label
 
 
 class RemoveEvent(OfEvent, frozen=True, tag="remove"):
-    """Leave out a generated breath, preparation, cue, gesture or expression. ``note_id`` is the note it belongs to,
-    where it has one: while that note lives, the removal is in force even if nothing would be generated."""
+    """Leave out a generated breath, preparation, cue, gesture or expression. ``note_id`` is the event's note if it has
+    one: as long as that note exists the removal stays in force, even if nothing would be generated.
+    """
 
     note_id: str | None = None
 
@@ -46,7 +47,9 @@ class RemoveEvent(OfEvent, frozen=True, tag="remove"):
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether its note, or else its event, is gone, or is of a kind that is never left out."""
+        """Return whether the event's note, or an event without a note, no longer exists, or whether events of its kind
+        cannot be removed.
+        """
         known = self.note_id in note_ids if self.note_id is not None else self.event_id in event_ids
         return not known or EventId.parse(self.event_id).kind not in REMOVABLE
 
@@ -55,9 +58,8 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
     """Put a breath (or preparation) before a note, or a breath within it: added, or in place of the generated one.
     Ticks are relative to the note's onset, so the breath moves with its note.
 
-    ``added`` says that the generator had none here: to delete it is to forget it. ``moved_from`` is the note whose
-    breath it was before the animator dragged it here; that one is then left out. ``number`` counts the breaths within
-    one note.
+    ``added``: the generator had no breath here, so deleting removes the correction. ``moved_from``: note whose breath
+    was dragged here, and which gets none. ``number`` counts the breaths within one note.
     """
 
     start_offset_tick: int
@@ -70,7 +72,7 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
 
     @property
     def place(self) -> tuple[str, ...]:
-        """Place of the correction: a note has one of each kind."""
+        """Key of the correction: one breath and one preparation for each note."""
         return self.tag, self.anchor, self.kind
 
     @property
@@ -80,15 +82,15 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
 
     @property
     def is_empty(self) -> bool:
-        """True if it ends before it begins."""
+        """True if the breath ends before it begins."""
         return self.start_offset_tick >= self.end_offset_tick
 
 
 class SetCue(OfNote, frozen=True, tag="set_cue"):
-    """Let this player give a cue to the entry of a note; ``beats`` is how long before it the preparatory beat is.
+    """Make this player give a cue for a note; ``beats`` is the distance from the preparatory beat to the note.
 
-    ``note_id`` is ``"@"`` and a tick where the player gives an entry without playing in it. ``added`` and
-    ``moved_from`` as in `SetBreath`. ``takers`` are ids of the players it brings in; None: who comes in there.
+    ``note_id`` is ``"@"`` and a tick if the player gives an entry without playing in it. ``added`` and ``moved_from``
+    as in `SetBreath`. ``takers`` are ids of the cued players; None: all who come in there.
     """
 
     event_kind: ClassVar[str] = "cue"
@@ -99,17 +101,17 @@ class SetCue(OfNote, frozen=True, tag="set_cue"):
 
     @property
     def tick(self) -> int | None:
-        """Return where a cue without a note gives the entry; None where it belongs to a note."""
+        """Return the tick of a cue that belongs to no note; None if it belongs to one."""
         digits = self.note_id[1:]
         return int(digits) if self.note_id.startswith("@") and digits.lstrip("-").isdecimal() else None
 
     @property
     def is_empty(self) -> bool:
-        """True if its preparatory beat has no length."""
+        """True if the preparatory beat has no length."""
         return self.beats <= 0.0
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether the cue's note is gone; a cue without a note is kept by its place."""
+        """Return whether the cue's note no longer exists; False for a cue at a tick."""
         return self.tick is None and self.note_id not in note_ids
 
 
@@ -123,7 +125,7 @@ class SetEmbouchure(OfNote, frozen=True, tag="set_embouchure"):
 
 
 class ChangeGesture(OfEvent, frozen=True, tag="change_gesture"):
-    """Move a generated gesture or change its amount; None keeps what was generated."""
+    """Move a generated gesture or change its amount; None keeps the generated value."""
 
     start_tick: int | None = None
     end_tick: int | None = None
@@ -131,8 +133,9 @@ class ChangeGesture(OfEvent, frozen=True, tag="change_gesture"):
 
 
 class AddGesture(Own, frozen=True, tag="add_gesture"):
-    """A gesture of the animator's own, at a place of the score. ``name`` makes its event id unique; ``gesture`` is what
-    one of the kind ``"named"`` is called in `metadata.gestures`."""
+    """A gesture added by the animator in the score. ``name`` makes its event id unique; ``gesture`` is the name in
+    `metadata.gestures` if the kind is ``"named"``.
+    """
 
     kind: GestureKind
     start_tick: int
@@ -146,15 +149,14 @@ class AddGesture(Own, frozen=True, tag="add_gesture"):
         return str(EventId(self.kind, self.name))
 
     def event(self, clock: TempoMap) -> GestureEvent:
-        """The gesture."""
+        """The gesture as an event."""
         start, end = self.start_tick, self.end_tick
         start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
         return GestureEvent(self.about, self.kind, start, end, start_s, end_s, self.amount, BY_HAND, True, self.gesture)
 
 
 class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
-    """Move a generated expression, replace it by another, change its strength or fades; None keeps what was
-    generated."""
+    """Move a generated expression, replace it, or change its strength or fades; None keeps the generated value."""
 
     expression: str | None = None
     start_tick: int | None = None
@@ -170,7 +172,7 @@ class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
 
 
 class AddExpression(Own, frozen=True, tag="add_expression"):
-    """An expression of the animator's own, at a place of the score. ``name`` makes its event id unique."""
+    """An expression added by the animator in the score. ``name`` makes its event id unique."""
 
     event_kind: ClassVar[str] = "expression"
     expression: str
@@ -182,11 +184,11 @@ class AddExpression(Own, frozen=True, tag="add_expression"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind and id of the expression that the correction names."""
+        """Kind of name and id of the expression."""
         return "expression", self.expression
 
     def event(self, clock: TempoMap) -> ExpressionEvent:
-        """Kind and id of the expression that the correction names."""
+        """The expression as an event."""
         start, end = self.start_tick, self.end_tick
         start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
         shown = self.strength, self.fade_in_s, self.fade_out_s
@@ -194,11 +196,10 @@ class AddExpression(Own, frozen=True, tag="add_expression"):
 
 
 class PoseCorrection(Own, frozen=True, tag="pose"):
-    """Hold bell, head, an elbow or the trunk differently over a span of the score. ``name`` makes its event id unique.
+    """Pose bell, head, an elbow or the trunk differently over a span of the score. ``name`` makes its event id unique.
 
-    The angles are added to what the generator does, before hands, lips and feet are put where they belong. They are
-    whole from ``start_tick`` to ``end_tick``, come in over ``fade_in_ticks`` before it and go over ``fade_out_ticks``
-    after it.
+    The angles are added to the generated motion before hands, lips and feet are solved. They have full effect from
+    ``start_tick`` to ``end_tick``, fade in over ``fade_in_ticks`` before and out over ``fade_out_ticks`` after.
 
     Attributes
     ----------
@@ -207,10 +208,9 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
         Bell: raised. Head: the face up. Torso: leaning back. Elbow: outwards and up, about the line from shoulder to
         wrist.
     left_deg : float
-        Bell, head and torso: turned to the player's left. An elbow has no such angle.
+        Turn of bell, head or torso to the player's left; not used for elbows.
     roll_deg : float
-        Bell: the instrument's top leans to the player's left. Head and torso: leaning to the left. An elbow has no
-        such angle.
+        Bell: the instrument's top leans to the player's left. Head and torso: lean to the left. Not used for elbows.
     """
 
     event_kind: ClassVar[str] = "pose"
@@ -225,14 +225,14 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind and name of the part that the correction poses."""
+        """Kind of name and name of the posed part."""
         return "pose", self.target
 
 
 class Vary(Own, frozen=True, tag="vary"):
-    """Another random variation of the player between two ticks: another performance of these bars. Where the
-    generator leaves nothing to chance nothing changes. ``name`` distinguishes them; of several that overlap the
-    last counts."""
+    """Use another random variation between two ticks. Where the generator uses no chance, nothing changes. ``name``
+    distinguishes such spans; where several overlap, the last one counts.
+    """
 
     event_kind: ClassVar[str] = "vary"
     has_event: ClassVar[bool] = False
@@ -242,8 +242,9 @@ class Vary(Own, frozen=True, tag="vary"):
 
 
 class PlayStyle(Own, frozen=True, tag="play_style"):
-    """Play these bars in another style. ``name`` distinguishes such regions; the style fades in and out within the
-    region, each over a number of ticks."""
+    """Play a span in another style. ``name`` distinguishes such spans; the style fades in and out within the span, each
+    over a number of ticks.
+    """
 
     event_kind: ClassVar[str] = "style"
     style: str
@@ -254,7 +255,7 @@ class PlayStyle(Own, frozen=True, tag="play_style"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind and id of the style that the correction names."""
+        """Kind of name and id of the style."""
         return "style", self.style
 
 

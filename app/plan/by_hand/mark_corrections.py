@@ -1,4 +1,4 @@
-"""Marks written or taken away by hand, and the marks that a player has with them."""
+"""Corrections that write or remove marks, and their effect on a player's marks."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from app.score.marks import SFORZANDI, Mark, MarkKind, mark_id
 
 
 class OfMark(Correcting, frozen=True):
-    """A correction of a mark: at notes, or at ticks. What a kind of mark is anchored to `app.score.marks` says.
+    """A correction of a mark at notes or ticks; `app.score.marks` defines the anchor of each kind.
 
     Attributes
     ----------
     note_id, last_note_id : str or None
-        The note, and the last one of several.
+        Note of the mark, and the last one if it has several.
     start_tick : int or None
-        Of a mark that belongs to no note.
+        Tick of a mark without a note.
     text : str
-        As of a `Mark`; of one left out only that of a sforzando.
+        Text of the mark; for a removed mark set only for a sforzando.
     """
 
     has_event: ClassVar[bool] = False
@@ -31,7 +31,7 @@ class OfMark(Correcting, frozen=True):
 
     @property
     def anchor(self) -> str:
-        """The mark's id."""
+        """Id of the mark."""
         return mark_id(self.kind, self.note_id or "", self.last_note_id or "", self.start_tick or 0, self.text)
 
     @property
@@ -41,12 +41,12 @@ class OfMark(Correcting, frozen=True):
 
     @property
     def about(self) -> str:
-        """The mark's id."""
+        """Id of the mark."""
         return self.anchor
 
     @property
     def place(self) -> tuple[str, ...]:
-        """The mark's id: it is either written or taken away."""
+        """Key of the correction, by mark: a mark is either written or removed."""
         return "mark", self.anchor
 
     @property
@@ -55,30 +55,30 @@ class OfMark(Correcting, frozen=True):
         return "mark", self.kind
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
-        """Return whether one of its notes is no longer there."""
+        """Return whether one of the mark's notes no longer exists."""
         return any(note is not None and note not in note_ids for note in (self.note_id, self.last_note_id))
 
 
 class SetMark(OfMark, frozen=True, tag="set_mark"):
-    """Write a mark, in place of one of the same kind at the same place.
+    """Write a mark, replacing one of the same kind at the same place.
 
     Attributes
     ----------
     end_tick : int or None
-        Where a crescendo or a diminuendo ends; of a dynamic, where that before it holds again (None: it holds until the
-        next one).
+        End of a crescendo or diminuendo; for a dynamic, the tick at which the previous dynamic returns (None: in force
+        until the next one).
     """
 
     end_tick: int | None = None
 
     @property
     def is_added(self) -> bool:
-        """Always: to take it back leaves what the score has."""
+        """Return True, since deleting the correction leaves the marks of the score."""
         return True
 
     @property
     def mark(self) -> Mark:
-        """The mark that the correction sets."""
+        """The mark that is written."""
         notes = self.note_id or "", self.last_note_id or ""
         return Mark(self.kind, *notes, self.start_tick or 0, self.end_tick or 0, self.text)
 
@@ -88,14 +88,14 @@ class RemoveMark(OfMark, frozen=True, tag="remove_mark"):
 
 
 def set_mark(mark: Mark) -> SetMark:
-    """Return the correction that writes a mark."""
+    """Return the correction that writes this mark."""
     if mark.note_id:
         return SetMark(mark.kind, mark.note_id, mark.last_note_id or None, text=mark.text)
     return SetMark(mark.kind, start_tick=mark.tick, end_tick=mark.end_tick or None, text=mark.text)
 
 
 def remove_mark(mark: Mark) -> RemoveMark:
-    """Return the correction that leaves a mark out."""
+    """Return the correction that removes this mark."""
     if mark.note_id:
         return RemoveMark(mark.kind, mark.note_id, mark.last_note_id or None)
     return RemoveMark(mark.kind, start_tick=mark.tick, text=mark.text if mark.text in SFORZANDI else "")
@@ -107,7 +107,7 @@ def mark_corrections(corrections: Iterable[Correcting]) -> tuple[SetMark | Remov
 
 
 def corrected_marks(marks: tuple[Mark, ...], corrections: Iterable[Correcting]) -> tuple[Mark, ...]:
-    """Return the marks of a part as a player has them: those written by hand come last."""
+    """Return a player's marks: those of the part with the corrections applied; marks written by hand come last."""
     said = mark_corrections(corrections)
     if not said:
         return marks

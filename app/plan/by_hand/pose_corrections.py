@@ -50,7 +50,7 @@ MINIMUM_JERK_PEAK = 10.0 / math.sqrt(3.0)
 def plan_poses(
     corrections: tuple[Correction, ...], instrument: InstrumentMap, parameters: PlayerParameters, clock: TempoMap
 ) -> Planned[PoseEvent]:
-    """Pose corrections as events, ordered by start, and a problem for each that asks for more than a body does."""
+    """Events of the pose corrections, ordered by start, and a problem for each that exceeds a body's limits."""
     events: list[PoseEvent] = []
     problems: list[Problem] = []
     body = load_body()
@@ -95,7 +95,7 @@ def plan_poses(
 def pose_limits(
     target: PoseTarget, instrument: InstrumentMap, parameters: PlayerParameters, body: Body
 ) -> dict[str, tuple[float, float]]:
-    """Lowest and highest offset in degrees of every angle that a target has, by the name of the correction's field."""
+    """Lowest and highest offset in degrees for every angle of a target, by field name of `PoseCorrection`."""
     if target in ("left_elbow", "right_elbow"):
         return {"up_deg": ELBOW_DEG}
     carriage = instrument.hold.carriage(parameters.posture)

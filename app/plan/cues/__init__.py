@@ -1,1 +1,1 @@
-"""Entries, who gives them, and who answers with a nod."""
+"""Entries, the players who cue them, and the nods in answer."""

@@ -25,12 +25,12 @@ UNDER_CONDUCTOR: Final = 0.6
 def answering_nods(
     notes: tuple[Note, ...], times: NoteTimes, answered: Sequence[CueEvent], piece: Piece, seeds: Seeds
 ) -> list[GestureEvent]:
-    """A nod for every cue that a player comes in with; none where the player's own note comes later than its beat.
+    """A nod for every cue with which a player comes in; none if the player's own note comes later than the cue's beat.
 
     Parameters
     ----------
     answered : sequence of CueEvent
-        Those that the player takes.
+        Cues with which the player comes in.
     """
     found: dict[str, GestureEvent] = {}
     for cue in answered:

@@ -1,14 +1,13 @@
-"""Cues for entries: who gives them, and when.
+"""Cues for entries: the cueing player and the time.
 
-A conductor gives all of them; the players look there and breathe together. Without one the players give the entries
-themselves, by body and instrument, with a preparatory beat: the start, and the new start after a rest or a general
-pause of all; going on after a fermata; a new tempo, in which that beat is given; and a player or a section that comes
-in after a long rest, or as the next voice of a canon, while others play.
-What an accompaniment plays that is not on stage sounds too: an entry with it needs no cue.
+A conductor gives all cues; the players look there and breathe together. Without a conductor, players give cues with
+body and instrument in a preparatory beat: at the start and after a rest of all players; after a fermata; at a new
+tempo, in which the beat is given; and for a player or section that comes in after a long rest, or as the next voice of
+a canon, while others play. Entries together with an accompaniment that is not on stage need no cue.
 
-Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next one: there lies the nod's
-acceleration peak, and its duration is the tempo (Bishop and Goebl 2017). Both are beats of the metre: before a pickup
-the second is the beat that the pickup lies in, else it is the entry.
+Head and instrument rise on the preparatory beat, with the inhalation, and drop onto the next beat, which has the nod's
+acceleration peak; the duration in between sets the tempo (Bishop and Goebl 2017). Both are beats of the metre: before a
+pickup the second one is the beat that contains the pickup, else it is the entry.
 """
 
 from __future__ import annotations
@@ -44,11 +43,11 @@ SMALLEST, LARGEST = 0.4, 1.2
 def leader_of(
     entry: Entry, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece
 ) -> tuple[int | None, str]:
-    """Index of the line that gives an entry, and why ("chosen" or "melody").
+    """Index of the part whose player cues an entry, and the reason ("chosen" or "melody").
 
-    A player whose ``cue_leader`` is set gives every entry of all; of several, one who comes in here, then the first.
-    Who comes in while others play is brought in by one of themselves. Otherwise it is the first part of the section
-    that has the melody, leaving out who must not lead. None where no one may.
+    A player with ``cue_leader`` set cues every entry of all players; of several, one who comes in here, then the first.
+    An entry while others play is cued by one of those playing. Otherwise the leader is the first part of the section
+    with the melody, except players who must not lead. None if no player may.
     """
     chosen = [index for index, part in enumerate(parts) if part.parameters.cue_leader]
     entering = {part for part, _ in entry.players}
@@ -90,12 +89,12 @@ def _at_hand(leader: int, tick: int, parts: tuple[MonophonicPart, ...], all_time
 
 
 def _section(part: MonophonicPart) -> str:
-    """Return who sits together: the family of the instrument, or the instrument."""
+    """Return the section of a part: the family of its instrument, or the instrument."""
     return vocabulary().family(part.instrument_map.plays) or part.instrument_map.id
 
 
 class CuePlan(NamedTuple):
-    """The cues of all players, and the ids of all that the rules made."""
+    """The cues of all players, and the ids of all cues that the rules made."""
 
     events: tuple[CueEvent, ...]
     ids: frozenset[str]
@@ -109,10 +108,10 @@ def plan_cues(
     frame: TimeFrame,
     conducted: bool = False,
 ) -> CuePlan:
-    """Every cue of the ensemble, corrections applied, and the ids of all that the rules made; ``found`` are
-    `entries`. Where the ensemble is ``conducted`` the conductor gives what no player is chosen to give.
+    """Plan every cue of the ensemble, with corrections applied. ``found`` are the `entries`. If ``conducted``, the
+    conductor gives the cues that no player was chosen to give.
 
-    A cue's id is ``cue:`` and the note it brings in, or ``cue:@`` and the tick for a leader who does not play there.
+    A cue's id is ``cue:`` and the note it cues, or ``cue:@`` and the tick if the leader does not play there.
     """
     generated: list[CueEvent] = []
     busy_until_s: dict[int, float] = {}
@@ -166,7 +165,7 @@ def _size(entry: Entry, all_times: tuple[LineTimes, ...]) -> float:
 def _conducted(
     entry: Entry, parts: tuple[MonophonicPart, ...], all_times: tuple[LineTimes, ...], piece: Piece, frame: TimeFrame
 ) -> CueEvent:
-    """An entry that the conductor gives, to all who come in."""
+    """A cue by the conductor for all players of an entry."""
     takers = tuple(parts[part].player_id for part, _ in entry.players)
     return _cue(
         CONDUCTOR, f"@{entry.tick}", entry, "conductor", piece, frame, amount=_size(entry, all_times), takers=takers
@@ -174,19 +173,19 @@ def _conducted(
 
 
 def _takers(leader: int, players: tuple[tuple[int, int], ...], parts: tuple[MonophonicPart, ...]) -> tuple[str, ...]:
-    """Ids of who comes in with a cue, without the leader and what else the leader's musician plays."""
+    """Ids of the players of an entry, without the leader and other parts of the leader's musician."""
     own = parts[leader].musician or parts[leader].player_id
     entering = [parts[part] for part, _ in players if part != leader]
     return tuple(part.player_id for part in entering if (part.musician or part.player_id) != own)
 
 
 def _chosen(takers: tuple[str, ...], parts: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
-    """Players who were chosen by hand, as `_takers` has them; who is gone is left out."""
+    """Players selected by hand, in the form of `_takers`; players that no longer exist are left out."""
     return tuple((index, 0) for index, part in enumerate(parts) if part.player_id in takers)
 
 
 def _entering(tick: int, all_times: tuple[LineTimes, ...], piece: Piece) -> tuple[tuple[int, int], ...]:
-    """Players who begin with a cue placed by hand: those who were silent before, or else all."""
+    """Players cued by a cue placed by hand: those that were silent before, or else all that begin there."""
     found = coming_in([(part, times) for part, times in enumerate(all_times)], tick, played_together(piece, tick))
     least = beat_ticks(piece, tick) / 2
     rested = tuple((part, index) for part, index in found if all_times[part].silence_tick[index] >= least)
@@ -204,7 +203,7 @@ def _cue(
     amount: float,
     takers: tuple[str, ...],
 ) -> CueEvent:
-    """The cue of an entry, in the tempo that begins there."""
+    """The cue of an entry, timed in the tempo that begins there."""
     clock, tick, beat = piece.clock, entry.tick, beat_ticks(piece, entry.tick)
     end_s = clock.seconds(float(tick))
     beat_s = clock.seconds(float(tick + beat)) - end_s
@@ -236,7 +235,7 @@ def _cue(
 def _cue_by_hand(
     player_id: str, note: str, tick: int, beats: float, piece: Piece, frame: TimeFrame, takers: tuple[str, ...]
 ) -> CueEvent:
-    """A cue set by hand, whose preparatory beat lasts the given number of beats of the score."""
+    """A cue set by hand, with a preparatory beat of this many beats of the score."""
     seconds, beat = piece.clock.seconds, beat_ticks(piece, tick) * beats
     start_tick = tick - LEAD_BEATS * beat
     end_s, peak_s = seconds(float(tick)), seconds(tick - beat)

@@ -1,4 +1,4 @@
-"""Entries that need a cue: places where players come in together, by rhythm and tempo alone."""
+"""Finds entries that need a cue: places where players come in together, by rhythm and tempo alone."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ Reason: TypeAlias = Literal[
 
 
 class Entry(msgspec.Struct, frozen=True):
-    """A place where players come in together.
+    """A place at which players come in together.
 
     Attributes
     ----------
     reason : str
         Id of the message, but for a section.
     number : float or None
-        What the message says: seconds of rest, or beats a minute.
+        Number in the cue's reason: seconds of rest, or beats per minute.
     players : tuple of (int, int)
-        Who comes in together, with which note: line index, note index.
+        Line index and note index of each player that comes in.
     """
 
     tick: int
@@ -66,14 +66,14 @@ class Entry(msgspec.Struct, frozen=True):
 def entries(
     all_times: tuple[NoteTimes, ...], piece: Piece, held: tuple[Fermata, ...], musicians: tuple[str, ...] = ()
 ) -> tuple[Entry, ...]:
-    """Every place that asks for a cue, in order: by the rhythm of the lines and the tempo alone.
+    """Every entry that needs a cue, in order.
 
     Parameters
     ----------
     held : tuple of Fermata
-        As `app.plan.music.fermatas.fermatas` finds them.
+        Fermatas as `app.plan.music.fermatas.fermatas` returns them.
     musicians : tuple of str
-        The musician of each line, where one plays several: changing instruments is no rest.
+        Musician of each line, if one plays several: a change of instrument is no rest.
     """
     sounding = [(line, times) for line, times in enumerate(all_times) if len(times.onset_tick)]
     if not sounding:
@@ -91,7 +91,7 @@ def entries(
 
 
 class _Spans(msgspec.Struct, frozen=True):
-    """Spans in which something sounds: starts in order, and the latest end of those up to each."""
+    """Spans in which something sounds: starts in order, and the latest end so far."""
 
     starts: IntArray
     ends: IntArray
@@ -103,13 +103,13 @@ class _Spans(msgspec.Struct, frozen=True):
         return cls(starts[order], np.maximum.accumulate(ends[order]))
 
     def sounds_before(self, tick: int, ticks: float) -> bool:
-        """Return whether a note that began before a tick still sounds within some ticks before it."""
+        """Return whether a note that began before a tick still sounds within this many ticks before it."""
         index = int(np.searchsorted(self.starts, tick)) - 1
         return index >= 0 and bool(self.ends[index] > tick - ticks)
 
 
 def _stretches(times: NoteTimes) -> tuple[IntArray, IntArray]:
-    """Return where a line begins to sound and where it stops: a tenth of as many as there are notes."""
+    """Return start and end ticks of a line's spans without rests; about a tenth as many as notes."""
     stops = times.onset_tick[1:] > times.played_end_tick[:-1]
     return times.onset_tick[np.concatenate(([True], stops))], times.played_end_tick[np.append(stops, True)]
 
@@ -119,8 +119,9 @@ def beat_ticks(piece: Piece, tick: int) -> int:
 
 
 def played_together(piece: Piece, tick: int) -> int:
-    """Return how long after a tick others still come in with it, ticks: at once, or within a beat of the bar line after
-    a pickup."""
+    """Return the longest delay in ticks after ``tick`` that still counts as the same entry: almost none, or up to a
+    beat after the bar line that follows a pickup.
+    """
     beat, bar = beat_ticks(piece, tick), piece.metre_map.bar_ticks_at(tick)
     bars = piece.bars(tick, tick + bar + 1)
     following = int(bars[np.searchsorted(bars, tick, side="right")]) - tick if bars[-1] > tick else bar
@@ -128,7 +129,7 @@ def played_together(piece: Piece, tick: int) -> int:
 
 
 def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> tuple[tuple[int, int], ...]:
-    """Return the players that begin a note within some ticks from a tick on, and the notes."""
+    """Return the players (line, note) that begin a note in [tick, tick + ticks)."""
     found = []
     for line, times in sounding:
         index = int(np.searchsorted(times.onset_tick, tick))
@@ -138,7 +139,7 @@ def coming_in(sounding: list[tuple[int, NoteTimes]], tick: int, ticks: int) -> t
 
 
 def _common_entries(sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece: Piece) -> list[Entry]:
-    """The first entry, and those after silences of all, on stage or not."""
+    """The first entry, and entries after silences of everything, on stage or not."""
     accompaniment = np.array(piece.accompaniment, np.int64).reshape(-1, 2)
     all_spans = _Spans.of([(lines.starts, lines.ends), (accompaniment[:, 0], accompaniment[:, 1])])
     first = int(lines.starts[0])
@@ -161,7 +162,7 @@ def _common_entries(sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece:
 
 
 def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s: float, piece: Piece) -> Reason | None:
-    """Reason why all need a cue after a silence of all from ``end`` to ``tick``; None if no one does."""
+    """Reason why all players need a cue after a silence from ``end`` to ``tick``; None if none does."""
     bars, beats = (tick - end) / piece.metre_map.bar_ticks_at(end), (tick - end) / beat_ticks(piece, tick)
     long = rest_s >= COMMON_REST_S - EXACT
     if long or (beats >= COMMON_REST_BEATS - EXACT and rest_s >= COMMON_REST_LEAST_S - EXACT):
@@ -182,7 +183,7 @@ def _silence(sounding: list[tuple[int, NoteTimes]], end: int, tick: int, rest_s:
 
 
 def _held_entries(sounding: list[tuple[int, NoteTimes]], piece: Piece) -> list[Entry]:
-    """Return entries of all players after notes that all held too long to count."""
+    """Return entries of all players after common notes that were held too long to count."""
     held: dict[int, int] = {}
     for _, times in sounding:
         ends, beats = times.played_end_tick[:-1], piece.beat_ticks_at(times.onset_tick[:-1])
@@ -209,7 +210,7 @@ def _nothing_begins(times: NoteTimes, begin: int, tick: int) -> bool:
 def _tempo_entries(
     sounding: list[tuple[int, NoteTimes]], lines: _Spans, piece: Piece, held: tuple[Fermata, ...]
 ) -> list[Entry]:
-    """Entries where a new tempo begins and stays, or the old one goes on after a fermata."""
+    """Entries at the start of a lasting new tempo, and where the tempo resumes after a fermata."""
     beats = piece.metre_map.felt_between(int(lines.starts[0]), int(lines.ends[-1]))
     seconds = piece.clock.seconds(beats.astype(np.float64))
     lasts_s: FloatArray = np.diff(seconds) / np.maximum(np.diff(beats), 1)
@@ -236,13 +237,13 @@ def _tempo_entries(
 
 
 def _tempo_after(fermata: Fermata, piece: Piece) -> float:
-    """Seconds per tick of the tempo that begins after a fermata."""
+    """Seconds per tick of the tempo after a fermata."""
     first, beat = fermata.entry_tick, beat_ticks(piece, fermata.entry_tick)
     return (piece.clock.seconds(float(first + beat)) - piece.clock.seconds(float(first))) / beat
 
 
 def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
-    """Decide whether a tempo begins at a given beat, by how long a tick lasts in each beat."""
+    """Return whether a new tempo begins at a beat, given the length of a tick in each beat."""
     following = lasts_s[place : place + STEADY_BEATS]
     if len(following) < 2 or following.max() > STEADY_TEMPO * following.min():
         return False
@@ -260,8 +261,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
 def _joining(
     sounding: list[tuple[int, NoteTimes]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
 ) -> list[Entry]:
-    """Return where players come in after long rests of their own while others play; those within a bar are one
-    entry."""
+    """Return entries of players after long rests of their own while others play; those within a bar are merged."""
     first = int(lines.starts[0])
     rows: list[tuple[int, float, int, int]] = []
     for line, times in sounding:

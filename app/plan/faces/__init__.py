@@ -1,1 +1,1 @@
-"""Expressions and glances."""
+"""Facial expressions and glances."""

@@ -1,5 +1,5 @@
-"""Faces: neutral beneath, above it what rules show at notes (`app.plan.rules`) and at moments: with the cue of an
-entry, with the breath before one, after the end. What a name looks like is in ``metadata/expressions``.
+"""Plans expressions at moments (the cue of an entry, the breath before one, the end of the piece), above a neutral face
+and combined with expressions at notes (`app.plan.rules`). The expressions are defined in ``metadata/expressions``.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ SMILE_ID = "expression:smile"
 
 
 class _Found(NamedTuple):
-    """A moment: its span, the number of the note that begins there, what an id ends with, and why."""
+    """A moment: its span, the index of the note that begins there, the end of its event id, and the reason."""
 
     span_s: tuple[float, float]
     note: int | None
@@ -54,8 +54,9 @@ def plan_moments(
     gestures: tuple[GestureEvent, ...],
     ending: Ending,
 ) -> tuple[ExpressionEvent, ...]:
-    """All expressions that rules of moments ask for, ordered by start; rules whose expression is not there are reported
-    by `app.plan.rules.plan_by_rules`."""
+    """Plan all expressions from rules about moments, ordered by start. Rules with unknown expressions are reported by
+    `app.plan.rules.plan_by_rules`.
+    """
     events: list[ExpressionEvent] = []
     found = {
         "gives_entry": _given(notes, times, cues),
@@ -87,7 +88,7 @@ def plan_moments(
 
 
 def _matching(rule: Rule, moment: Moment, found: Sequence[_Found], facts: Facts) -> list[_Found]:
-    """Return the moments of which everything holds but style, habits and chance."""
+    """Return the moments that meet all conditions of a rule except style, habits and chance."""
     when = rule.when
     if when == When(moment=moment, styles=when.styles, habits=when.habits, chance=when.chance) or not found:
         return list(found)
@@ -96,7 +97,7 @@ def _matching(rule: Rule, moment: Moment, found: Sequence[_Found], facts: Facts)
 
 
 def _given(notes: tuple[Note, ...], times: LineTimes, cues: tuple[CueEvent, ...]) -> list[_Found]:
-    """Span in which a player gives an entry."""
+    """Moments in which the player gives a cue."""
     onsets = {tick: index for index, tick in enumerate(times.onset_tick.tolist())} if notes else {}
     why = Message("expression.gives_entry")
     return [_Found((cue.start_s, cue.end_s), onsets.get(cue.end_tick), cue.id, why) for cue in cues]
@@ -105,7 +106,7 @@ def _given(notes: tuple[Note, ...], times: LineTimes, cues: tuple[CueEvent, ...]
 def _taken(
     notes: tuple[Note, ...], times: LineTimes, breaths: tuple[BreathEvent, ...], cues: tuple[CueEvent, ...]
 ) -> list[_Found]:
-    """In the breaths before notes that follow others, where the player does not give the entry."""
+    """Moments of breaths before entries that another player cues."""
     given_s = {cue.end_s for cue in cues}
     index_of = {note.id: index for index, note in enumerate(notes)} if breaths else {}
     found = []
@@ -120,7 +121,7 @@ def _taken(
 
 
 def _ended(gestures: tuple[GestureEvent, ...], ending: Ending, frame: TimeFrame) -> list[_Found]:
-    """Span from the lowering of the instrument on, after a piece that ends brightly."""
+    """Moment from the lowering of the instrument on, if the piece ends brightly."""
     lowered_s = [event.start_s for event in gestures if event.id == "lower_instrument:end"]
     if not ending.bright or not lowered_s:
         return []
@@ -128,7 +129,7 @@ def _ended(gestures: tuple[GestureEvent, ...], ending: Ending, frame: TimeFrame)
 
 
 def neutral_face(clock: TempoMap, frame: TimeFrame, face: Expression) -> ExpressionEvent:
-    """The face beneath all others, as long as the performance."""
+    """The neutral face, beneath all others, for the whole performance."""
     return ExpressionEvent(
         id="expression:neutral",
         expression=face.name,

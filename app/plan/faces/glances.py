@@ -1,8 +1,8 @@
-"""At whom players look, and when: eyes leave the music for who gives an entry, for who takes it, and beside playing.
+"""Glances: at the player who cues an entry, at the players who are cued, and away from the music while not playing.
 
-Who takes an entry looks at its giver from before the lift to the entry; the giver looks at them before it. Directions
-come from the places on the stage. An eye turns `EYES_RAD` at most; what is further aside is a matter of the head, or
-seen from the corner of the eye.
+Players of an entry look at the cueing player from before the preparatory motion to the entry; the cueing player looks
+at them before it. Directions come from the places on the stage. An eye turns `EYES_RAD` at most; the head turns for the
+rest, or the eye's corner suffices.
 """
 
 from __future__ import annotations
@@ -64,17 +64,16 @@ def glances_of(
     seeds: Seeds,
     up: tuple[GlanceEvent, ...] = (),
 ) -> tuple[GlanceEvent, ...]:
-    """All glances of a player, in order, one at a time.
+    """All glances of a player, in order and without overlaps.
 
     Parameters
     ----------
     cues : sequence of CueEvent
         Of all players.
     gestures : sequence of GestureEvent
-        The player's own, corrections applied.
+        The player's gestures, corrections applied.
     places : mapping of str to StagePlace
-        Where every player stands, and the conductor; without a place of the player's own or the other's no one is
-        looked at.
+        Place of every player and the conductor; without a place of both no look is planned.
     up : tuple of GlanceEvent
         Looks up to the conductor while playing (`app.plan.faces.looks_at_conductor`).
     """
@@ -109,7 +108,7 @@ def _to_giver(cue: CueEvent, player_id: str, places: Mapping[str, StagePlace], s
 
 
 def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) -> list[GlanceEvent]:
-    """The giver looks at one or two of them, the nearest first, and is back at the music for the entry."""
+    """Looks of the cueing player at one or two cued players, nearest first, back at the music for the entry."""
     if cue.player_id not in places:
         return []
     own = places[cue.player_id]
@@ -127,7 +126,7 @@ def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) ->
 
 
 def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
-    """To one side, then less far to the other."""
+    """Two looks: to one side, then less far to the other."""
     side = 1.0 if seeds.chance_at("look side", event.start_tick) < 0.5 else -1.0
     turn_s = event.start_s + (0.5 + 0.2 * seeds.chance_at("look turn", event.start_tick)) * (
         event.end_s - event.start_s
@@ -141,7 +140,7 @@ def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
 
 
 def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
-    """Return where a gesture says that the eyes go."""
+    """Return the look that belongs to a gesture."""
     length_s = event.end_s - event.start_s
     return GlanceEvent(
         f"glance:{event.id}",
@@ -156,7 +155,7 @@ def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
 
 
 def bearing_rad(own: StagePlace, other: StagePlace) -> float:
-    """Return where another stands, from the direction in which a player faces; to the left is positive."""
+    """Return the direction of another player relative to the player's facing, in radians; left is positive."""
     across_m, ahead_m = other.x_m - own.x_m, other.z_m - own.z_m
     if across_m == 0.0 and ahead_m == 0.0:
         return 0.0
@@ -164,7 +163,7 @@ def bearing_rad(own: StagePlace, other: StagePlace) -> float:
 
 
 def pitch_rad(own: StagePlace, other: StagePlace) -> float:
-    """Return how far down another's eyes are from a player's own."""
+    """Return the pitch in radians of a look at another player's eyes; down is positive."""
     return round(min(max(math.atan2(own.eyes_m - other.eyes_m, _apart_m(own, other)), -MOST_UP_RAD), MOST_UP_RAD), 4)
 
 
@@ -188,7 +187,7 @@ def _glance(name: str, at: str, start_s: float, end_s: float, yaw_rad: float, aw
 
 
 def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
-    """Return the glance with as much turn of the head as is free, and as far as eyes and head go."""
+    """Return the glance with the head's share of the turn, limited to the range of eyes and head."""
     free = lowered.hold(glance.start_s - 0.5, glance.end_s + 0.5)
     share = FREE_HEAD if free else PLAYING_HEAD
     most_rad = min(EYES_RAD / (1.0 - share), MOST_RAD)
@@ -197,7 +196,7 @@ def _turned(glance: GlanceEvent, lowered: Spans) -> GlanceEvent:
 
 
 def _in_turn(glances: list[GlanceEvent]) -> list[GlanceEvent]:
-    """Each ends where the next begins; those that are left with too little time are none."""
+    """End each glance where the next begins, and drop those that become too short."""
     ordered = sorted(glances, key=lambda one: (one.start_s, one.id))
     kept: list[GlanceEvent] = []
     for glance in ordered:

@@ -1,5 +1,6 @@
-"""Expressions that rules show to a note while it is played: by its height, loudness and effort alone, since no one
-knows yet how long it lasts and what follows."""
+"""Expressions from rules for live playing: by pitch, loudness and effort of the current note alone, since its length
+and what follows are unknown.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ _GROWN = frozenset({"loudness", "height", "depth", "effort"})
 
 
 def live_rules(rules: tuple[Rule, ...], expressions: Collection[str]) -> tuple[Rule, ...]:
-    """The rules that can be followed live, with an expression that is there."""
+    """The rules that work live and whose expression exists."""
     never = When()
 
     def follows(rule: Rule) -> bool:
@@ -31,7 +32,7 @@ def live_rules(rules: tuple[Rule, ...], expressions: Collection[str]) -> tuple[R
 def faces_now(
     rules: tuple[Rule, ...], pitch: FloatArray, loudness: FloatArray, effort: FloatArray, instrument: InstrumentMap
 ) -> dict[str, float]:
-    """Strength of each expression for one note; arguments are (1,)."""
+    """Strength of each expression for the current note; arrays are (1,)."""
     nothing = np.zeros(1)
     facts = Facts(
         loudness=loudness,

@@ -1,8 +1,8 @@
-"""Looks up from the music to the conductor while playing.
+"""Looks from the music up to the conductor while playing.
 
-Entries are given, and looked at, by cues (`app.plan.faces.glances`). Beside these, players look up where they need the
-beat: while the tempo changes, into the last chord until it is released, as phrases begin, and now and then before a
-bar. The score is read most of the time: in fast runs no one looks up.
+Looks at cues are planned by `app.plan.faces.glances`. In addition players look up when they need the beat: while the
+tempo changes, in the last chord until its release, as phrases begin, and occasionally before a bar. In fast runs they
+keep reading.
 """
 
 from __future__ import annotations
@@ -52,14 +52,14 @@ def looks_up(
     amount: float,
     seeds: Seeds,
 ) -> tuple[GlanceEvent, ...]:
-    """The looks of a player at the conductor, in order and apart; none without a conductor.
+    """Looks of a player at the conductor, in order and not overlapping; empty without a conductor.
 
     Parameters
     ----------
     last_s : float
         End of the last note of all players.
     amount : float
-        How much the eyes leave the music, 1 as usual.
+        Frequency of looks away from the music, 1 is usual.
     """
     if CONDUCTOR not in places or player_id not in places or not len(times.onset_s):
         return ()
@@ -82,7 +82,9 @@ def looks_up(
 
 
 def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float, float]]:
-    """Changes of tempo, and the last note. What follows soon is one look, but none lasts long."""
+    """Spans of looks that always happen: tempo changes and the last note. Close ones are merged, up to a largest
+    length.
+    """
     asked: list[tuple[float, float]] = []
     beats = piece.metre_map.felt_between(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     if len(beats) > 2:
@@ -125,7 +127,7 @@ def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> l
 
 
 def _bars(times: NoteTimes, piece: Piece) -> tuple[IntArray, FloatArray]:
-    """Ticks and seconds of the bars near what is played, one of those that lie close together."""
+    """Ticks and seconds of the bars near played notes; of bars close together only one."""
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))
     following = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)

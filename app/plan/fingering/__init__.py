@@ -1,1 +1,1 @@
-"""Fingerings, and the mutes that go with them."""
+"""Fingerings and mutes."""

@@ -1,4 +1,4 @@
-"""Costs of every fingering and every motion between two, for the search."""
+"""Costs of every fingering and of every motion between two fingerings, for the search."""
 
 from __future__ import annotations
 
@@ -97,19 +97,18 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Motions:
-    """Motions from each fingering of a note to each of the next.
+    """Motions from each fingering of a note to each fingering of the next.
 
     Attributes
     ----------
     pair : (N-1,) int64
-        Of each step, its row in ``moves``.
+        Row in ``moves`` for each step.
     moves : (U, K, K) float64
-        Fingers that move, by pair of pitches; a way from key to key counts as several.
+        Fingers that move, by pair of pitches; a move between keys counts as several.
     slide_m, needed_s, share : (N-1, K, K) float64, or (N-1, 1, 1) without a slide
-        Travel of slides in metres, the time that takes, and the part of the available time that it is (over 1: it
-        starts early).
+        Slide travel in metres, the time it takes, and its share of the available time (over 1: it starts early).
     cost : (N-1, K, K) float64
-        What the search pays.
+        Cost for the search.
     """
 
     pair: IntArray
@@ -122,14 +121,14 @@ class Motions:
 
 @dataclass(frozen=True)
 class FingeringProblem:
-    """The search as arrays: what each note may be played with, and what that costs.
+    """Input of the fingering search: the fingerings of each note with their costs, as arrays.
 
     Attributes
     ----------
     in_score : dict of int to int
-        Columns of the fingerings that the score has, by note.
+        Column of the fingering given in the score, by note.
     glides : (N,) bool or None
-        From which notes a glissando in the score leads to the next.
+        Mask of notes from which a glissando in the score leads to the next.
     """
 
     times: LineTimes
@@ -152,7 +151,7 @@ class FingeringProblem:
 
     @cached_property
     def local_cost(self) -> FloatArray:
-        """(N, K): what a fingering costs by itself; inf where there is none or a correction forbids it."""
+        """Cost (N, K) of each fingering by itself; inf where there is none or a correction excludes it."""
         table, index, times = self.table, self.pitch_index, self.times
         out_of_tune = np.maximum(np.abs(table.cents) - np.abs(table.cents[:, :1]), 0.0) / CENTS_PER_UNIT
         audible = np.minimum(times.duration_s / FULLY_AUDIBLE_S, 1.0)[:, None]
@@ -174,7 +173,9 @@ class FingeringProblem:
 
     @property
     def _beside(self) -> BoolArray:
-        """(N, K): fingerings that keep a lever turned which the first choice of a neighbour at another pitch turns."""
+        """Mask (N, K) of fingerings that keep a lever turned which the first choice of a neighbour at another pitch
+        turns.
+        """
         table, times, index = self.table, self.times, self.pitch_index
         near = (times.onset_s[1:] - times.played_end_s[:-1] < BESIDE_S) & (index[1:] != index[:-1])
         first = table.levers[index, 0]
@@ -185,7 +186,7 @@ class FingeringProblem:
         return np.asarray(found & table.beside[index] & (here != 0))
 
     def _where(self, tag: str) -> BoolArray:
-        """(N,): the notes that fingerings with this tag are meant for."""
+        """Mask (N,) of the notes for which fingerings with this tag are meant."""
         times = self.times
         match tag:
             case "trill":
@@ -250,8 +251,9 @@ class FingeringProblem:
         return Motions(pair, moves, slide_m, needed_s, share, cost)
 
     def _repeated(self, gap: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Steps to the same pitch again, and what a worse and a better fingering cost there; not where a correction
-        pins one."""
+        """Steps that repeat a pitch, and the costs of changing to a worse and to a better fingering there; steps pinned
+        by a correction are excluded.
+        """
         alike = (self.allowed[1:] == self.allowed[:-1]).all(axis=1)
         again = np.flatnonzero((self.pitch_index[1:] == self.pitch_index[:-1]) & alike)
         touching = np.clip(1.0 - gap[again] / REPEATED_REST_S, 0.0, 1.0)
@@ -263,12 +265,12 @@ class FingeringProblem:
 
     @cached_property
     def _pace(self) -> FloatArray:
-        """(N-1,): how hurried every step is, from 0 to 1."""
+        """Hurry (N-1,) of every step, 0 to 1."""
         step = np.diff(self.times.onset_s)
         return np.asarray(np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0))
 
     def _slide_change(self) -> FloatArray:
-        """(N-1, K, K): how far the slides go out, as a part of their travel."""
+        """Change (N-1, K, K) of slide extension, as a share of its travel."""
         places = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
         values = self.table.values[self.pitch_index][:, :, places].sum(axis=2)
         return np.asarray(values[1:, None, :] - values[:-1, :, None], dtype=np.float64)
@@ -296,8 +298,9 @@ class FingeringProblem:
 
     @cached_property
     def reversal_cost(self) -> FloatArray | None:
-        """(N-2, K, K, K): turning a slide back at speed, and to another place for the same pitch, by the fingerings of
-        three notes; None without a slide."""
+        """Cost (N-2, K, K, K) for three successive notes: reversing the slide at speed, and returning to a pitch in
+        another position; None without a slide.
+        """
         slides = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
         if not slides or len(self.pitch_index) < 3:
             return None
@@ -313,11 +316,11 @@ class FingeringProblem:
         return np.asarray(cost, dtype=np.float64)
 
     def goes_further(self, path: IntArray, other: IntArray, starts: IntArray, ends: IntArray) -> BoolArray:
-        """For each span of notes ``starts[i]``..``ends[i]``, return whether a path moves further or faster than
-        another.
+        """For each span of notes ``starts[i]``..``ends[i]``, return whether ``path`` moves further or faster than
+        ``other``.
 
-        Compared are the travel of slides and the fastest of their motions, as a part of the time it has; where there is
-        no slide, the moves of fingers (beside one, a lever's moves are no travel).
+        With a slide this compares its travel and its fastest motion relative to the available time; without one, the
+        finger moves.
         """
         inside = ends > starts
         spans = np.stack((starts, ends), axis=1).ravel()
@@ -344,9 +347,10 @@ def fingering_problem(
     by_hand: BoolArray | None = None,
     written: WrittenFingerings = NO_FINGERINGS,
 ) -> FingeringProblem:
-    """Set up the search. ``pins`` maps note ids to labels that a correction demands; a label that is no fingering of
-    its note is passed over (see `plan_fingerings`), and so is one of ``written``, the fingerings in the score.
-    ``by_hand`` (N,) are notes that the hand stops."""
+    """Set up the search. ``pins`` maps note ids to labels required by corrections; labels unknown to the map, here or
+    in ``written`` (fingerings in the score), are ignored (see `plan_fingerings`). ``by_hand`` (N,) marks hand-stopped
+    notes.
+    """
     stopped = instrument.stopped if by_hand is not None and by_hand.any() else None
     if stopped is not None and by_hand is not None:
         times = replace(times, pitch=times.pitch + stopped.fingered_semitones * by_hand)
@@ -374,7 +378,7 @@ def fingering_problem(
 def _in_score(
     written: Sequence[str], choices: Sequence[tuple[Fingering, ...]], pitch_index: IntArray, instrument: InstrumentMap
 ) -> dict[int, int]:
-    """Columns of the fingerings in the score that the map has, by note."""
+    """Column of the score's fingering for each note that has one known to the map."""
     found = {}
     for index, text in enumerate(written):
         column = written_choice(text, choices[pitch_index[index]], instrument.controls) if text else None
@@ -384,7 +388,7 @@ def _in_score(
 
 
 def _either_side(steps: BoolArray, count: int) -> BoolArray:
-    """(N,): whether the step to a note or from it is marked."""
+    """Mask (N,) of notes with a marked step before or after them."""
     notes = np.zeros(count, dtype=bool)
     notes[:-1] |= steps
     notes[1:] |= steps

@@ -1,6 +1,6 @@
-"""Movement of each finger from one fingering to another: lifts, presses, rolls, changes of key.
+"""Finger movement from one fingering to another: lifts, presses, rolls, changes of key.
 
-A finger is where the controls are that it holds; those that two pitches' fingerings ask for are compared all at once.
+A finger's place is the set of controls it holds; all pairs of fingerings of two pitches are compared at once.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ finger, which is why its keys are there twice."""
 
 @dataclass(frozen=True)
 class Ways:
-    """Movements of fingers between two pitches, for all their fingerings; each (U, K, K) float64.
+    """Finger movements between all fingerings of two pitches; each array (U, K, K) float64.
 
     Attributes
     ----------
@@ -66,15 +66,15 @@ class FingerPlaces:
     Attributes
     ----------
     holds, half : (F, P, K) int64
-        What each finger holds wholly, and half.
+        Controls that each finger holds fully, and half.
     levers : int
         Bits of the thumbs' levers.
     aside : int
-        Bits of what fingers work with their sides: the hand turns for it.
+        Bits of controls worked with the side of a finger, for which the hand turns.
     hands : tuple of list of int
         The rows of the fingers of each hand.
     weight, key_to_key : (F, 1, 1, 1) float64
-        What a finger's move counts in a hurry, and what its way from one key to another costs.
+        Weight of a finger's move in a hurry, and cost of its move between keys.
     """
 
     holds: IntArray
@@ -86,7 +86,9 @@ class FingerPlaces:
     key_to_key: FloatArray
 
     def between(self, before: IntArray, after: IntArray) -> Ways:
-        """Count what it takes from each fingering of the pitches ``before`` to each of those ``after``, (U,) both."""
+        """Count the movements from each fingering of the pitches ``before`` to each fingering of ``after``, both
+        (U,).
+        """
         a, b = self.holds[:, before, :, None], self.holds[:, after, None, :]
         whole = self.holds | self.half
         whole_a, whole_b = whole[:, before, :, None], whole[:, after, None, :]
@@ -132,8 +134,9 @@ def finger_places(
     controls: Sequence[Control],
     contacts: Sequence[Contact],
 ) -> FingerPlaces:
-    """Work out where the fingers are in the fingerings of every pitch, padded to ``shape`` (P, K); slides are no
-    fingers' matter."""
+    """Find the controls that each finger holds in the fingerings of every pitch, padded to ``shape`` (P, K); slides are
+    ignored.
+    """
     names = sorted(
         {control.finger for control in controls}
         | {finger for ranked in choices for fingering in ranked for finger in fingering.fingers.values()}

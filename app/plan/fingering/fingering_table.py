@@ -1,4 +1,4 @@
-"""The ranked fingerings of some pitches as arrays, for every pitch alike."""
+"""Ranked fingerings of some pitches as arrays."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ RARE_COST = 10.0
 
 @dataclass(frozen=True)
 class FingeringTable:
-    """Fingerings of the pitches of a part, padded to K.
+    """Fingerings of a part's pitches, padded to K per pitch.
 
     Attributes
     ----------
     values : (P, K, C) float64
         Of the controls of pitch.
     cost : (P, K) float64
-        What each costs by its rank.
+        Cost of each fingering by its rank.
     cents : (P, K) float64
     valid : (P, K) bool
-        Which the search may choose; obsolete ones only a correction may.
+        Mask of fingerings that the search may choose; obsolete ones are left to corrections.
     meant_for : dict of str to (P, K) bool
-        Which are meant for a trill, for fast, loud or soft notes.
+        Masks of fingerings meant for trills, and for fast, loud or soft notes.
     register : (P,) int64
-        How many breaks lie below the pitch.
+        Number of register breaks below the pitch.
     rare : (P, K) bool
-        Which are hardly ever used.
+        Mask of fingerings that are hardly ever used.
     beside : (P, K) bool
-        Which keep a lever turned for their neighbours.
+        Mask of fingerings that keep a lever turned for neighbouring notes.
     levers : (P, K) int64
-        Levers that each turns, as bits.
+        Levers turned by each fingering, as bits.
     leaves_down : bool
-        Whether any fingering of the instrument leaves a key down that its note does not need (tag "held").
+        Whether any fingering of the instrument leaves down a key that its note does not need (tag "held").
     places : FingerPlaces
-        Where every finger is in each of them.
+        Place of every finger in each fingering.
     """
 
     choices: tuple[tuple[Fingering, ...], ...]
@@ -74,12 +74,12 @@ class FingeringTable:
 
 
 def pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
-    """The controls that fingerings name."""
+    """The controls that occur in fingerings."""
     return tuple(control for control in instrument.controls if control.role == "pitch")
 
 
 def table_of(pitches: tuple[int, ...], instrument: InstrumentMap) -> FingeringTable:
-    """The fingerings of these concert pitches, in their order."""
+    """The fingerings of these concert pitches, in the given order."""
     choices = tuple(instrument.fingerings_for(pitch) for pitch in pitches)
     controls = pitch_controls(instrument)
     shape = (len(choices), max((len(ranked) for ranked in choices), default=1))

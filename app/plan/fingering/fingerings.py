@@ -1,8 +1,8 @@
-"""Fingering of every note: a search over the whole part, as a player would choose.
+"""Chooses the fingering of every note by a search over the whole part.
 
-The search (Viterbi over the ranked fingerings of every note) keeps the first choice unless speed or a trill makes an
-alternate worth its intonation and its unfamiliarity. Afterwards every run of alternates and every phrase is compared
-with the first choices: one that travels further or needs a faster motion is played with first choices after all.
+The search (Viterbi over the ranked fingerings of every note) keeps the first choice unless speed or a trill justifies
+an alternate in spite of its intonation. Afterwards every run of alternates and every phrase is compared with the first
+choices, which are used if the run travels further or needs a faster motion.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ def plan_fingerings(
     Parameters
     ----------
     pins : dict of str to str
-        Labels demanded by corrections, by note id.
+        Labels required by corrections, by note id.
     stopped : tuple of (start tick, end tick), optional
-        Where the hand stops the bell: notes are fingered as the map says of it.
+        Spans in which the hand stops the bell: notes are fingered as the map defines for stopped notes.
     written : WrittenFingerings, optional
-        The fingerings in the score. A correction wins over them, and they over the search.
+        Fingerings in the score. A correction overrides them, and they override the search.
     """
     if not notes:
         return Planned((), ())
@@ -100,7 +100,7 @@ def _unplayed(
     written: WrittenFingerings,
     problem: FingeringProblem,
 ) -> list[Problem]:
-    """Return a problem for every fingering, first by correction, then in the score, that the map does not have."""
+    """Return a problem for every fingering in a correction or in the score that the map lacks."""
     wrong = [
         ("correction.no_such_fingering", index, pins[note.id])
         for index, note in enumerate(notes if pins else ())
@@ -119,7 +119,7 @@ def _unplayed(
 
 
 def _searched(fingering: Fingering, first_choice: Fingering, in_trill: bool, step_s: float) -> Message:
-    """Return why the search chose a fingering, whose quicker step from or to a neighbour takes ``step_s``."""
+    """Return the reason for a fingering chosen by the search; ``step_s`` is the shorter step from or to a neighbour."""
     if fingering.rank <= 1:
         return _reason("fingering.first_choice", fingering.label)
     rule = "fingering.trill" if in_trill else "fingering.speed"
@@ -127,7 +127,7 @@ def _searched(fingering: Fingering, first_choice: Fingering, in_trill: bool, ste
 
 
 def _glides_s(glides: tuple[bool, ...], onset_s: Sequence[float]) -> dict[int, float]:
-    """The times from which a slide glides to a note, by the note."""
+    """Start times of slide glides, by the note they lead to."""
     return {
         index: onset_s[index - 1] + GLIDE_AFTER * (onset_s[index] - onset_s[index - 1])
         for index in range(1, len(onset_s))
@@ -138,7 +138,9 @@ def _glides_s(glides: tuple[bool, ...], onset_s: Sequence[float]) -> dict[int, f
 def _controls(
     problem: FingeringProblem, chosen: Sequence[tuple[int, int]], instrument: InstrumentMap
 ) -> list[dict[str, float]]:
-    """The controls of every note: of a chosen fingering, by pitch and rank, and what tunes it where it lasts."""
+    """Control values of every note: of its fingering, given by pitch and rank, with tuning adjustments on notes that
+    last.
+    """
     held = [
         (control.name, control.held_min_s or 0.0) for control in instrument.controls if control.role == "intonation"
     ]
