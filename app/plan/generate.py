@@ -1,4 +1,4 @@
-"""Makes plans of lines: the ensemble's time frame, its leader and cues, then every player by pure functions."""
+"""Generates the plans of an ensemble: the time frame, the leader and the cues, then every player, by pure functions."""
 
 from __future__ import annotations
 
@@ -60,8 +60,9 @@ def frame_around(
     preroll_beats: float = PREROLL_BEATS,
     beat_ticks: int | None = None,
 ) -> TimeFrame:
-    """The span of a performance that sounds from one tick to another: from a pre-roll of some beats, at least
-    `PREROLL_LEAST_S`, before the first to `AFTER_LAST_S` after the last. Times before the first tick are negative.
+    """Return the span of a performance that sounds from one tick to another: from a pre-roll (a number of beats, at
+    least `PREROLL_LEAST_S`) before the first to `AFTER_LAST_S` after the last tick. Times before the first tick are
+    negative.
 
     Parameters
     ----------
@@ -80,33 +81,34 @@ def frame_around(
 
 
 def usual_preroll(beat_s: float) -> float:
-    """Felt beats before the first note of a new piece, by the length of a beat: a bar of four, or whole beats enough to
-    come up from rest."""
+    """Number of felt beats before the first note of a new piece: a bar of four, or as many as are needed to raise the
+    instrument.
+    """
     return max(PREROLL_BEATS, float(min(math.ceil(COME_UP_S / beat_s - 1e-6), MOST_PREROLL_BEATS)))
 
 
 class EnsemblePlanning:
-    """Plans of an ensemble in the making, one player after another in any order: the plans are the same in each.
+    """Plans the players of an ensemble one after another, in any order, with the same result.
 
-    Of the players before one that is asked for no more is computed than when they breathe.
+    For the players before a requested one only their breaths are computed.
 
     Parameters
     ----------
     frame : TimeFrame
-        From `frame_around` (or a longer one).
+        The time frame, from `frame_around` or longer.
     expressions, rules, gestures : optional
-        What players show and do by rules, and what rules and the animator may name: the bundled ones by default.
+        Expressions, rules and gestures available to the plan; the bundled ones by default.
     places : mapping of str to StagePlace, optional
-        Where each player stands, and under `CONDUCTOR` who gives the entries; who has no place looks at no one.
+        Place of each player, and of the conductor under `CONDUCTOR`; a player without a place looks at no other.
     runs : StepRuns, optional
-        What has not changed since its former runs is taken from there, to the object.
+        Cache of earlier results; unchanged results are returned as the same objects.
     stop_requested : callable
-        Asked between two players.
+        Called between two players.
 
     Raises
     ------
     Cancelled
-        ``stop_requested`` said so.
+        ``stop_requested`` returned True.
     """
 
     def __init__(
@@ -148,7 +150,7 @@ class EnsemblePlanning:
         self._begun = dict[str, StepResults]()
 
     def plan(self, player_id: str) -> PlayerPlan:
-        """Plan a player, if that is not done yet. Raises Cancelled."""
+        """Return a player's plan, computed on the first call. Raises Cancelled."""
         if player_id not in self._plans:
             number = self.player_ids.index(player_id)
             while len(self._breathed) < number:
@@ -159,8 +161,9 @@ class EnsemblePlanning:
         return self._plans[player_id]
 
     def excerpt(self, first_s: float, end_s: float) -> EnsemblePlanning:
-        """Planning of the same players from only those notes that begin in a span, and the cues there. What all share
-        (felt bars, fermatas, how the piece ends) and the players' usual pitches are those of the whole piece."""
+        """Return a planning of the same players for only those notes that begin in a span, with the cues there. Shared
+        facts (felt bars, fermatas, the ending) and the players' usual pitches remain those of the whole piece.
+        """
         clock, other = self._clock, copy(self)
         cues = self._everyone["cue_events"]
         assert isinstance(cues, tuple)
@@ -181,7 +184,7 @@ class EnsemblePlanning:
         return {player_id: self.plan(player_id) for player_id in self.player_ids}
 
     def _player(self, number: int) -> StepResults:
-        """Begin the steps of a player's plan, after those whose breaths are placed already."""
+        """Begin the steps of a player's plan, after the players whose breaths are already planned."""
         part = self._parts[number]
         player_id, results = part.player_id, self._playable[part.player_id]
         if player_id in self._begun:
@@ -210,7 +213,7 @@ def _shared_by_all(
     everyone: Mapping[str, object],
     runs: StepRuns,
 ) -> StepResults:
-    """Begin the steps that concern all players."""
+    """Begin the steps that involve all players."""
     stage = everyone["stage"]
     assert isinstance(stage, Mapping)
     return runs.begin(
@@ -226,7 +229,7 @@ def _shared_by_all(
 def _shared_lines(
     playable: Mapping[str, StepResults], everyone: Mapping[str, object], runs: StepRuns
 ) -> list[SharedLine]:
-    """Return what others know of each player."""
+    """Return the summary of each player for comparison with the others."""
     return [
         runs.begin(SHARED_LINE, player_id, **everyone, times=results.of(note_times)).of(shared_line)
         for player_id, results in playable.items()
@@ -234,7 +237,7 @@ def _shared_lines(
 
 
 def _within(part: MonophonicPart, first_tick: float, end_tick: float) -> MonophonicPart:
-    """Return a part with only those notes that begin in a span."""
+    """Return the part with only those notes that begin in a span."""
     onset = attrgetter("onset_tick")
     kept = slice(bisect_left(part.notes, first_tick, key=onset), bisect_left(part.notes, end_tick, key=onset))
     loudness, levels = part.loudness[kept], part.levels[kept]
@@ -242,7 +245,7 @@ def _within(part: MonophonicPart, first_tick: float, end_tick: float) -> Monopho
 
 
 def _fields(part: MonophonicPart) -> dict[str, object]:
-    """Return the fields of a part by name, its map as the instrument."""
+    """Return the fields of a part by name, with its map as ``instrument``."""
     given = msgspec.structs.asdict(part)
     return {**given, "instrument": given.pop("instrument_map")}
 
@@ -265,7 +268,7 @@ def _leading(
     sound_corrections: tuple[Correction, ...],
     musician: str,
 ) -> MonophonicPart:
-    """Return the line with only the fields that cues depend on."""
+    """Return the part with only the fields that affect cues."""
     corrections = of_kinds(sound_corrections, (SetCue, RemoveEvent, SetBreath))
     return MonophonicPart(
         player_id, played_notes, instrument, parameters_deciding(parameters, "cues"), corrections, musician=musician

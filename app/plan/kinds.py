@@ -1,6 +1,6 @@
-"""Kinds of gestures and of breaths: one row for each, read wherever kinds differ.
+"""Kinds of gestures and breaths: one table row for each, used wherever kinds differ.
 
-A new kind of gesture is a row here and a function among `app.plan.player.BY_MUSIC`; its reason is a message.
+A new kind of gesture needs a row here and a function in `app.plan.player.BY_MUSIC`; its reason is a message.
 """
 
 from __future__ import annotations
@@ -35,26 +35,25 @@ class GestureRow(NamedTuple):
     Attributes
     ----------
     id : str
-        First part of its events' ids; also in users' files.
+        First part of the events' ids; also stored in project files.
     names : (str, str)
         Of an event, in English and Japanese.
     command : str
-        English title of the command that adds one; empty: there is none.
+        English title of the command that adds one; empty if there is none.
     part : str
-        What answers it.
+        Part of the motion that performs it.
     layer : str
-        The field of `app.plan.acting.Acting` that scales its amount in another style, where one gesture has one size.
+        The field of `app.plan.acting.Acting` that scales its amount in another style.
     signed : bool
-        It goes one way or the other; of all others there is no less than nothing.
+        Whether it has two directions; other kinds are never below 0.
     row : str
-        Of the timeline's lane; those of the same row share it, and one without has a row of its own.
+        Row of the timeline's lane; kinds with an equal row share it, and an empty one gets its own row.
     look : {"span", "strip", "curve"}
-        What is generated is drawn one by one, as bars of a calm strip, or as a strip that goes on from where the one
-        before ended.
+        Drawing: as single spans, as bars of a calm strip, or as a strip that continues from the previous event's end.
     moves_eyes : bool
-        Glances depend on it.
+        Whether glances depend on it.
     idle : bool
-        It is left out where a hand of the player is away.
+        Whether it is omitted while a hand is off the instrument.
     """
 
     id: str
@@ -75,15 +74,15 @@ class BreathRow(NamedTuple):
     Attributes
     ----------
     id : str
-        First part of its events' ids; also in users' files.
+        First part of the events' ids; also stored in project files.
     names : (str, str)
         Of an event, in English and Japanese.
     draws_air : bool
-        It fills the lungs; else it is the motion that leads to a breath.
+        Whether it fills the lungs; otherwise it is the motion before a breath.
     within : bool
-        It is taken within a note, of which there may be several; else before one.
+        Whether it is within a note, which may have several; otherwise before a note.
     shown_as : str
-        The kind of its events in plans, where that is another.
+        Kind of its events in plans, if different from the id.
     """
 
     id: str
@@ -94,7 +93,7 @@ class BreathRow(NamedTuple):
 
     @property
     def event_kind(self) -> str:
-        """The kind of its events in plans."""
+        """Kind of its events in plans."""
         return self.shown_as or self.id
 
 
@@ -151,5 +150,5 @@ COMMAND_TEXTS: Final = {f"action.gesture.{kind.id}": (kind.command, kind.names[1
 
 
 def answered_by(part: Part) -> tuple[str, ...]:
-    """Return the kinds of gestures that one part of the motion answers."""
+    """Return the kinds of gestures that a part of the motion performs."""
     return tuple(kind.id for kind in GESTURES if kind.part == part)

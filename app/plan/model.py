@@ -1,7 +1,7 @@
-"""Plan of each player: named events in time, each with its reason.
+"""Plan of a player: named events in time, each with its reason.
 
-Times stand twice: in integer ticks of the score (where an event is anchored, and what a correction moves) and in
-float64 seconds of the performance, which may be negative before the first tick. Ranges are half-open.
+Times are given twice: in integer ticks of the score (anchor of the event, moved by corrections) and in float64 seconds
+of the performance, negative before the first tick. Ranges are half-open.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ E = TypeVar("E")
 
 
 class Vent(msgspec.Struct, frozen=True, gc=False):
-    """Controls that only help a note to speak, and when they are let go; ``label`` is what is held from then on."""
+    """Controls used only to start a note, and the time of their release; ``label`` is the fingering held afterwards."""
 
     controls: tuple[str, ...]
     end_tick: int
@@ -39,9 +39,9 @@ class Vent(msgspec.Struct, frozen=True, gc=False):
 class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
     """The fingering of one note.
 
-    ``controls`` holds 0..1 for every control of the map that is not at rest, ``fingers`` which finger works those that
-    another than the usual one does. ``vent`` names the controls that are released once the note speaks. A slide that
-    glides to the note leaves the place of the one before at ``glide_from_s``.
+    ``controls`` has the value 0..1 of every control that is not at rest; ``fingers`` the finger of those not worked by
+    their usual one. ``vent`` has the controls released once the note speaks. A slide that glides to the note leaves its
+    previous position at ``glide_from_s``.
     """
 
     id: str
@@ -62,7 +62,7 @@ class FingeringEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class BreathEvent(msgspec.Struct, frozen=True, gc=False):
-    """An inhalation, or the motion that prepares it. ``depth`` is 0..1 of a full lung; a catch breath is shallow."""
+    """An inhalation, or its preparatory motion. ``depth`` is 0..1 of a full lung; a catch breath is shallow."""
 
     id: str
     kind: BreathKind
@@ -76,12 +76,12 @@ class BreathEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def draws_air(self) -> bool:
-        """True if it fills the lungs; else it leads to a breath."""
+        """True if it fills the lungs; False for a preparatory motion."""
         return BREATH_KINDS[self.kind].draws_air
 
     @property
     def is_within(self) -> bool:
-        """True if it is taken within a note, not before it."""
+        """True if it is within a note instead of before one."""
         return BREATH_KINDS[EventId.parse(self.id).kind].within
 
 
@@ -92,9 +92,9 @@ ATTACK: Final = Message("tongue.attack")
 
 
 class TongueEvent(msgspec.Struct, frozen=True, gc=False):
-    """The tongue's stroke before an attacked note; it releases at ``end_s``, the onset.
+    """Tongue stroke before an attacked note; the tongue releases at ``end_s``, the onset.
 
-    ``strength`` is its size as a share of a plain stroke of the tip's.
+    ``strength`` is its size relative to a plain stroke of the tip.
     """
 
     note_id: str
@@ -115,7 +115,7 @@ MuteKind: TypeAlias = Literal["mute", "stopped"] | MuteName
 
 
 class MuteEvent(msgspec.Struct, frozen=True, gc=False):
-    """A passage played with a mute in the bell, or with the hand closing it."""
+    """A passage played with a mute, or with the hand closing the bell."""
 
     id: str
     kind: MuteKind
@@ -127,13 +127,13 @@ class MuteEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
-    """Lips during one note. All values 0..1: ``tension`` (register), ``effort`` (height, loudness, length), ``air``
+    """Lips during one note, all values 0..1: ``tension`` (by pitch), ``effort`` (height, loudness, length), ``air``
     (dynamics).
 
     Attributes
     ----------
     planned : (float, float, float) or None
-        Tension, effort and air as they were planned, where others were set by hand.
+        Generated tension, effort and air, if other values were set by hand.
     """
 
     note_id: str
@@ -147,7 +147,7 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def corrected(self) -> bool:
-        """True if it was set by hand."""
+        """True if values were set by hand."""
         return self.planned is not None
 
     @property
@@ -157,18 +157,18 @@ class EmbouchureEvent(msgspec.Struct, frozen=True, gc=False):
 
 
 class CueEvent(msgspec.Struct, frozen=True, gc=False):
-    """A lead-in by body and instrument: up on the preparatory beat, and down onto the beat on which they come in.
+    """A cue with body and instrument: up on the preparatory beat, down on the beat of the entry.
 
     Attributes
     ----------
     start_s : float
         When head and instrument begin to rise.
     peak_s : float
-        The preparatory beat, one beat (``beat_s``) before the entry at ``end_s`` (before a pickup more).
+        Time of the preparatory beat, one beat (``beat_s``) before the entry at ``end_s``, more before a pickup.
     amount : float
-        Its size as a share of that of a cue to play mezzoforte.
+        Size relative to a cue for mezzoforte.
     takers : tuple of str
-        Ids of the players who come in with it, without who gives it.
+        Ids of the cued players, without the player who gives the cue.
     """
 
     id: str
@@ -186,8 +186,9 @@ class CueEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def downbeat_s(self) -> float:
-        """The beat that the nod drops onto, where its acceleration peaks: the entry, or before a pickup the beat in
-        which that lies."""
+        """Time of the beat on which the nod's acceleration peaks: the entry, or before a pickup the beat that contains
+        it.
+        """
         return self.peak_s + self.beat_s
 
 
@@ -196,9 +197,10 @@ ACCENT_AT: Final = 0.45
 
 
 class GestureEvent(msgspec.Struct, frozen=True, gc=False):
-    """A body motion over a span. ``amount`` is -1..1, signed by direction (left, up and forward are positive; down of
-    an accent; of a foot the sign says which) where the kind has one. A nod marks the beat at its end. One of the kind
-    ``"named"`` is the gesture of that ``name`` in `metadata.gestures`, as this player makes it."""
+    """A body motion over a span. ``amount`` is -1..1: positive to the left, up, forward, or down for an accent; for
+    feet the sign selects the foot; kinds without a direction are 0..1. A nod marks the beat at its end. An event of
+    kind ``"named"`` is the gesture ``name`` of `metadata.gestures`, fitted to the player.
+    """
 
     id: str
     kind: GestureKind
@@ -214,7 +216,7 @@ class GestureEvent(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def part(self) -> Part:
-        """Part of the body that performs it."""
+        """Part of the motion that performs it."""
         return GESTURE_KINDS[self.kind].part
 
 
@@ -243,18 +245,18 @@ CONDUCTOR: Final = "conductor"
 
 
 class GlanceEvent(msgspec.Struct, frozen=True, gc=False):
-    """Eyes that leave the music for another player or the audience.
+    """A look away from the music, at another player, the conductor or the audience.
 
     Attributes
     ----------
     at : str
-        Id of a player, `CONDUCTOR`, `AUDIENCE`, or `ABOUT` for no one.
+        Id of a player, `CONDUCTOR`, `AUDIENCE`, or `ABOUT` for a look at nothing in particular.
     yaw_rad, pitch_rad : float
-        The direction from the player's own, left and down.
+        Direction relative to the player's facing, left and down positive.
     head_share : float
-        How much of it the head turns.
+        Share of the turn made by the head.
     away_m : float
-        Distance of what is looked at.
+        Distance of the object looked at.
     """
 
     id: str
@@ -281,7 +283,7 @@ Event: TypeAlias = (
 
 
 class Problem(msgspec.Struct, frozen=True, gc=False):
-    """Something the animator should look at, anchored to a note where there is one."""
+    """A problem for the animator to check, anchored to a note if possible."""
 
     message: Message
     note_id: str | None
@@ -290,22 +292,23 @@ class Problem(msgspec.Struct, frozen=True, gc=False):
 
 
 class Planned(NamedTuple, Generic[E]):
-    """Events that were planned, and what is wrong with them."""
+    """Planned events with the problems found."""
 
     events: tuple[E, ...]
     problems: tuple[Problem, ...]
 
 
 class TimeFrame(msgspec.Struct, frozen=True):
-    """The span of a performance, shared by all its players. Frame 0 is at ``first_frame_s``."""
+    """Time span of a performance, shared by all players. Frame 0 is at ``first_frame_s``."""
 
     first_frame_s: float
     end_s: float
 
 
 class PlayerPlan(msgspec.Struct, frozen=True):
-    """Everything one player does. Each tuple is ordered by start, and ``glances`` do not overlap; ``traces`` are there
-    where controllers tell, or where the score has dynamics within notes."""
+    """Everything one player does. Each tuple is ordered by start; ``glances`` do not overlap; ``traces`` exist if there
+    are controller curves or dynamics within notes.
+    """
 
     player_id: str
     time_frame: TimeFrame
@@ -326,7 +329,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
 
     @property
     def has_recorded_lips(self) -> bool:
-        """True if the lips within the notes were recorded, with a vibrato of their own."""
+        """True if the lips within notes were recorded, including vibrato."""
         return self.traces is not None and self.traces.recorded
 
     @property
@@ -336,7 +339,7 @@ class PlayerPlan(msgspec.Struct, frozen=True):
 
 
 def grips_of(fingerings: tuple[FingeringEvent, ...]) -> tuple[FingeringEvent, ...]:
-    """The fingerings, each that is vented at its attack as two; the same where none is."""
+    """The fingerings, with each vented one split in two; the same tuple if none is vented."""
     if all(event.vent is None for event in fingerings):
         return fingerings
     return _GRIPS.step(_all_grips, fingerings)
@@ -366,12 +369,12 @@ def _grips(event: FingeringEvent) -> tuple[FingeringEvent, ...]:
 
 
 def only(plan: PlayerPlan, fields: tuple[str, ...]) -> PlayerPlan:
-    """Return a plan with the events of these fields alone: what is made of it depends on no others."""
+    """Return a plan with only the events of these fields, so that results made from it depend on no others."""
     none = no_events(plan.player_id, plan.time_frame)
     return msgspec.structs.replace(none, **{name: getattr(plan, name) for name in fields})
 
 
 @lru_cache(maxsize=256)
 def no_events(player_id: str, frame: TimeFrame) -> PlayerPlan:
-    """Return the plan of a player for whom nothing is planned."""
+    """Return a player's empty plan."""
     return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), ())

@@ -1,4 +1,6 @@
-"""The fingering of the note that begins now, by the costs of the search, with what went before as it was played."""
+"""Chooses the fingering of a note as it begins in live playing, by the costs of the search, given the notes before
+it.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ REMEMBERED = TRILL_NOTES
 
 @dataclass(frozen=True)
 class Fingered:
-    """A note that was played: sounding from ``onset_s`` to ``end_s`` with one of its pitch's fingerings."""
+    """A played note: it sounds from ``onset_s`` to ``end_s`` with one of its pitch's fingerings."""
 
     pitch: int
     onset_s: float
@@ -30,7 +32,7 @@ class Fingered:
 
 
 class NextFingering:
-    """Chooses fingerings one by one."""
+    """Chooses fingerings note by note, without knowledge of later notes."""
 
     def __init__(self, instrument: InstrumentMap) -> None:
         self._low = instrument.range.low
@@ -42,12 +44,12 @@ class NextFingering:
         return self._table.choices[pitch - self._low][column]
 
     def column(self, before: Sequence[Fingered], pitch: int, onset_s: float, loudness: float) -> int:
-        """Return which of its fingerings a note within the range is played with.
+        """Return the column of the fingering for a note within the instrument's range.
 
         Parameters
         ----------
         before : sequence of Fingered
-            The notes before, in order; the last `REMEMBERED` of them count.
+            The notes before, in order; only the last `REMEMBERED` matter.
         """
         if len(self._table.choices[pitch - self._low]) == 1:
             return 0

@@ -1,4 +1,4 @@
-"""Passages that are muted: with a mute in the bell, or stopped by the hand where the instrument's map has that."""
+"""Muted passages: with a mute in the bell, or hand-stopped where the instrument's map allows that."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def plan_mutes(
     instrument: InstrumentMap,
     clock: TempoMap,
 ) -> tuple[MuteEvent, ...]:
-    """The muted passages that have notes, in order; a passage ends where its kind changes."""
+    """Muted passages that contain notes, in order; a passage ends where the kind of mute changes."""
     if not muted:
         return ()
     rows: list[tuple[MuteKind, int, int, Message]] = []

@@ -1,8 +1,8 @@
-"""The search for fingerings: what every choice and every motion costs, and the cheapest way through a line.
+"""Search for fingerings: the cheapest path through a part by the costs of fingerings and motions.
 
-Viterbi over the ranked fingerings of every note, exact also where a cost concerns three notes (turning a slide back).
-It looks only where leaving the first choices can pay, so slow music costs nothing. What fingers do between two pitches
-is counted in `app.plan.fingering.finger_travel`.
+Viterbi over the ranked fingerings of every note, exact also for costs that involve three notes (reversing a slide).
+Only spans where leaving the first choices can pay are searched, so slow music costs no time. Finger movements between
+two pitches are counted in `app.plan.fingering.finger_travel`.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ PHRASE_SILENCE_S = 0.25
 
 
 def best_path(problem: FingeringProblem) -> IntArray:
-    """The cheapest path: for every note the column of its fingering; ties go to the lower rank.
+    """Return the cheapest path: the column of the fingering for every note; ties go to the lower rank.
 
-    Only where leaving the cheapest fingerings can pay is searched (see `_windows`).
+    Only spans in which leaving the cheapest fingerings can pay are searched (see `_windows`).
     """
     local = problem.local_cost
     path: IntArray = np.argmin(local, axis=1).astype(np.int64)
@@ -29,10 +29,11 @@ def best_path(problem: FingeringProblem) -> IntArray:
 
 
 def _windows(problem: FingeringProblem, path: IntArray) -> list[tuple[int, int]]:
-    """Spans of notes outside of which no cheaper path leaves ``path``, the fingerings that are cheapest by themselves.
+    """Return the spans of notes in which a path cheaper than ``path`` may leave it; ``path`` has the fingerings that
+    are cheapest by themselves.
 
-    Notes in a row that leave it cost at least ``dearer`` each, and save no more than what the steps at and between them
-    cost above the least that they could. Spans for which that does not pay are left out, by the sums of savings.
+    A run of notes that leaves the path costs at least ``dearer`` per note, and saves at most the excess cost of its
+    steps over their minimum. Spans in which the savings cannot exceed the costs are excluded, by cumulative sums.
     """
     count = len(path)
     if count < 2:
@@ -66,7 +67,9 @@ def _windows(problem: FingeringProblem, path: IntArray) -> list[tuple[int, int]]
 
 
 def _search(problem: FingeringProblem, path: IntArray, first: int, last: int) -> IntArray:
-    """Viterbi over notes first..last inclusive, whose ends stay as in ``path`` unless they are the line's."""
+    """Viterbi over notes first..last inclusive; the end notes keep their fingering in ``path`` unless they are the ends
+    of the part.
+    """
     local, cost = problem.local_cost[first : last + 1].copy(), problem.motions.cost[first:last]
     for end, is_lines in ((0, first == 0), (last - first, last == len(path) - 1)):
         if not is_lines:
@@ -80,10 +83,10 @@ def _search(problem: FingeringProblem, path: IntArray, first: int, last: int) ->
 
 
 def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
-    """The cheapest way through a chain of choices; of equal ways the one with the lower ranks.
+    """Return the cheapest path through a chain of choices; ties go to the lower ranks.
 
-    Two neighbouring steps are joined to one by the best choice of the note between them, for all pairs of steps at
-    once, until one step is left: as many rounds as the logarithm of the number of notes.
+    Pairs of neighbouring steps are merged by the best choice of the note between them, all pairs at once, until one
+    step is left: a number of rounds logarithmic in the number of notes.
     """
     steps = cost + local[1:, None, :]
     steps[0] += local[0][:, None]
@@ -111,7 +114,7 @@ def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
 
 
 def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -> IntArray:
-    """Minimise costs that concern three notes: a chain of pairs of neighbouring choices."""
+    """Return the cheapest path with costs that involve three notes, as a chain of pairs of neighbouring choices."""
     total = local[0][:, None] + cost[0] + local[1][None, :]
     back: list[IntArray] = []
     for note in range(2, len(local)):
@@ -126,7 +129,9 @@ def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -
 
 
 def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
-    """Finger the first and the last two notes of every trill as those within: no one changes while trilling."""
+    """Give the first and the last two notes of every trill the fingerings used within it, since no player changes them
+    while trilling.
+    """
     steps = np.concatenate(([False], problem.in_trill, [False]))
     if not steps.any():
         return path
@@ -142,8 +147,9 @@ def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
 
 
 def never_worse(problem: FingeringProblem, path: IntArray) -> IntArray:
-    """Fall back to first choices wherever the path travels further or faster than they do, alternate run by run and
-    phrase by phrase. What a correction pins stays in both."""
+    """Return to first choices where the path travels further or faster than they do, compared for each run of
+    alternates and each phrase. Fingerings pinned by corrections stay.
+    """
     first_path = np.argmin(problem.local_cost, axis=1)
     different = np.flatnonzero(path != first_path)
     if len(different) == 0:

@@ -1,6 +1,6 @@
-"""Figures of a line that players finger in their own way: trills and tremolos, glissandi, chromatic runs, attacks.
+"""Detects figures with fingerings of their own: trills and tremolos, glissandi, chromatic runs, attacks.
 
-Each function looks at the times and pitches of the whole line at once.
+Each function processes times and pitches of the whole part at once.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ TOLERANCE = 1e-9
 
 
 def _runs(steps: BoolArray, least: int) -> BoolArray:
-    """The marked steps that stand at least ``least`` in a row."""
+    """Mask of the marked steps that are in runs of at least ``least``."""
     result = np.zeros(len(steps), dtype=bool)
     if len(steps) < least:
         return result
@@ -63,8 +63,7 @@ def glissando_steps(times: LineTimes) -> BoolArray:
 
 
 def chromatic_notes(times: LineTimes) -> BoolArray:
-    """(N,): whether a note belongs to a chromatic run: reached and left by semitones, as far as its neighbours are
-    within `CHROMATIC_S`.
+    """Mask (N,) of notes in chromatic runs: reached and left by semitones, for neighbours within `CHROMATIC_S`.
 
     One of these notes is the semitone below: fingerings for chromatic runs add a key to its fingering.
     """
@@ -80,14 +79,15 @@ def chromatic_notes(times: LineTimes) -> BoolArray:
 
 
 def attacked_notes(times: LineTimes, register: IntArray, trill: BoolArray) -> BoolArray:
-    """(N,): whether a note needs help to speak: tongued, or slurred to from a lower register; never within a trill.
+    """Mask (N,) of notes whose attack needs a helping fingering: tongued, or slurred to from a lower register, outside
+    trills.
 
     Parameters
     ----------
     register : (N,) int64
-        How many breaks lie below each note.
+        Number of register breaks below each note.
     trill : (N-1,) bool
-        What `trill_steps` finds.
+        Mask of steps within trills, from `trill_steps`.
     """
     result = np.ones(len(times.pitch), dtype=bool)
     tongued = ~times.slurs_next[:-1]

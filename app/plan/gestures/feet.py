@@ -1,8 +1,8 @@
-"""Gestures of the feet: small steps at ends of phrases, tapping toes in some phrases, and a raised heel where the
-weight is on the other foot.
+"""Gestures of the feet: small steps at phrase ends, tapping toes in some phrases, and a raised heel on the side without
+weight.
 
-An event's ``amount`` is positive for the left foot, negative for the right one; its size is 0..1. A step goes out as it
-begins, stands, and is home again as it ends. A tap ends on its beat. Feet that do nothing here do not leave the ground.
+An event's ``amount`` is positive for the left foot, negative for the right one; its size is 0..1. A step goes out at
+the start of its event and back at the end. A tap ends on its beat. Without events the feet stay on the ground.
 """
 
 from __future__ import annotations
@@ -48,19 +48,19 @@ Span = tuple[float, float]
 
 
 def foot_of(event: GestureEvent) -> Foot:
-    """Return which foot does it."""
+    """Return the foot of a gesture."""
     return "left" if event.amount > 0.0 else "right"
 
 
 def moves_s(span_s: Span, step_s: float) -> tuple[Span, Span]:
-    """Return when the foot of a step is in the air: on its way out, and on its way home."""
+    """Return the spans in which the foot of a step is in the air: on the way out, and on the way back."""
     start_s, end_s = span_s
     lasts_s = min(step_s, 0.45 * (end_s - start_s))
     return (start_s, start_s + lasts_s), (end_s - lasts_s, end_s)
 
 
 def lifted_s(gestures: Iterable[GestureEvent], foot: Foot, step_s: float) -> list[Span]:
-    """Return when a foot, or a part of it, is off the ground; in the order of the gestures."""
+    """Return the spans in which a foot, or part of it, is off the ground, in the order of the gestures."""
     found: list[Span] = []
     for event in gestures:
         if event.kind in FOOT_KINDS and event.end_s > event.start_s and foot_of(event) == foot:
@@ -89,11 +89,11 @@ def footwork(
     shifts : sequence of GestureEvent
         Of the weight.
     tap : float
-        How often toes tap; 1 is usual.
+        Frequency of toe taps; 1 is usual.
     alone : bool
-        False: another line moves the same body, and feet only tap.
+        False if another part moves the same body: then feet only tap.
     styles : tuple of StyleEvent
-        Where toes tap more or less often.
+        Spans in which toes tap more or less often.
     """
     if not found:
         return []
@@ -106,7 +106,7 @@ def footwork(
 
 
 def _steps(times: NoteTimes, found: tuple[Phrase, ...], clock: TempoMap, seeds: Seeds) -> list[GestureEvent]:
-    """At ends of phrases, back at the end of the next or the one after it."""
+    """Steps at ends of phrases; the foot returns at the end of the next phrase or the one after."""
     ends_s = times.played_end_s[np.array([phrase.end for phrase in found]) - 1]
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]
     chances, sizes = seeds.chances_at("step", ticks), seeds.chances_at("step size", ticks)
@@ -139,7 +139,7 @@ def _taps(
     tap: FloatArray | float,
     steps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Taps with the beats of some phrases, always with the same foot."""
+    """Toe taps on the beats of some phrases, always with the same foot."""
     side = 1.0 if seeds.chance("tap foot") < 0.35 else -1.0
     reason = Message("gesture.tap", {"side": "left" if side > 0.0 else "right"})
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]
@@ -174,7 +174,7 @@ def _heels(
     steps: Sequence[GestureEvent],
     taps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Raised heels of the foot that has little weight to carry, while no foot steps or taps."""
+    """Raised heels of the foot that carries little weight, while no foot steps or taps."""
     busy = np.array(
         [(event.start_s - CLEAR_S, event.end_s + CLEAR_S) for event in (*steps, *taps)], np.float64
     ).reshape(-1, 2)

@@ -1,18 +1,17 @@
 """Body motion as gestures: sway, lean and accents (`app.plan.gestures.sways`, `app.plan.gestures.leans_and_accents`),
-weight shifts, the bell's height, the instrument lowered (`app.plan.gestures.lowered_instrument`), what feet do
-(`app.plan.gestures.feet`) and what is done beside playing (`app.plan.cues.answering_nods`,
+weight shifts, bell height, lowering of the instrument (`app.plan.gestures.lowered_instrument`), feet
+(`app.plan.gestures.feet`) and gestures while not playing (`app.plan.cues.answering_nods`,
 `app.plan.gestures.idle_gestures`).
 
-How to read the events: sway, lean, weight_shift and bell_height each lie end to end, and an event's ``amount`` is where
-the body goes: at the end of a sway or lean, and for as long as it lasts for the other two.
-Amounts follow the dynamics (`app.plan.music.dynamics`); sizes belong to the motion, which scales by the
-player's amplitude.
+Events of sway, lean, weight_shift and bell_height follow one another without gaps. The ``amount`` of a sway or lean is
+the position at its end, that of the other two the position during the event. Amounts follow the dynamics
+(`app.plan.music.dynamics`); the motion scales them by the player's amplitude.
 
-In a rest longer than twice `app.plan.gestures.sways.STIR_S` the body moves with the beat at its edges only, and the
-weight is shifted a few times: what is made is in proportion to the notes, however long the silence between them.
+In a rest longer than twice `app.plan.gestures.sways.STIR_S` the body moves with the beat only near its ends, plus a few
+weight shifts: the number of events grows with the notes, not with the silence.
 
-Everything random is drawn from player and score position (tick), so the same place repeats in every run, however the
-rest of the piece is edited (Wanderley: players repeat the same bell movement at the same place).
+Random values depend on player and score position (tick), so a place has the same motion in every run, whatever is
+edited elsewhere (Wanderley: players repeat the same bell movement at the same place).
 """
 
 from __future__ import annotations
@@ -52,8 +51,9 @@ ACCENT_LIFT, MOST_ACCENT_LIFT = 1.5, 0.4
 
 
 def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, ...]:
-    """Order gestures of several kinds by start, then by id. Nearly all begin at times of their own, and numbers are
-    compared much faster than pairs."""
+    """Sort gestures of several kinds by start, then by id; starts are compared first since that is faster than
+    comparing pairs.
+    """
     events = sorted(itertools.chain(*kinds), key=attrgetter("start_s"))
     starts_s = np.array([event.start_s for event in events])
     for place in (np.flatnonzero(starts_s[1:] == starts_s[:-1]) + 1).tolist():
@@ -67,7 +67,7 @@ def in_order(kinds: tuple[Sequence[GestureEvent], ...]) -> tuple[GestureEvent, .
 def weight_shifts(
     times: NoteTimes, pulse: Pulse, frame: TimeFrame, seeds: Seeds, clock: TempoMap, dynamics: Dynamics
 ) -> list[GestureEvent]:
-    """Shifts of weight at arbitrary times (T7), about every `SHIFT_MEAN_S`: bar by bar a player shifts or not."""
+    """Shifts of weight at irregular times (T7), about every `SHIFT_MEAN_S`; decided bar by bar."""
     places = spans_near_notes(times, frame, pulse.bars_s)
     ticks, ends = pulse.bar_ticks[places], pulse.bar_ticks[places + 1]
     chances = np.minimum((pulse.bars_s[places + 1] - pulse.bars_s[places]) / SHIFT_MEAN_S, 0.9)
@@ -98,7 +98,7 @@ def weight_shifts(
 
 
 def _in_silence(times: NoteTimes, seeds: Seeds, clock: TempoMap) -> IntArray:
-    """Ticks of shifts in the middle of long silences: a few, however long they are."""
+    """Ticks of weight shifts within long silences; a few at most."""
     found = []
     quiet = times.onset_s[1:] - times.played_end_s[:-1] > 2.0 * STIR_S + SHIFT_LEAST_S
     for index in np.flatnonzero(quiet).tolist():
@@ -113,7 +113,7 @@ def _in_silence(times: NoteTimes, seeds: Seeds, clock: TempoMap) -> IntArray:
 
 
 def mean_pitch(times: LineTimes) -> float:
-    """The mean pitch of a line by sounding time; 0 of one without notes."""
+    """Mean pitch of a part weighted by sounding time; 0 without notes."""
     return float(np.average(times.pitch, weights=_weights(times))) if len(times.pitch) else 0.0
 
 
@@ -124,9 +124,10 @@ def _weights(times: LineTimes) -> FloatArray:
 def bell_heights(
     notes: tuple[Note, ...], times: LineTimes, piece: Piece, dynamics: Dynamics, usual_pitch: float
 ) -> list[GestureEvent]:
-    """The bell follows the melody: per felt beat the mean pitch (by sounding time) against the line's, which is
-    ``usual_pitch``; beats at about the same height are one gesture, and a silence of a beat ends it. It goes further
-    where the line is loud, rises with accents and to the climax of a phrase, and sinks at its end."""
+    """Bell height that follows the melody: for each felt beat the mean pitch (by sounding time) relative to
+    ``usual_pitch``, the part's mean. Beats of about the same height are one gesture; a silence of a beat ends it. The
+    height grows with loudness, rises with accents and to the climax of a phrase, and sinks at its end.
+    """
     if not notes:
         return []
     weight = _weights(times)
@@ -196,7 +197,7 @@ def _at_height(pitch: float, mean_pitch: float) -> Message:
 
 
 def _bell_starts(heights: list[float], vigour: list[float], breaks: list[bool], accented: list[float]) -> list[int]:
-    """Beats at which the bell goes elsewhere: at another height, with another vigour, at a break, after an accent."""
+    """Indices of beats at which the bell moves: another height, another vigour, after a break, after an accent."""
     firsts: list[int] = []
     for place, height in enumerate(heights):
         if firsts and not breaks[place] and not accented[firsts[-1]]:
@@ -215,8 +216,9 @@ def _arches(
     first_of_bar: BoolArray,
     apart: BoolArray,
 ) -> tuple[FloatArray, BoolArray]:
-    """Share of the phrases in the bell's height, beat by beat: up to the climax (the highest, loudest beat, sooner the
-    first of a bar) and down at the end; and which beats these are. Rests of a beat (``apart``) divide phrases."""
+    """Bell height due to phrases, beat by beat: rising to the climax (the highest, loudest beat, preferably the first
+    of a bar) and falling at the end; and a mask of the beats concerned. Rests of a beat (``apart``) separate phrases.
+    """
     arches, turns = np.zeros(len(at_s)), np.zeros(len(at_s), dtype=bool)
     edges = np.flatnonzero(apart | (np.arange(len(at_s)) == 0))
     for first, end in itertools.pairwise([*edges.tolist(), len(at_s)]):

@@ -1,7 +1,7 @@
-"""Gestures of players who do not play: in long rests, and after the last note.
+"""Gestures of players while they do not play: in long rests, and after the last note.
 
-In a rest in which the instrument is lowered long enough the hands settle on it, the player looks about and counts the
-last bars. After the last note of all they look up to the audience and bow, together.
+If the instrument is lowered long enough in a rest, the hands settle on it, the player looks around and counts the last
+bars. After the end of the piece all players look up to the audience and bow together.
 """
 
 from __future__ import annotations
@@ -97,10 +97,10 @@ def _rest(
 
 
 def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple[float, float, int] | None:
-    """First and last beat, in seconds, of the bars that are counted, and the number of beats; None where there is no
+    """First and last beat, in seconds, of the bars that the player counts, and the number of beats; None if there is no
     time.
 
-    ``later`` 0..1 is how much later than others the player begins: half the time at most.
+    ``later`` (0..1) delays the player's start, by half the time at most.
     """
     clock = piece.clock
     last = int(clock.ticks(last_s))
@@ -118,7 +118,7 @@ def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple
 def _looks(
     place: int, free: tuple[float, float], piece: Piece, seeds: Seeds, said: Mapping[str, float]
 ) -> list[GestureEvent]:
-    """Looks about, at times of the player's own."""
+    """Looks around during a rest, at times that differ between players."""
     events: list[GestureEvent] = []
     free_s, last_s = free
     for number in range(MOST_LOOKS):
@@ -150,7 +150,7 @@ def holding_at_end(
 
 
 def after_the_end(last_s: float, piece: Piece, frame: TimeFrame, seeds: Seeds) -> list[GestureEvent]:
-    """The look up and the bow, where the performance lasts long enough after the last note of all at ``last_s``."""
+    """The look up and the bow after the last note of all at ``last_s``; empty if the performance ends too soon."""
     if last_s + BOW_S + BOW_LASTS_S + AFTER_S > frame.end_s:
         return []
     look_s = last_s + LOOK_UP_S + 0.3 * seeds.chance("look up")

@@ -1,6 +1,6 @@
 """Motion of trunk and head by phrase and accent: a lean towards each climax and back, and a dip on strong notes.
 
-A phrase lasts from breath to breath, or from rest to rest. Everything random is drawn from player and tick.
+A phrase lasts from breath to breath or from rest to rest. Random values depend on player and tick.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Phrase(NamedTuple):
 
 
 def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]:
-    """The phrases of a line, in order: every note is in one."""
+    """The phrases of a part in order; every note belongs to one."""
     count = len(times.onset_s)
     if not count:
         return ()
@@ -87,7 +87,7 @@ def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, .
 
 
 def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray:
-    """The note after each breath; their number for none."""
+    """Index of the note after each breath; the number of notes if there is none."""
     drawn_s = [breath.end_s for breath in breaths if breath.draws_air]
     return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
 
@@ -95,7 +95,7 @@ def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray
 def leans(
     found: tuple[Phrase, ...], times: LineTimes, clock: TempoMap, seeds: Seeds, dynamics: Dynamics
 ) -> list[GestureEvent]:
-    """Into each phrase's climax (its highest, loudest, longest notes) and back to its end."""
+    """Leans towards each phrase's climax (its highest, loudest, longest notes) and back at its end."""
     events: list[GestureEvent] = []
     if not found:
         return events
@@ -132,7 +132,7 @@ def leans(
 
 @lru_cache(maxsize=256)
 def _leant(length_s: float) -> Message:
-    """Return a lean as one shared object for equal ones."""
+    """Return the reason of a lean; equal ones are one shared object."""
     return Message("gesture.lean", {"length_s": length_s})
 
 
@@ -147,9 +147,9 @@ def accents(
     seeds: Seeds,
     dynamics: Dynamics,
 ) -> list[GestureEvent]:
-    """A dip on strong notes, prepared before and followed through: on some of those on a beat, and on all that are
-    played louder than their neighbours, with bars in between that have none. ``pulse`` has the beats of the piece,
-    ``swings`` says where the body keeps still.
+    """Dips on strong notes, with preparation and follow-through: on some notes that are on a beat and on all notes
+    louder than their neighbours, with bars without accents in between. ``pulse`` has the beats of the piece; ``swings``
+    gives the spans where the body is still.
     """
     if not len(times.onset_tick):
         return []
@@ -199,7 +199,7 @@ def accents(
 
 
 def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, FloatArray]:
-    """Return which notes begin with a felt beat, and the length of a beat there."""
+    """Return a mask of the notes that begin on a felt beat, and the length of a beat there."""
     lengths = piece.beat_ticks_at(times.onset_tick)
     nearest, before = (_nearest(pulse.beat_ticks, times.onset_tick, back) for back in (0, 1))
     off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
@@ -208,13 +208,13 @@ def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, F
 
 
 def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
-    """The first of some places, in order, at or after each tick or a little before it; there may be very many."""
+    """Return the first of the sorted ``places`` at or after each tick, or ``back`` places earlier."""
     found: IntArray = places[np.clip(np.searchsorted(places, ticks) - back, 0, len(places) - 1)]
     return found
 
 
 def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
-    """Return which times are near a cue, before or after it."""
+    """Return a mask of the times close to a cue."""
     cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
     following = np.searchsorted(cued_s, at_s).clip(1)
     near: BoolArray = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
@@ -222,7 +222,7 @@ def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
 
 
 def _apart(at_s: FloatArray, scores: FloatArray, loud: BoolArray, beat_s: FloatArray) -> list[int]:
-    """The strongest of some notes, apart from each other."""
+    """Indices of the strongest notes, chosen with a least distance."""
     order = np.argsort(-scores, kind="stable")
     order = order[scores[order] >= STRONG]
     needed_s = np.where(loud, APART_BEATS / 3.0, APART_BEATS) * beat_s

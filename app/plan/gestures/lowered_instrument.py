@@ -1,7 +1,7 @@
 """Spans in which the instrument is off the lips: before the first note, in long rests, and after the last note.
 
-``lower_instrument`` spans from leaving the lips to being back at them; one that reaches beyond the time frame begins
-(or stays) lowered.
+A ``lower_instrument`` event lasts from leaving the lips to being back at them; one that reaches beyond the time frame
+is lowered from the start (or to the end).
 """
 
 from __future__ import annotations
@@ -43,14 +43,13 @@ def lowered_spans(
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
 ) -> list[GestureEvent]:
-    """Return where the instrument is off the lips: in rests long enough to lower it, rest it and raise it before
-    anything that belongs to the entry (cue, preparation, breath) begins; each player somewhat sooner or later than the
-    others.
+    """Return events in which the instrument is lowered: in rests long enough to lower, rest and raise it before
+    everything that belongs to the entry (cue, preparation, breath); start and end vary by player.
 
     Parameters
     ----------
     cues : tuple of CueEvent
-        Those that the player gives and takes.
+        Cues that the player gives or answers.
     """
     if not notes:
         return [_lowered("all", frame.first_frame_s - LOWER_S, frame.end_s + RAISE_S, piece, "gesture.lower_at_start",
@@ -87,8 +86,9 @@ def _before_first(
     cues: tuple[CueEvent, ...],
     seeds: Seeds,
 ) -> list[GestureEvent]:
-    """Lowered at frame 0: up before all that belongs to the entry where there is the time, else before cue and breath
-    at least; the preparation then goes with the way up."""
+    """Event for an instrument lowered at frame 0: raised before everything that belongs to the entry if there is time,
+    else at least before cue and breath, together with the preparation.
+    """
     events: list[BreathEvent | CueEvent] = [*breaths, *cues]
     starts_s = [event.start_s for event in events if event.end_s > frame.first_frame_s and event.start_s < onset_s]
     up_s, rule = min(starts_s, default=onset_s) - BEFORE_BREATH_S, "gesture.lower_at_start"
@@ -104,7 +104,7 @@ def _before_first(
 
 
 class _Busy:
-    """Spans in which a player does something, (start, end) ordered by start."""
+    """Spans (start, end) in which a player is busy, ordered by start."""
 
     def __init__(self, spans_s: list[tuple[float, float]]) -> None:
         self._starts_s = [start_s for start_s, _ in spans_s]
@@ -112,7 +112,9 @@ class _Busy:
         self._last_ends_s = list(itertools.accumulate((end_s for _, end_s in spans_s), max))
 
     def free_until(self, start_s: float, end_s: float) -> float:
-        """Start of the first span that ends after ``start_s`` and begins before ``end_s``, else ``end_s``."""
+        """Start of the first span that ends after ``start_s`` and begins before ``end_s``; ``end_s`` if there is
+        none.
+        """
         index = bisect_right(self._last_ends_s, start_s)
         return min(self._starts_s[index], end_s) if index < len(self._starts_s) else end_s
 

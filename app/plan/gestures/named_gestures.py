@@ -1,4 +1,4 @@
-"""Gestures that stand in tables (`metadata.gestures`), as one body with one instrument can make them."""
+"""Fits gestures defined in tables (`metadata.gestures`) to one body with one instrument."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from metadata.load import load_body
 
 
 class Defined(NamedTuple):
-    """Gestures with what they are, and what is wrong with some."""
+    """Gesture events with their fitted definitions, and problems with some of them."""
 
     gestures: tuple[GestureEvent, ...]
     problems: tuple[Problem, ...]
@@ -37,8 +37,9 @@ def with_definitions(
     times: LineTimes,
     lowered: tuple[tuple[float, float], ...],
 ) -> Defined:
-    """The events, those of the kind ``"named"`` with the gesture as it is made here; the same tuple where there is
-    none. One that is not known does nothing; one of the animator's that is where it should not be is done and reported.
+    """Attach to the events of kind ``"named"`` their gesture, fitted to body and instrument; returns the same tuple if
+    there are none. Unknown gestures have no effect; a gesture placed by hand at an unsuitable time is kept and
+    reported.
     """
     tracked = answered_by("tracks")
     if all(event.kind not in tracked for event in events):
@@ -83,8 +84,7 @@ def with_definitions(
 
 
 def fitted(gesture: Gesture, length_s: float, limits: Mapping[str, Mapping[str, tuple[float, float]]]) -> Gesture:
-    """A gesture no larger than an instrument lets it be, and no quicker than a body: smaller where it is done in less
-    time.
+    """Return the gesture limited to the range of the instrument and the speed of a body: smaller if it must be faster.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def _in_hand(gesture: Gesture, instrument: InstrumentMap) -> Gesture:
 
 
 def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """Events without what is generated for idle hands while one is away; the same tuple where there is none."""
+    """Remove events generated for idle hands while a hand is away; returns the same tuple if there are none."""
     away = [(one.start_s, one.end_s) for one in events if one.gesture is not None and one.gesture.needs_lowered]
     if not away:
         return events
@@ -128,7 +128,9 @@ def without_idle_hands(events: tuple[GestureEvent, ...]) -> tuple[GestureEvent, 
 
 @lru_cache(maxsize=256)
 def _acceleration_deg(track: AngleTrack) -> float:
-    """Largest acceleration of a track, degrees for a gesture of one second, about: of level moves between its keys."""
+    """Approximate largest acceleration of a track, in degrees per square second for a gesture of one second, with eased
+    moves between keys.
+    """
     at, deg = np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys])
     slopes = np.array([abs(key.slope or 0.0) for key in track.keys])
     length = np.diff(at)

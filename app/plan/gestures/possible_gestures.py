@@ -1,4 +1,4 @@
-"""Conditions for gestures of tables: possible times and instruments."""
+"""Times and instruments for which gestures of tables are possible."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ class LoweredSpans:
         return Spans((first_s + down_s, last_s - up_s) for first_s, last_s in self._ordered)
 
     def hold(self, start_s: float, end_s: float, down_s: float, up_s: float) -> bool:
-        """Return whether a time lies within one of the spans, with margins after its start and before its end."""
+        """Return whether a span lies within a lowered span, with margins after its start and before its end."""
         return self._narrowed(down_s, up_s).hold(start_s, end_s)
 
     def end_between(self, start_s: float, end_s: float) -> bool:
-        """Return whether a span that goes on at one time ends after it, and before another time."""
+        """Return whether the lowered span at ``start_s`` ends before ``end_s``."""
         index = bisect_right(self._starts_s, start_s) - 1
         while index >= 0 and self._latest_ends_s[index] > start_s:
             if start_s < self._ordered[index][1] < end_s:
@@ -43,7 +43,7 @@ class LoweredSpans:
 
 
 def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: LoweredSpans) -> bool:
-    """Return whether a gesture may be done from one time to another."""
+    """Return whether a gesture is possible from one time to another."""
     if gesture.may_start == "resting":
         first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
         return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s
@@ -54,12 +54,12 @@ def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, 
 
 
 def comes_up(start_s: float, end_s: float, lowered: LoweredSpans) -> bool:
-    """Return whether the instrument that is down at one time is on its way up before another."""
+    """Return whether the instrument, lowered at ``start_s``, is being raised by ``end_s``."""
     return lowered.end_between(start_s, end_s + RAISE_S)
 
 
 def impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
-    """Reason why no hand can do it with this instrument."""
+    """Reason why no hand can make a gesture with this instrument; None if it is possible."""
     track, water = gesture.hand, instrument.water
     if track is None:
         return None
@@ -72,8 +72,9 @@ def impossible(gesture: Gesture, instrument: InstrumentMap) -> Message | None:
 
 
 def belongs(gesture: Gesture, instrument: InstrumentMap) -> bool:
-    """Return whether rules place a gesture for who plays an instrument: it can be done, and water is let out as its map
-    says."""
+    """Return whether rules may place a gesture for players of an instrument: it is possible, and a gesture that drains
+    water is the one of the instrument's map.
+    """
     if gesture.lets_out_water and (instrument.water is None or instrument.water.gesture != gesture.name):
         return False
     return impossible(gesture, instrument) is None

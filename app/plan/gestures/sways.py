@@ -1,4 +1,4 @@
-"""Swings of the trunk from side to side: half a bar, a bar or two long by turns, with still bars in between."""
+"""Swings of the trunk from side to side, half a bar to two bars long, with still bars in between."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ SOFT, LOUD = 0.5, 1.4
 
 @dataclass(frozen=True, eq=False)
 class Pulse:
-    """Beats and bars of a performance, which all players share.
+    """Beats and bars of a performance, shared by all players.
 
     Attributes
     ----------
     swing_beats : int
         Beats of a half swing.
     beat_s : float
-        Where the piece's tempo was taken.
+        Length of a beat in seconds at the reference time.
     beat_ticks, bar_ticks : (N,) int64
-        Where they begin; some before the performance and after it. The last of the bars is where the performance ends.
+        Ticks at which beats and bars begin, also some before and after the performance. The last bar begins at its end.
     beats_s, bars_s : (N,) float64
-        The same in seconds.
+        Times in seconds at which beats and bars begin.
     """
 
     swing_beats: int
@@ -59,7 +59,7 @@ class Pulse:
 
 
 def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
-    """The pulse of a performance; how many beats a swing has is chosen by the tempo at ``swing_at_s``."""
+    """The pulse of a performance; the number of beats of a swing is chosen by the tempo at ``swing_at_s``."""
     clock = piece.clock
     at_tick = clock.ticks(swing_at_s)
     beat = int(piece.beat_ticks_at(np.array([at_tick]))[0])
@@ -76,16 +76,16 @@ def pulse(piece: Piece, frame: TimeFrame, swing_at_s: float) -> Pulse:
 
 @dataclass(frozen=True, eq=False)
 class Swings:
-    """Position of the trunk at the end of each of the shortest swings, arrays (N,).
+    """Position of the trunk at the end of each shortest swing, arrays (N,).
 
     Attributes
     ----------
     beats : int
         Felt beats of the shortest.
     ticks, ends, starts_s, ends_s, amounts
-        Each, and where the trunk is at its end, -1..1.
+        Start and end of each swing, and the position of the trunk at its end, -1..1.
     lasts : (N,) int64
-        So many of the shortest make the swing it is part of; 0 where the body is still.
+        Number of shortest swings that form the swing it belongs to; 0 where the body is still.
     """
 
     beats: int
@@ -104,7 +104,7 @@ class Swings:
         return np.asarray(self.lasts[here] == 0)
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether all arrays are equal, for comparing inputs of cached steps."""
         if not isinstance(other, Swings):
             return NotImplemented
         return all(np.array_equal(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
@@ -121,14 +121,14 @@ def swings_of(
     stillness: float,
     styles: tuple[StyleEvent, ...] = (),
 ) -> Swings:
-    """Swings from beat to beat, left and right in turn, each of its own size; small where the player rests.
+    """Swings from beat to beat, left and right in turn, of varying size; small where the player rests.
 
     Parameters
     ----------
     stillness : float
-        Share 0..1 of the blocks in which the body keeps still, but for their end.
+        Share 0..1 of the blocks in which the body is still except at their end.
     styles : tuple of StyleEvent
-        Where it is another share.
+        Spans with another share.
     """
     beats, beat_s = pulse.swing_beats, pulse.beat_s
     if seeds.chance("swing") < 0.3 and beats * beat_s < 1.5 * SWING_S:
@@ -152,10 +152,10 @@ def swings_of(
 def _shaped(
     units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: FloatArray
 ) -> tuple[FloatArray, IntArray]:
-    """Return where the trunk is at the end of each unit, and how many units the swing has that it is part of (0:
+    """Return the position of the trunk at the end of each unit, and the number of units of the swing it belongs to (0:
     still).
 
-    Every block ends at a side and a size that are its own: what comes before and after it does not depend on its form.
+    Side and size at the end of a block depend on that block alone, so blocks can be changed independently.
     """
     blocks, inner = units // BLOCK, units % BLOCK
     # A place in the score for each block's chances: that of its first unit, whether it is among these or not.
@@ -166,8 +166,9 @@ def _shaped(
     flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
 
     def ended(number: IntArray, begun: IntArray, reach: IntArray) -> FloatArray:
-        """Return where blocks end: mostly on the other side than the one before. The block after it begins there, to
-        whose end it matters (``reach``)."""
+        """Return the positions at the ends of blocks, mostly on the other side than the previous block. ``reach`` is
+        the end of the next block, which starts at this position.
+        """
         size = 0.35 + 0.65 * seeds.chances_at("sway", begun, number, reach)
         stays = seeds.chances_at("sway held", begun, number, reach) < 0.2
         side = np.where((number % 2 == 0) ^ stays, flip, -flip)
@@ -220,7 +221,9 @@ def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
 
 
 def sways(swings: Swings, pulse: Pulse) -> list[GestureEvent]:
-    """A gesture for each of the shortest swings, whatever it is part of: ids by place outlive another choice."""
+    """A gesture for each shortest swing; its id is made of the place, so it stays the same when another division is
+    chosen.
+    """
     beat_s = round(pulse.beat_s, 3)
     reasons = {
         parts: Message("gesture.sway", {"beats": parts * swings.beats, "beat_s": beat_s}) for parts in (1, 2, 4)
@@ -233,7 +236,7 @@ def sways(swings: Swings, pulse: Pulse) -> list[GestureEvent]:
 
 
 def _sounding_share(times: NoteTimes, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-    """Part of each span in which the line sounds."""
+    """Share of each span in which the part sounds."""
     if len(times.onset_s) == 0:
         return np.zeros(len(starts_s))
     sounded = np.concatenate(([0.0], np.cumsum(times.duration_s)))
@@ -245,10 +248,10 @@ def _sounding_share(times: NoteTimes, starts_s: FloatArray, ends_s: FloatArray) 
 
 
 def spans_near_notes(times: NoteTimes, frame: TimeFrame, edges_s: FloatArray) -> IntArray:
-    """Return which spans between neighbouring edges lie near the begin or end of a note, or near the frame's ends;
-    ascending.
+    """Return ascending indices of the spans between neighbouring edges that are near the start or end of a note, or
+    near the frame's ends.
 
-    What it costs depends on how many these are, not on how many spans there are.
+    The cost depends on the number of spans found, not on the number of edges.
     """
     near_s = np.concatenate(([frame.first_frame_s], times.onset_s, times.played_end_s, [frame.end_s]))
     near_s.sort()

@@ -1,4 +1,4 @@
-"""Lips: one embouchure per note (T5 of the thesis: high notes drawn tight, low notes relaxed). The tongue is in
+"""Embouchure of each note (T5 of the thesis: tense lips for high notes, relaxed ones for low notes). The tongue is in
 `app.plan.lips.tonguing`.
 """
 
@@ -24,7 +24,7 @@ LONG_S = 6.0
 
 
 def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
-    """Tension 0..1 by register alone: piecewise linear over the map's usual range."""
+    """Lip tension 0..1 by pitch alone: piecewise linear over the map's usual range."""
     limits = instrument.range
     low, high = limits.usual
     knots = np.array([low, limits.easy_low, limits.easy_high, high], dtype=np.float64)
@@ -34,8 +34,9 @@ def tension_of(pitch: FloatArray, instrument: InstrumentMap) -> FloatArray:
 
 
 def strain_of(register: FloatArray, loudness: FloatArray, length_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Tension (not yet the player's) and effort 0..1 of notes, by `tension_of`, loudness 0..1 and how long they are
-    held."""
+    """Lip tension (before the player's factor) and effort, 0..1, of notes by `tension_of`, loudness 0..1 and length in
+    seconds.
+    """
     loud = np.clip((loudness - MEZZOFORTE) / (1.0 - MEZZOFORTE), 0.0, 1.0)
     high = np.clip((register - EASY_TENSION[1]) / (1.0 - EASY_TENSION[1]), 0.0, 1.0)
     long = np.clip(length_s / LONG_S, 0.0, 1.0)
@@ -52,15 +53,15 @@ def plan_embouchures(
     early_end_s: dict[int, float],
     from_breath: bool,
 ) -> tuple[EmbouchureEvent, ...]:
-    """An embouchure for every note.
+    """Plan an embouchure for every note.
 
-    ``tension`` is register, a little loudness, scaled by the player's ``embouchure_tension``; ``air`` is loudness;
-    ``effort`` is what height above the easy range, loudness above mezzoforte and length cost together.
+    ``tension`` follows pitch and a little loudness, scaled by ``embouchure_tension``; ``air`` is the loudness;
+    ``effort`` combines height above the easy range, loudness above mezzoforte, and length.
 
     Parameters
     ----------
     early_end_s : dict of int to float
-        Notes whose lips leave early for a catch breath.
+        Time at which the lips leave a note early for a catch breath, by note index.
     from_breath : bool
         Whether the loudness is the mean of a recorded curve, which the lips follow within the note
         (`app.plan.lips.recorded_lips`).
@@ -91,10 +92,10 @@ def plan_embouchures(
 
 @lru_cache(maxsize=8192)
 def _reason(reported: str, pitch: int, low: int, high: int, loudness: float) -> Message:
-    """Return the reason of an embouchure as one shared object for equal ones."""
+    """Return the reason of an embouchure; equal ones are one shared object."""
     return Message(reported, {"pitch": pitch, "low": low, "high": high, "loudness": loudness})
 
 
 def efforts_of(embouchures: tuple[EmbouchureEvent, ...]) -> FloatArray:
-    """Return how hard each note is to play, 0..1 (N,) float64."""
+    """Return the effort (N,) of each note, 0..1."""
     return np.array([event.effort for event in embouchures], np.float64)

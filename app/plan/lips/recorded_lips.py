@@ -1,8 +1,7 @@
-"""Lips and cheeks within the notes, from controllers: the air follows the breath, the strain with it, and the lips give
-and press with bite and pitch bend, so that a vibrato shows at its own rate. Hairpins and sforzandi in the score are
-followed alike.
+"""Lips and cheeks within the notes, from controllers: air and strain follow the breath, tension follows bite and pitch
+bend, so that a vibrato is visible at its own rate. Hairpins and sforzandi of a score are treated alike.
 
-A note whose embouchure was set by hand keeps what was set, from its beginning to its end.
+A note whose embouchure was set by hand keeps the set values throughout.
 """
 
 from __future__ import annotations
@@ -43,14 +42,14 @@ def plan_traces(
     corrections: tuple[Correction, ...],
     recorded: bool = True,
 ) -> SampledCurves | None:
-    """The traces of a line; None where there are no notes, or nothing says what happens within them.
+    """Return the curves of lips and air within the notes; None without notes or without data within them.
 
     Parameters
     ----------
     envelope : BreathEnvelope or None
         ``controller.breath`` in time, or the dynamics in the score.
     recorded : bool
-        Whether a controller recorded any of it.
+        Whether a controller recorded any of the part.
     """
     if not notes or (controller is None and envelope is None):
         return None
@@ -91,7 +90,7 @@ def plan_traces(
 def _spans(
     by_hand: list[SetEmbouchure], notes: tuple[Note, ...], times: LineTimes, at_s: FloatArray
 ) -> list[tuple[SetEmbouchure, slice]]:
-    """Return where on the grid each correction holds."""
+    """Return the range of samples to which each correction applies."""
     if not by_hand:
         return []
     index_of = {note.id: index for index, note in enumerate(notes)}
@@ -105,7 +104,7 @@ def _spans(
 
 
 def _pressed(controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: BoolArray) -> FloatArray:
-    """Tension added by bite and pitch bend: the bite by its distance from the usual one."""
+    """Tension added by bite and pitch bend; the bite counts from its usual value."""
     bite = bend = np.zeros(len(at_s))
     if controller.bite is not None:
         bite = _sampled(controller.bite, clock, at_s)
@@ -116,7 +115,7 @@ def _pressed(controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sou
 
 
 def pressed_by(bite: FloatArray, bend: FloatArray) -> FloatArray:
-    """Tension added by a bite beyond the usual one (0..1) and a pitch bend in whole tones."""
+    """Tension added by a bite above the usual one (0..1) and a pitch bend in whole tones."""
     pressed: FloatArray = BITE_TENSION * bite + MOST_BEND_TENSION * np.tanh(BEND_TENSION / MOST_BEND_TENSION * bend)
     return pressed
 
@@ -126,7 +125,7 @@ def _sampled(steps: ControllerSteps, clock: TempoMap, at_s: FloatArray) -> Float
 
 
 def _smooth(values: FloatArray, width_s: float) -> FloatArray:
-    """Averaged over a window that falls off to both sides; the ends hold."""
+    """Smooth values by a bell-shaped window of this width; the end values extend outwards."""
     reach = max(round(width_s / STEP_S / 2.0), 1)
     window = np.hanning(2 * reach + 3)[1:-1]
     padded = np.pad(values, reach, mode="edge")

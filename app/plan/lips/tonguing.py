@@ -1,8 +1,8 @@
-"""The tongue's strokes: which notes are attacked, and how.
+"""Tongue strokes: the notes that are attacked, and the kind of stroke.
 
-Up to a speed the tip of the tongue makes every stroke (*ta*). Beyond it the back of the tongue makes every other one
-(*ka*): double tonguing, *ta-ka-ta-ka*; in triplets the last of three, *ta-ta-ka*. Sixteenths at 132 to 144 quarters per
-minute are where players change over; who plays a reed goes on longer with the tip, since the reed is in the way.
+At moderate speed the tip of the tongue makes every stroke (*ta*). Faster, the back of the tongue makes every other one
+(*ka*): double tonguing, *ta-ka-ta-ka*; in triplets the last of three, *ta-ta-ka*. Players change over at sixteenths
+between 132 and 144 quarters per minute; reed players use the tip for longer, since the reed is in the way.
 """
 
 from __future__ import annotations
@@ -71,10 +71,10 @@ def plan_tongues(
     seeds: Seeds,
     written: WrittenMarks | None = None,
 ) -> tuple[TongueEvent, ...]:
-    """The tongue's stroke before every attacked note. What is written wins over what is heard.
+    """Plan the tongue stroke of every attacked note. Marks in the score override what the sound suggests.
 
-    Attacked is every note but one that is slurred to (`app.plan.music.piece.slurs_next`), at another pitch, and no
-    slide has to move far.
+    All notes are attacked except those slurred to (`app.plan.music.piece.slurs_next`) at another pitch without a long
+    slide move.
     """
     if not notes:
         return ()
@@ -110,7 +110,7 @@ def plan_tongues(
 
 
 def _with_marks(written: WrittenMarks, kinds: list[Articulation]) -> list[Articulation]:
-    """Return the articulation of each note, where it has a mark as this says; a sforzando is an accent."""
+    """Return the articulation of each note with its mark applied, if it has one; a sforzando is an accent."""
     marked = list(kinds)
     if any(written.stroke):
         marked = [OF_MARK.get(mark, kind) for mark, kind in zip(written.stroke, kinds, strict=True)]
@@ -122,7 +122,7 @@ def _with_marks(written: WrittenMarks, kinds: list[Articulation]) -> list[Articu
 def _write_strokes(
     tonguing: Sequence[str], attacked: IntArray, strokes: list[Stroke], why: list[tuple[str, float]]
 ) -> None:
-    """Set the strokes of notes that the score has double, triple and flutter tonguing for."""
+    """Apply the double, triple and flutter tonguing of the score to the strokes."""
     since, before = 0, ""
     for place, at in enumerate(attacked.tolist()):
         mark = tonguing[at]
@@ -135,7 +135,7 @@ def _write_strokes(
 
 
 def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
-    """Shortest step between strokes that the tip of a player's tongue makes alone, seconds."""
+    """Shortest step in seconds between strokes that a player makes with the tip of the tongue alone."""
     slow, fast = SINGLE_BPM
     bpm = slow + (fast - slow) * seeds.chance("tongue")
     if instrument.embouchure.kind in REEDS:
@@ -145,7 +145,7 @@ def single_limit_s(instrument: InstrumentMap, seeds: Seeds) -> float:
 
 @lru_cache(maxsize=1024)
 def _reason(kind: str, rate: float, limit: float, by_hand: bool) -> Message:
-    """Return the reason of a tongue stroke as one shared object for equal ones."""
+    """Return the reason of a tongue stroke; equal ones are one shared object."""
     if kind in ("double", "triple"):
         return Message(f"tongue.{kind}", {"rate": rate, "limit": limit})
     if kind.startswith(WRITTEN) and by_hand:
@@ -158,7 +158,7 @@ def _reason(kind: str, rate: float, limit: float, by_hand: bool) -> Message:
 def _slurred(
     times: LineTimes, instrument: InstrumentMap, fingerings: tuple[FingeringEvent, ...]
 ) -> tuple[BoolArray, BoolArray]:
-    """(N,) each: notes without a stroke, and notes under a slur that a slide's way makes one for."""
+    """Masks (N,) of notes without a stroke, and of slurred notes that get one because the slide moves far."""
     slides = [(control.name, control.travel_m) for control in instrument.controls
               if control.role == "pitch" and control.kind == "slide"]  # fmt: skip
     slurred = np.zeros(len(times.pitch), dtype=bool)
@@ -175,7 +175,7 @@ def _slurred(
 
 
 def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray, piece: Piece) -> list[Articulation]:
-    """Return the articulation of each note, by how long it sounds and how loud it is among its neighbours."""
+    """Return the articulation of each note, by its sounding length and its loudness among its neighbours."""
     onset = times.onset_tick
     end = onset + np.array([note.duration_tick for note in notes], np.int64)
     quarter = piece.clock.ticks_per_quarter
@@ -208,7 +208,9 @@ def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray
 def _strokes(
     times: LineTimes, attacked: IntArray, piece: Piece, limit_s: float
 ) -> tuple[list[Stroke], list[tuple[str, float]]]:
-    """Stroke of each attacked note; and of which pattern it is part (empty: none), with the strokes per second."""
+    """Stroke of each attacked note; and the tonguing pattern it belongs to (empty: none), with the strokes per
+    second.
+    """
     strokes: list[Stroke] = ["ta"] * len(attacked)
     why = [("", 0.0)] * len(attacked)
     onset_s, ticks = times.onset_s[attacked], times.onset_tick[attacked]

@@ -1,1 +1,1 @@
-"""The notes as a player sees them: pieces and parts as arrays, rests, fermatas, dynamics, felt bars."""
+"""Music as input of the planning: pieces and parts as arrays, rests, fermatas, dynamics, felt bars."""

@@ -1,8 +1,8 @@
-"""Breath from a part's controllers: gaps without breath, its strength, and the motion of the lips.
+"""Breath data from a part's controllers: gaps without breath, its strength, and lip motion.
 
-The curve of a wind controller's breath sensor goes to zero when the player stops blowing, and stays there while they
-breathe in. A curve that a sequencer or an engraver drew for the dynamics does not: it shows how loud, not where the
-breaths are. So gaps are believed only of a curve that is at zero in most of the rests.
+The curve of a breath sensor drops to zero when the player stops blowing and stays there during the inhalation. A curve
+drawn for dynamics does not: it shows loudness, not breaths. Gaps are therefore used only if the curve is at zero in
+most rests.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ LEAST_PLAYED_S = 0.03
 
 @dataclass(frozen=True, eq=False)
 class BreathEnvelope:
-    """A breath curve in time.
+    """A breath curve over time.
 
     Attributes
     ----------
     at_s, values : (K,) float64
         A step function; the first value holds before.
     gaps_s : (G, 2) float64
-        Where no one blows, ordered; from minus to plus infinity.
+        Spans without breath, ordered, from minus to plus infinity.
     """
 
     at_s: FloatArray
@@ -46,7 +46,7 @@ class BreathEnvelope:
     gaps_s: FloatArray
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether all arrays are equal, for comparing inputs of cached steps."""
         if not isinstance(other, BreathEnvelope):
             return NotImplemented
         return all(np.array_equal(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
@@ -54,17 +54,17 @@ class BreathEnvelope:
     __hash__ = None  # type: ignore[assignment]
 
     def mean(self, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-        """Mean over spans."""
+        """Mean value over each span."""
         return step_means(self.at_s, self.values, starts_s, ends_s)
 
     def plays(self, times: LineTimes) -> BoolArray:
-        """(N,): whether each note was blown. What was drawn beside the recorded bars was not."""
+        """Mask (N,) of the notes that were blown; notes outside the recorded bars were not."""
         lasts = times.played_end_s > times.onset_s
         ends_s = np.where(lasts, times.played_end_s, times.onset_s + GASP_S)
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
     def has_breath_gaps(self, times: LineTimes) -> bool:
-        """Return whether its gaps are breaths."""
+        """Return whether the gaps of the curve are breaths."""
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)
@@ -80,14 +80,14 @@ class BreathEnvelope:
 
 @dataclass(frozen=True, eq=False)
 class BreathGaps:
-    """Gap in the breath controller that serves each note.
+    """Gap in the recorded breath before each note.
 
     Attributes
     ----------
     start_s, end_s : (N,) float64
-        NaN where no gap comes before a note; the end is at most the note's onset.
+        NaN where a note has no gap before it; the end is at most the note's onset.
     played : (N,) bool
-        Which notes were blown: of the others the breath says nothing.
+        Mask of notes that were blown; for the others the recording gives no breaths.
     """
 
     start_s: FloatArray
@@ -96,18 +96,18 @@ class BreathGaps:
 
     @property
     def length_s(self) -> FloatArray:
-        """(N,): 0 where there is none."""
+        """Length (N,) in seconds of each gap; 0 without one."""
         return np.nan_to_num(self.end_s - self.start_s)
 
 
 def blown(steps: ControllerSteps, clock: TempoMap) -> BreathEnvelope:
-    """A breath curve in time, with its gaps."""
+    """The breath curve in seconds, with its gaps."""
     at_s = clock.seconds(steps.ticks)
     return BreathEnvelope(at_s, steps.values, find_gaps(at_s, steps.values))
 
 
 def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
-    """(G, 2): where no one blows, however shortly. Before the first value no one blows."""
+    """Spans (G, 2) in seconds without breath, however short; also before the first value."""
     reported = np.where(values >= BLOWS_FROM, 1, np.where(values <= STOPS_AT, 0, -1))
     last: IntArray = np.maximum.accumulate(np.where(reported >= 0, np.arange(len(reported)), -1))
     blows = np.where(last >= 0, reported[last], 0)
@@ -118,7 +118,7 @@ def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
-    """Return where blowing stops for a breath within a note: the longest gap of each note."""
+    """Return the longest gap within each note that has one: note index, start and end in seconds."""
     gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
@@ -132,10 +132,10 @@ def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, f
 
 
 def silences(envelope: BreathEnvelope, times: LineTimes) -> BreathGaps:
-    """Return which gap comes before which note: the longest of those between the note before and this one.
+    """Return the gap before each note: the longest one since the previous note.
 
-    A gap in the middle of a note serves none (`gaps_within`); where the note before was not blown either, it begins
-    where that ends.
+    A gap in the middle of a note is not used here (`gaps_within`); if the previous note was not blown either, the gap
+    begins at its end.
     """
     count = len(times.onset_s)
     start_s, end_s = np.full(count, np.nan), np.full(count, np.nan)
@@ -156,7 +156,7 @@ def silences(envelope: BreathEnvelope, times: LineTimes) -> BreathGaps:
 
 
 def step_means(at: FloatArray, values: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    """Mean of a step function over spans of some length; before its first step it has its first value."""
+    """Mean of a step function over spans; before its first step the function has its first value."""
     area = np.concatenate([[0.0], np.cumsum(values[:-1] * np.diff(at))])
 
     def integral(places: FloatArray) -> FloatArray:

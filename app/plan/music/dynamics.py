@@ -1,4 +1,4 @@
-"""Strength of playing as the body shows it: larger motion when loud, little when soft."""
+"""Strength of body motion by dynamics: larger when loud, smaller when soft."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ ACCENT_NOTES = 3
 
 @dataclass(frozen=True, eq=False)
 class Dynamics:
-    """The strength of a line.
+    """Strength of motion over a part, and its accents.
 
     Attributes
     ----------
     at_s, vigour : (K,) float64
-        Size of a motion as a share of that at mezzoforte, between these times by interpolation.
+        Size of motion relative to mezzoforte at times in seconds, linear between them.
     accents : (N,) float64
-        How much louder than the notes around it each accented note is; 0 of the others.
+        Excess loudness of each accented note over the notes around it; 0 for other notes.
     """
 
     at_s: FloatArray
@@ -42,13 +42,13 @@ class Dynamics:
     accents: FloatArray
 
     def at(self, times_s: FloatArray) -> FloatArray:
-        """The vigour at some times; 1 where nothing is played at all."""
+        """Size of motion at some times; 1 if nothing is played."""
         if len(self.at_s) == 0:
             return np.ones(len(times_s))
         return np.asarray(np.interp(times_s, self.at_s, self.vigour))
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as plans are compared."""
+        """Return whether all arrays are equal, for comparing plans."""
         if not isinstance(other, Dynamics):
             return NotImplemented
         pairs = zip((self.at_s, self.vigour, self.accents), (other.at_s, other.vigour, other.accents), strict=True)
@@ -58,7 +58,7 @@ class Dynamics:
 
 
 def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
-    """The dynamics of a line, by its curve where one was recorded or drawn, else by its notes."""
+    """Dynamics of a part, by its recorded or drawn curve, else by its notes."""
     lasts_s = times.duration_s
     parts = np.maximum(np.ceil(lasts_s / HELD_S), 1.0).astype(np.int64)
     within = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
@@ -75,7 +75,7 @@ def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
 
 
 def vigour_of(loudness: FloatArray) -> FloatArray:
-    """Size of a motion at a loudness 0..1, as a share of that at mezzoforte."""
+    """Size of motion at a loudness 0..1, relative to mezzoforte."""
     return np.asarray(np.interp(np.round(loudness, 6), LOUDNESSES, VIGOURS))
 
 
@@ -83,14 +83,14 @@ Size = TypeVar("Size", float, FloatArray)
 
 
 def amount_at_vigour(amount: Size, vigour: Size) -> Size:
-    """An amount -1..1 at a vigour: smaller in proportion below 1; above 1 what is small grows more, and 1 stays 1."""
+    """Scale an amount -1..1 by a vigour: proportionally below 1; above 1 small amounts grow most, and 1 stays 1."""
     return amount * vigour / (1.0 + abs(amount) * (vigour - 1.0) * (vigour > 1.0))
 
 
 def mean_around(
     starts_s: FloatArray, lasts_s: FloatArray, loudness: FloatArray, at_s: FloatArray, around_s: float
 ) -> FloatArray:
-    """(K,): mean loudness of what sounds from ``around_s`` before each time to as long after it.
+    """Mean loudness (K,) of notes sounding within ``around_s`` of each time.
 
     Parameters
     ----------
@@ -108,8 +108,9 @@ def mean_around(
 
 
 def louder_by(times: LineTimes) -> FloatArray:
-    """(N,): how much louder each note is than those around it, and than the mark in force where it is known: a *forte*
-    of three notes is no accent on each. 0 in a line that is too even for an accent."""
+    """Excess loudness (N,) of each note over the notes around it, and over the dynamic in force if known (three *forte*
+    notes are no accents). 0 for a part that is too even.
+    """
     loudness = times.loudness
     if len(loudness) < 2 or np.ptp(loudness) < ACCENT:
         return np.zeros(len(loudness))
@@ -119,7 +120,7 @@ def louder_by(times: LineTimes) -> FloatArray:
 
 
 def _accents(times: LineTimes) -> FloatArray:
-    """Return how much louder each accented note is than its neighbours; of several in a row the first counts."""
+    """Return the excess loudness of each accented note; of consecutive accents only the first counts."""
     more = louder_by(times)
     louder = np.append(-np.inf, times.loudness[:-1]) + ACCENT / 2.0 <= times.loudness
     return np.where((more >= ACCENT) & louder, more, 0.0)

@@ -1,9 +1,8 @@
-"""Dynamics from note velocities: the ladders of notation programs, and the piece's own distribution.
+"""Dynamics from note velocities, by the velocity tables of notation programs or the piece's own distribution.
 
-A notation program writes every dynamic mark as one velocity, and each program has its own: *forte* is 96 in MuseScore,
-88 in Finale, 95 in LilyPond and 66 in LilyPond's flutes. Which ladder a piece was written with is recognised by all its
-velocities together (`read_velocities`). What was played has no ladder: its levels are those of the piece's own
-distribution.
+A notation program writes every dynamic as one velocity, and each program differs: *forte* is 96 in MuseScore, 88 in
+Finale, 95 in LilyPond and 66 in LilyPond's flutes. The table (here: ladder) is recognised from all velocities of the
+piece (`read_velocities`). Played music has no ladder: its levels come from its own distribution.
 """
 
 from __future__ import annotations
@@ -37,18 +36,18 @@ USUAL_RANGE: Final = (49.0, 96.0)
 
 
 class Velocities(NamedTuple):
-    """The velocities of a part.
+    """Velocities of a part.
 
     Attributes
     ----------
     velocities : (N,) int
-        Of its notes in order, 0..127.
+        Velocities of the notes in order, 0..127.
     program : int or None
         General MIDI program, from 0.
     onsets : (N,) int
         Ticks of the notes; empty: unknown.
     staff : int
-        Parts of one staff have one number.
+        Number of the staff, equal for parts of one staff.
     """
 
     velocities: Sequence[int] | IntArray
@@ -58,24 +57,24 @@ class Velocities(NamedTuple):
 
 
 class VelocityReading(msgspec.Struct, frozen=True):
-    """A reading of the velocities of a piece.
+    """Interpretation of the velocities of a piece.
 
     Attributes
     ----------
     ladder : str
-        Name of the program whose ladder they are; empty: none.
+        Name of the program whose ladder was used; empty: none.
     marked : bool
-        Whether the ladder's levels are marks: a piece that is all at the default level has none.
+        Whether the ladder's levels are dynamics; False if everything is at the default level.
     usual : float
-        Median velocity of what has no ladder.
+        Median velocity of the parts without a ladder.
     meant : float
-        How far, 0..1, its levels are dynamics.
+        Degree, 0..1, to which the levels without a ladder are intended dynamics.
     shift : float
-        Velocities to add before its levels are compared with `DYNAMICS`.
+        Velocities to add before levels are compared with `DYNAMICS`.
     whole_range : bool
-        LilyPond wrote all parts in the range of no instrument: their programs were given to them afterwards.
+        Whether LilyPond wrote all parts in its range without instrument, because programs were assigned later.
     levels : StaffLevels or None
-        Marks in force on every staff, where notes are written without one.
+        Dynamics in force on every staff, for notes written without one.
     """
 
     ladder: str = ""
@@ -123,7 +122,7 @@ def _array(values: Sequence[int] | IntArray) -> IntArray:
 
 
 def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, float, float]:
-    """Usual level, how far levels are meant, and their shift, of what no ladder explains."""
+    """Usual level, degree of intended dynamics, and shift, for velocities that fit no ladder."""
     if not unread:
         return 80.0, 0.0, 0.0
     several = np.concatenate([_smoothed(velocities) for velocities in unread])
@@ -145,7 +144,7 @@ def _distribution(unread: Sequence[IntArray], constant: bool) -> tuple[float, fl
 
 
 def is_level(velocity: FloatArray) -> bool:
-    """Return whether notes (N,), enough to judge by, spread no more than the strokes of a hand that plays one level."""
+    """Return whether the velocities (N,) of enough notes spread no more than those of a hand playing at one level."""
     if len(velocity) < 4 * STROKES:
         return False
     low, high = np.percentile(_smoothed(velocity), [10, 90])
@@ -160,17 +159,16 @@ def _smoothed(velocity: IntArray | FloatArray) -> FloatArray:
 
 
 def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> tuple[FloatArray, IntArray]:
-    """Return the loudness 0..1 of every note by the velocities alone, and the row in `DYNAMICS` of the mark in force.
+    """Return the loudness 0..1 of every note from velocities alone, and the row in `DYNAMICS` of the dynamic in force.
 
-    On a ladder each note has the loudness of its mark, a little more with an accent, and what lies between in a
-    hairpin. Otherwise the differences between the strokes of one hand say nothing about dynamics: the level, and how
-    much louder or softer than usual a note is, count as far as the velocities of several notes together spread beyond
-    them. An accent is no mark.
+    On a ladder each note has the loudness of its dynamic, slightly more with an accent, or a value between two in a
+    hairpin. Without a ladder, small differences between strokes are ignored: level and deviation count as far as the
+    velocities of several notes spread beyond them. Accents are no dynamics.
 
     Parameters
     ----------
     reading : VelocityReading, optional
-        Of the whole piece; by default that of these velocities alone.
+        Interpretation of the whole piece; by default of these velocities alone.
     """
     velocity = np.clip(_array(part.velocities), 0, 127)
     if not len(velocity):
@@ -190,8 +188,8 @@ def read_dynamics(part: Velocities, reading: VelocityReading | None = None) -> t
 
 
 def levels_in_force(part: Velocities, reading: VelocityReading | None = None) -> FloatArray:
-    """Return the loudness 0..1 of the mark in force at every note, where a notation program wrote it; empty where the
-    velocities are on no ladder.
+    """Return the loudness 0..1 of the dynamic in force at every note, if a notation program wrote it; empty without a
+    ladder.
 
     Parameters
     ----------
@@ -205,7 +203,7 @@ def levels_in_force(part: Velocities, reading: VelocityReading | None = None) ->
 
 
 def _by_distribution(velocity: IntArray, reading: VelocityReading) -> tuple[FloatArray, IntArray]:
-    """Loudness and marks of what was played, or written with unknown levels."""
+    """Loudness and dynamics of played music, or of music written with unknown levels."""
     unmeant = (1.0 - reading.meant) * UNMEANT_SPREAD / 2.0
     level = MEZZOFORTE + reading.meant * ((reading.usual + reading.shift) / 127.0 - MEZZOFORTE)
     stroke = velocity - reading.usual

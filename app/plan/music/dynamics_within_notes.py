@@ -1,4 +1,4 @@
-"""Written loudness within the notes: under hairpins, and after the attack of a sforzando."""
+"""Written loudness changes within notes: hairpins, and the decay after a sforzando."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ ATTACK_S, FALL_S = 0.15, 0.25
 def dynamics_within(
     times: LineTimes, marks: tuple[Mark, ...], source: Source, clock: TempoMap
 ) -> BreathEnvelope | None:
-    """The loudness of a line through its notes, as its dynamics and hairpins say.
+    """Loudness of a part through its notes, by written dynamics and hairpins.
 
     Returns
     -------
     BreathEnvelope or None
-        Without gaps; None where every note is as loud as it begins.
+        The curve, without gaps; None if no note changes its loudness.
     """
     written = written_dynamics(marks, source, clock.ticks_per_quarter)
     if not len(times.onset_tick) or not (len(written.ticks) > 1 or written.swells or written.struck):

@@ -1,4 +1,4 @@
-"""The character in which a piece ends, by mode, tempo and dynamics: what faces show after the last note."""
+"""Character of a piece's ending, by mode, tempo and dynamics; decides the faces after the last note."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Ending(msgspec.Struct, frozen=True):
 
 
 def ending_of(all_times: tuple[LineTimes, ...], piece: Piece) -> Ending:
-    """The ending of a piece, by all its players' lines."""
+    """Ending of a piece, from the parts of all players."""
     lines = [times for times in all_times if len(times.onset_tick)]
     if not lines:
         return Ending(False, 0.0)

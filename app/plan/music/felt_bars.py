@@ -1,9 +1,9 @@
-"""Bars as they are felt: a MIDI file does not say that a piece begins with a pickup.
+"""Detects bars that begin elsewhere than written: MIDI files do not mark pickups.
 
-Notes on the first beat of a bar are longer than others and the bass plays there (Lerdahl & Jackendoff, A Generative
-Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). Where nearly all long
-notes begin the same part of a beat after the given beats, the pickup is no whole number of beats. Where the bar lines
-then fall on beats that are weaker than most, and one other beat is clearly the strongest, bars begin there.
+Notes on the first beat of a bar are longer than others, and the bass plays there (Lerdahl & Jackendoff, A Generative
+Theory of Tonal Music, 1983, ch. 4: metrical preference rules for long notes and a stable bass). If nearly all long
+notes begin at the same fraction of a beat after the written beats, the pickup is fractional. If the bar lines then fall
+on weak beats and one other beat is clearly the strongest, bars begin there.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
 
 
 def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, ...]) -> Piece:
-    """The piece with its bars where they are felt to begin: the same where nothing speaks clearly against them.
+    """Return the piece with bars where they are felt to begin; unchanged without clear evidence.
 
-    Pieces that change their metre, or have a pickup already, keep their bars.
+    Pieces with a change of metre or a pickup are not changed.
 
     Parameters
     ----------
     lines : tuple of NoteTimes
-        All that the bars depend on, but for ``low``: another pitch seldom asks for them again.
+        Times of the notes; excludes pitches, so that an edit of a pitch does not repeat the analysis.
     low : tuple of bool
         `lowest` of the lines.
     """
@@ -78,7 +78,7 @@ def with_felt_bars(piece: Piece, lines: tuple[NoteTimes, ...], low: tuple[bool, 
 
 
 def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_ticks: int) -> int:
-    """Ticks by which the felt beats come after the given ones: less than a beat, 0 unless long notes show otherwise.
+    """Ticks from the written beats to the felt ones: less than a beat, 0 unless long notes show otherwise.
 
     Parameters
     ----------
@@ -98,12 +98,12 @@ def _late_ticks(lines: Sequence[NoteTimes], onsets: Sequence[IntArray], unit_tic
 def _weights(
     lines: Sequence[NoteTimes], lowest: Sequence[bool], onsets: Sequence[IntArray], unit_ticks: int, count: int
 ) -> FloatArray:
-    """(count,): how strong each beat of the bar is, 1 on average; all alike where there is little to go by.
+    """Strength (count,) of each beat of the bar, 1 on average; equal with too little evidence.
 
     Parameters
     ----------
     onsets : sequence of (N,) int64
-        Where the notes of each line begin, in ticks after the first bar line.
+        Onsets of each line in ticks after the first bar line.
     """
     played = [row for row in zip(lines, lowest, onsets, strict=True) if len(row[2])]
     if sum(len(since) for _, _, since in played) < LEAST_NOTES:

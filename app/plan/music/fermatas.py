@@ -1,9 +1,9 @@
-"""Fermatas: all hold a sound or a silence longer than its written length: by the tempo alone, as notation programs and
-sequencers write a fermata.
+"""Detects fermatas: sounds or silences that all players hold longer than written, found by the tempo alone, as notation
+programs and sequencers write them.
 
-A fermata is a stretch in which no one begins anything and that is much slower than what comes before it and after it.
-A tempo that stays is none; notes that move in a slow bar are none. Several chords may each have a fermata: then the
-tempo is slow over all of them, and they are long or have rests between.
+A fermata is a stretch without onsets that is much slower than the music before and after. A lasting slow tempo is none,
+nor are moving notes in a slow bar. Several successive chords may each have one: then the tempo is slow over all of
+them, and they are long or separated by rests.
 """
 
 from __future__ import annotations
@@ -44,18 +44,18 @@ ROUNDING: Final = 1e-3
 
 
 class Fermata(msgspec.Struct, frozen=True):
-    """A place that all hold.
+    """A place that all players hold.
 
     Attributes
     ----------
     start_tick : int
-        Onset of what is held.
+        Onset of the held notes.
     release_tick : int
-        End of the last sound of it; with a legato the tick of the entry.
+        End of the last held note; equal to the entry if legato.
     entry_tick : int
-        Onset of what comes next.
+        First onset after the hold.
     returns : bool
-        Whether the tempo from before it goes on there; otherwise a new one begins.
+        Whether the previous tempo continues after it; otherwise a new one begins.
     """
 
     start_tick: int
@@ -65,12 +65,12 @@ class Fermata(msgspec.Struct, frozen=True):
 
 
 def fermatas(all_times: tuple[NoteTimes, ...], piece: Piece) -> tuple[Fermata, ...]:
-    """Every fermata that the tempo shows, in order and apart; one after which no one begins again is left out.
+    """All fermatas shown by the tempo, in order, without overlap; one at the end of the piece is omitted.
 
     Parameters
     ----------
     all_times : tuple of NoteTimes
-        Of every line on stage; those without notes do not matter. What the accompaniment begins counts as well.
+        Times of every part on stage. Onsets of the accompaniment count as well.
     """
     sounding = [times for times in all_times if len(times.onset_tick)]
     if not sounding:
@@ -101,12 +101,12 @@ def fermatas(all_times: tuple[NoteTimes, ...], piece: Piece) -> tuple[Fermata, .
 
 
 class _Gaps(msgspec.Struct, frozen=True):
-    """Stretches in which nothing begins, but the last: from an onset to the next of all.
+    """Stretches without onsets, from one onset of any part to the next; the last one is omitted.
 
     Attributes
     ----------
     starts, ends : (N,) int64
-        The last onset of those that are together, and the first of the next ones.
+        Last onset of a group of simultaneous ones, and first onset of the next group.
     slowness : (N,) float64
         Mean seconds per tick.
     """
@@ -127,8 +127,9 @@ class _Gaps(msgspec.Struct, frozen=True):
 
 
 def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tuple[int, Fermata]]]:
-    """The fermatas of chords that each have one, with their places: two to `MOST_IN_A_ROW` gaps, much slower than what
-    comes before and after all of them."""
+    """Fermatas on successive chords, with their places: two to `MOST_IN_A_ROW` gaps, much slower than the music before
+    and after all of them.
+    """
     rows: list[list[tuple[int, Fermata]]] = []
     slowness: list[float] = gaps.slowness.tolist()
     done = -1
@@ -150,7 +151,7 @@ def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tup
 
 
 def _uneven(slowness: FloatArray) -> list[int]:
-    """The gaps after which the tempo is not the same for longer than a row of fermatas lasts."""
+    """Gaps after which the tempo changes within the length of a row of fermatas."""
     found = np.ones(len(slowness), dtype=bool)
     if len(slowness) > MOST_IN_A_ROW:
         rows = rows_of(slowness, MOST_IN_A_ROW + 1)
@@ -159,7 +160,7 @@ def _uneven(slowness: FloatArray) -> list[int]:
 
 
 def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[tuple[int, Fermata]]:
-    """The fermatas of some gaps in a row, if each is one."""
+    """Fermatas of consecutive gaps; empty unless each gap is one."""
     slowest = float(gaps.slowness[first : last + 1].min())
     after = _beats(int(gaps.ends[last]), AFTER_BEATS, piece)
     before = _beats(int(gaps.starts[first]), -BEFORE_BEATS, piece) if first else after
@@ -184,7 +185,7 @@ def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: P
 
 
 def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:
-    """The fermata that ends with a gap, if it is one."""
+    """Fermata that ends with a gap; None if there is none."""
     start, entry = int(gaps.starts[place]), int(gaps.ends[place])
     slowness = float(gaps.slowness[place])
     after = _beats(entry, AFTER_BEATS, piece)
@@ -206,7 +207,7 @@ def _fermata(place: int, gaps: _Gaps, piece: Piece) -> Fermata | None:
 
 
 def _moves(place: int, gaps: _Gaps) -> bool:
-    """Decide whether a gap is the larger part of the hold, after one voice moved."""
+    """Return whether a gap is the larger part of a hold during which one voice moved."""
     own, before = (float(gaps.ends[at] - gaps.starts[at]) for at in (place, place - 1))
     ratio = float(gaps.slowness[place - 1] / gaps.slowness[place])
     return own >= before and 1.0 / ONE_TEMPO <= ratio <= ONE_TEMPO
@@ -219,7 +220,7 @@ def _is_live(beats: FloatArray) -> bool:
 
 
 def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
-    """Seconds per tick in each of ``count`` beats from a tick on, or before it where ``count`` is negative."""
+    """Seconds per tick in each of ``count`` beats after a tick, or before it if ``count`` is negative."""
     beat = int(piece.beat_ticks_at(np.array([tick]))[0])
     edges = tick + beat * np.arange(min(count, 0), max(count, 0) + 1, dtype=np.float64)
     lasts: FloatArray = np.diff(piece.clock.seconds(edges)) / beat
@@ -227,7 +228,7 @@ def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
 
 
 def _released(sounding: list[NoteTimes], start: int, entry: int) -> int:
-    """End of the last sound of those that begin at a fermata's start or before."""
+    """End of the last note that began at or before the start of a fermata."""
     ends = []
     for times in sounding:
         index = int(np.searchsorted(times.onset_tick, entry)) - 1

@@ -1,4 +1,6 @@
-"""The marks of what a notation program wrote: which program it was, and the mark in force at each note."""
+"""Recovers dynamics from the velocities of a notation program: which program wrote them, and the dynamic at each
+note.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +48,7 @@ _PASSED: Final = 0.1
 
 
 def is_written(velocity: IntArray) -> bool:
-    """Decide whether a part's velocities are levels that notes share and hairpins, not strokes of a hand."""
+    """Return whether velocities are written levels and hairpins instead of played strokes."""
     steps = np.sign(np.diff(velocity))
     edges = np.flatnonzero(np.append(True, steps[1:] != steps[:-1])) if len(steps) else steps
     lengths = np.diff(np.append(edges, len(steps))) + 1
@@ -59,7 +61,7 @@ def is_written(velocity: IntArray) -> bool:
 
 
 def _levels(velocity: IntArray) -> dict[int, int]:
-    """Velocities at which the music stays, with the number of their notes; hairpins pass through all others."""
+    """Velocities at which the music stays, with their number of notes; velocities within hairpins are excluded."""
     edges = np.flatnonzero(np.append(True, velocity[1:] != velocity[:-1]))
     lengths = np.diff(np.append(edges, len(velocity)))
     for least in (3, 1):
@@ -73,8 +75,9 @@ def _levels(velocity: IntArray) -> dict[int, int]:
 
 
 def recognised(written: Sequence[tuple[IntArray, int | None]]) -> tuple[str, bool]:
-    """Name of the ladder that explains the levels of all parts best, and whether it does so in the whole range; empty
-    where any velocity would do as well."""
+    """Name of the velocity ladder that best explains all parts, and whether in LilyPond's whole range; empty if no
+    ladder is clearly better.
+    """
     levels = [(_levels(velocities), program) for velocities, program in written]
     best, name, whole = 0.0, "", False
     for one in LADDERS:
@@ -92,14 +95,15 @@ def recognised(written: Sequence[tuple[IntArray, int | None]]) -> tuple[str, boo
 
 
 def _gain(name: str, program: int | None, levels: dict[int, int]) -> float:
-    """Return how much likelier the levels of a part are on a ladder than anywhere, as a logarithm."""
+    """Return the log likelihood ratio of a part's levels on a ladder against random velocities."""
     gains = _gains(name, program)
     return sum(gains[value] * math.log1p(count) for value, count in levels.items())
 
 
 def _written_as(name: str, levels: dict[int, int], program: int | None, whole_range: bool = False) -> int | None:
-    """The program in whose range LilyPond wrote a part: its own, that of an instrument it was written for before, or a
-    range that the score sets."""
+    """General MIDI program in whose range LilyPond wrote a part: its own, that of an earlier instrument, or a range set
+    in the score.
+    """
     if name != LILYPOND:
         return program
     if whole_range:
@@ -109,8 +113,9 @@ def _written_as(name: str, levels: dict[int, int], program: int | None, whole_ra
 
 
 def _may_be_set(one: int, levels: dict[int, int], program: int | None) -> bool:
-    """Decide whether enough levels are the marks of a range exactly, and more than twice those of the usual ranges;
-    what hairpins and articulations reach always is some."""
+    """Return whether enough levels are exactly dynamics of a range, and over twice as many as in the usual ranges; some
+    always match by hairpins and articulations.
+    """
     marked = [count for at, count in levels.items() if count >= RUN and at in _marks_of(one)]
     plain = max(sum(levels[at] for at in levels.keys() & _marks_of(own)) for own in (program, None))
     return len(marked) >= _SET_LEVELS and sum(marked) >= max(_SET_SHARE * sum(levels.values()), 2.0 * plain)
@@ -123,7 +128,7 @@ def _marks_of(program: int | None) -> frozenset[int]:
 
 
 def _range_cost(wrote: int | None, program: int | None) -> float:
-    """Return what speaks against a range other than that of the instrument."""
+    """Return the cost of assuming a range other than that of the instrument."""
     if wrote == program:
         return 0.0
     return _SET_RANGE if wrote in SET_RANGES else _OWN_RANGE
@@ -131,7 +136,7 @@ def _range_cost(wrote: int | None, program: int | None) -> float:
 
 @lru_cache(maxsize=256)
 def _gains(name: str, program: int | None) -> tuple[float, ...]:
-    """(128,): logarithm of how much likelier each velocity is on a ladder than anywhere."""
+    """Log likelihood ratio (128,) of each velocity on a ladder against random velocities."""
     ladder = ladder_of(name, program)
     likely = np.full(128, 0.2 / 60.0)
     for mark, velocity in ladder.steps:
@@ -146,7 +151,9 @@ def _gains(name: str, program: int | None) -> tuple[float, ...]:
 
 
 def has_no_marks(name: str, written: Sequence[tuple[IntArray, int | None]], whole_range: bool) -> bool:
-    """Decide whether all parts stay at what a program writes without dynamic marks, but for articulations and slips."""
+    """Return whether all parts stay at a program's velocity without dynamics, except for articulations and single
+    notes.
+    """
     default: int | None = None
     for velocities, program in written:
         values, counts = np.unique(velocities, return_counts=True)
@@ -212,16 +219,16 @@ def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, Floa
 
 
 class LadderMarks(NamedTuple):
-    """The marks of a part on a ladder.
+    """Dynamics of a part recovered from a velocity ladder.
 
     Attributes
     ----------
     marks : (N,) int
         Rows of `DYNAMICS`; -1: the note was written without a mark.
     stressed : (N,) bool
-        Notes at a step that is no level: LilyPond stays at a *sf* until the next mark, players do not.
+        Mask of notes at a step that does not last: LilyPond stays at *sf* until the next dynamic, players do not.
     accents : (N,) float64
-        Loudness that they have more than their marks.
+        Loudness of each note above its dynamic.
     """
 
     marks: IntArray
@@ -229,12 +236,12 @@ class LadderMarks(NamedTuple):
     accents: FloatArray
 
     def read(self, unmarked: IntArray | None = None) -> tuple[FloatArray, IntArray]:
-        """Loudness 0..1 and mark of every note.
+        """Loudness 0..1 and dynamic of every note.
 
         Parameters
         ----------
         unmarked : (N,) int, optional
-            The mark of each note that has none of its own; by default that of the note before.
+            Dynamic of each note without one of its own; by default that of the previous note.
         """
         if unmarked is None:
             known = np.maximum.accumulate(np.where(self.marks < 0, -1, np.arange(len(self.marks))))
@@ -247,13 +254,15 @@ class LadderMarks(NamedTuple):
 
 
 def ladder_marks(velocity: IntArray, name: str, program: int | None, whole_range: bool) -> LadderMarks:
-    """Return the marks of a part by its velocities (N,) on a ladder."""
+    """Return the dynamics of a part from its velocities (N,) on a ladder."""
     return _along(velocity.astype(np.uint8).tobytes(), name, program, whole_range)
 
 
 @lru_cache(maxsize=128)
 def _along(velocities: bytes, name: str, program: int | None, whole_range: bool) -> LadderMarks:
-    """The cheapest way along the steps, where each change of level costs; kept, since most edits change no velocity."""
+    """Find the cheapest sequence of ladder steps, where each change of level has a cost; cached, since most edits
+    change no velocity.
+    """
     velocity = np.frombuffer(velocities, np.uint8).astype(np.int64)
     program = _written_as(name, _levels(velocity), program, whole_range)
     cost, accent, change = _costs(name, program)

@@ -1,4 +1,4 @@
-"""Positions of played notes in a score: breathing and phrasing follow those, not the exact timing."""
+"""Reconstructs notated positions of played notes; breathing and phrasing follow these instead of the exact timing."""
 
 from __future__ import annotations
 
@@ -56,17 +56,17 @@ SHORTEST_REST = 0.2
 def written_onsets(
     onsets: IntArray, quarter_ticks: int, bars: IntArray, reach_ticks: IntArray | None = None
 ) -> IntArray:
-    """(N,): where played notes would stand in a score.
+    """Notated onsets (N,) in ticks of played notes.
 
-    Onsets that mostly lie on fractions of a quarter are written ones, and are kept as they are.
+    If most onsets are on fractions of a quarter already, they are returned unchanged.
 
     Parameters
     ----------
     onsets : (N,) int64
     bars : (B,) int64
-        Where bars begin: places are counted from there.
+        Ticks at which bars begin; positions are counted from there.
     reach_ticks : (N,) int64, optional
-        How far from its place each may lie, beside `NEAREST`.
+        Largest distance of each onset from its position, in addition to `NEAREST`.
     """
     if are_written(onsets, quarter_ticks):
         return onsets
@@ -79,7 +79,9 @@ def written_onsets(
 
 
 def _rarer_division(quarters: FloatArray) -> int:
-    """3 or 4, where hardly any notes lie on such parts of a quarter but many on the others; 0 if neither is rare."""
+    """Return 3 or 4 if hardly any notes are at such fractions of a quarter but many at the others; 0 if neither is
+    rare.
+    """
     parts = np.array([0.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0, 2.0 / 3.0, 3.0 / 4.0, 1.0])
     counts = np.bincount(np.searchsorted((parts[1:] + parts[:-1]) / 2.0, quarters % 1.0), minlength=len(parts))
     thirds, fourths = int(counts[[2, 4]].sum()), int(counts[[1, 5]].sum())
@@ -89,23 +91,23 @@ def _rarer_division(quarters: FloatArray) -> int:
 
 
 def bar_starts(ticks: IntArray, bars: IntArray) -> IntArray:
-    """(N,): where the bar of each time begins; the first bar's begin before it, 0 without bars."""
+    """Start tick (N,) of the bar of each time; the first bar extends backwards; 0 without bars."""
     if not len(bars):
         return np.zeros_like(ticks)
     return np.asarray(bars[np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)])
 
 
 def are_written(ticks: IntArray, quarter_ticks: int) -> bool:
-    """Return whether times lie where a score has them, a few aside."""
+    """Return whether nearly all times are at notated positions."""
     elsewhere = np.count_nonzero(ticks * 24 % quarter_ticks)
     return bool(elsewhere < max(PLAYED_LEAST, (1.0 - WRITTEN_SHARE) * len(ticks) + 1e-6))
 
 
 def notated(times: LineTimes, piece: Piece) -> LineTimes:
-    """The line as a score would have it.
+    """The part in notated timing.
 
-    Onsets stand at the simplest places near. Where the ends were played, a note lasts until the next onset if it may
-    have been released early, and otherwise to the simplest place where a rest may begin.
+    Onsets move to the simplest nearby position. Where ends were played, a note lasts until the next onset if it may
+    have been released early, otherwise to the simplest position for the start of a rest.
     """
     clock, quarter = piece.clock, piece.clock.ticks_per_quarter
     end_tick = times.played_end_tick
@@ -156,14 +158,14 @@ def notated(times: LineTimes, piece: Piece) -> LineTimes:
 
 
 def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> BoolArray:
-    """(N,): which notes are slurred to the next, without those that meet it only because it came early.
+    """Mask (N,) of notes slurred to the next on purpose, not because the next one came early.
 
-    Where slurs are meant, most of the slurred notes last as long as written.
+    If slurs are intended, most slurred notes last as long as written.
 
     Parameters
     ----------
     onset_s : (N,) float64
-        Where the notes are written.
+        Notated onsets in seconds.
     """
     slurred = times.slurs_next.copy()
     shares = times.duration_s[:-1] / np.maximum(np.diff(onset_s), EPSILON)
@@ -176,22 +178,23 @@ def _meant_slurs(times: LineTimes, onset_s: FloatArray) -> BoolArray:
 
 
 def usual_release(early: float) -> float:
-    """The part of the time to the next onset by which notes of a line are released early, by its `early_share`."""
+    """Share of the time to the next onset by which notes of a part are usually released early, given its
+    `early_share`.
+    """
     return min(RELEASE_MARGIN * early, RELEASE_SHARES[1])
 
 
 def early_share(times: LineTimes) -> float:
-    """The part of the time to the next onset by which notes without a rest after them end early; 0 if unknown."""
+    """Share of the time to the next onset by which notes end early if no rest follows; 0 if unknown."""
     gates = 1.0 - times.silence_tick[1:] / np.maximum(np.diff(times.onset_tick), 1)
     gates = gates[(gates >= RELEASE_GATES[0]) & (gates <= RELEASE_GATES[1]) & ~are_audible(times)[1:]]
     return 0.0 if len(gates) < LEAST_RELEASED else max(1.0 - float(np.percentile(gates, EARLIEST_PERCENT)), 0.0)
 
 
 def heard_rests_s(times: LineTimes, release: float) -> FloatArray:
-    """(N,): how long a rest before each note is heard to last, less what its note may have been released early.
+    """Length (N,) in seconds of the heard rest before each note, less the usual early release of the previous note.
 
-    Where no note of the line shows how early they are released, and where no release is as long as the silence, the
-    whole silence counts.
+    The whole silence counts if the part's release is unknown, or if the silence is longer than any release.
 
     Parameters
     ----------
@@ -204,7 +207,7 @@ def heard_rests_s(times: LineTimes, release: float) -> FloatArray:
 
 
 def at_score_tempo(times: LineTimes, piece: Piece) -> LineTimes:
-    """The line without ritardandi and other short changes of tempo: they do not change where a musician breathes."""
+    """The part without ritardandi and other short tempo changes, which do not affect breathing."""
     quarter = piece.clock.ticks_per_quarter
     grid = np.arange(times.onset_tick[0] // quarter, -(-int(times.played_end_tick[-1]) // quarter) + 1) * quarter
     seconds = piece.clock.seconds(grid.astype(np.float64))
@@ -228,14 +231,14 @@ def simplest_places(
     quarter_ticks: int,
     rarer: int = 0,
 ) -> IntArray:
-    """(N,): of the places between ``first`` and ``last`` those of the simplest division, and of these the nearest.
+    """Position (N,) in ticks between ``first`` and ``last`` with the simplest division, and the nearest of those.
 
     Parameters
     ----------
     first, last, near : (N,)
-        Ticks; where no division has a place between, the nearest one of the finest is taken.
+        Ticks; if no division has a position in between, the nearest one of the finest division is used.
     rarer : int
-        A division whose places, and those of its half, count as `FARTHER` away than the others of their level.
+        Division (3 or 4) that is rare in the part: its positions count `FARTHER` away than others of their level.
     """
     at: FloatArray = np.asarray(near, np.float64) / quarter_ticks
     low, high = first / quarter_ticks - 1e-9, last / quarter_ticks + 1e-9

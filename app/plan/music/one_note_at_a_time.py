@@ -1,4 +1,4 @@
-"""A wind player sounds one note at a time: what of a line can be played, and what to report to the animator."""
+"""Reduces a part to one note at a time, as a wind player sounds it, and reports what was left out."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ LEGATO_OVERLAP_S = 0.030
 
 
 class Single(NamedTuple):
-    """A line of which one note sounds at a time, and a problem for every note left out or running into the next."""
+    """A monophonic part, and a problem for every note left out or overlapping the next."""
 
     part: MonophonicPart
     problems: tuple[Problem, ...]
 
 
 def one_at_a_time(part: MonophonicPart, clock: TempoMap) -> Single:
-    """The line without notes that cannot sound beside others: of those struck at one tick the highest is played.
+    """Remove notes that cannot sound together with others; of notes struck at one tick the highest stays.
 
-    The line stays the same object where nothing had to go.
+    Returns the same object if nothing was removed.
     """
     notes = part.notes
     left_out: set[int] = set()

@@ -1,4 +1,4 @@
-"""Inputs of a plan: the piece that all players share and one player's part, with its times as arrays."""
+"""Inputs of a plan: the piece shared by all players, and one player's part with its times as arrays."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ EPSILON = 1e-6
 
 
 def marked_loudness(loudness: FloatArray) -> FloatArray:
-    """(N,): the loudness of the dynamic mark nearest to each; mezzoforte is exactly that."""
+    """Loudness (N,) of the dynamic nearest to each value; mezzoforte is exact."""
     return np.asarray(LEVELS[np.searchsorted((LEVELS[1:] + LEVELS[:-1]) / 2.0, loudness)])
 
 
 @dataclass(frozen=True, eq=False)
 class ControllerSteps:
-    """Values of a controller over time: each holds until the next tick.
+    """Values of a controller over time: a step function.
 
     Attributes
     ----------
     ticks, values : (K,) float64
-        At least one; ticks ascend.
+        At least one step; ticks ascend.
     """
 
     ticks: FloatArray
     values: FloatArray
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as lines are compared."""
+        """Return whether all arrays are equal, for comparing parts."""
         if not isinstance(other, ControllerSteps):
             return NotImplemented
         return np.array_equal(self.ticks, other.ticks) and np.array_equal(self.values, other.values)
@@ -58,14 +58,14 @@ class ControllerSteps:
 
 @dataclass(frozen=True)
 class ControllerInput:
-    """Playing of a part by recorded or drawn controller curves; None: no curve.
+    """Recorded or drawn controller curves of a part; None: no curve.
 
     Attributes
     ----------
     breath : ControllerSteps or None
-        How strongly it is blown, 0..1.
+        Strength of the breath, 0..1.
     bite : ControllerSteps or None
-        How hard the teeth press, 0..1.
+        Bite force, 0..1.
     bend : ControllerSteps or None
         Pitch bend in whole tones.
     """
@@ -76,30 +76,30 @@ class ControllerInput:
 
 
 class MonophonicPart(msgspec.Struct, frozen=True):
-    """One player's part, with instrument, parameters and corrections.
+    """One player's part with instrument, parameters and corrections.
 
     Attributes
     ----------
     notes : tuple of Note
-        Monophonic, ordered by onset; neighbours may overlap a little (legato).
+        Notes, one at a time, ordered by onset; neighbours may overlap briefly (legato).
     loudness : tuple of float
-        Mean loudness 0..1 of every note where a breath, volume or expression curve says it; empty: the velocities do.
+        Mean loudness 0..1 of every note from a breath, volume or expression curve; empty: from velocities.
     controller : ControllerInput or None
-        Those curves, and the other input for the lips.
+        Those curves, and the lips' controllers.
     musician : str
-        Id of the player whose body plays it; empty: one of its own.
+        Id of the player whose body plays the part; empty: its own.
     actings : tuple of (str, Acting)
-        By style that a region names, what the player shows in it.
+        The player's acting in each style that a span uses.
     name, styles_known : str
-        What the player and the styles there are are called, for what is reported.
+        Names of the player and of the available styles, for messages.
     muted, stopped : tuple of (start tick, end tick)
-        Where it is played with a mute, and where among these the hand stops the bell.
+        Spans played with a mute, and the hand-stopped ones among them.
     mute_kinds : tuple of (tick, kind)
-        Which mute is in the bell from there on, where it is named.
+        Kind of mute from each tick on, where it is named.
     marks : tuple of Mark
-        What is written over the notes.
+        Marks written over the notes.
     source : {"sound", "score"}
-        What the notes were read from.
+        Origin of the notes.
     levels : tuple of float
         Loudness of the dynamic mark in force at every note; empty: unknown.
     """
@@ -124,14 +124,14 @@ class MonophonicPart(msgspec.Struct, frozen=True):
 
 
 class Piece(msgspec.Struct, frozen=True):
-    """Data of a piece that all players share.
+    """Data of a piece shared by all players.
 
     Attributes
     ----------
     metre_map : MetreMap
-        With the beat that is felt, and the bars where they are felt to begin.
+        Metre map with felt beats, and bars where they are felt to begin.
     accompaniment : tuple of (start tick, end tick)
-        Where parts sound that no one plays, in order and apart from each other.
+        Spans in which parts without a player sound, in order, without overlap.
     """
 
     clock: TempoMap
@@ -139,11 +139,11 @@ class Piece(msgspec.Struct, frozen=True):
     accompaniment: tuple[tuple[int, int], ...] = ()
 
     def beat_ticks_at(self, ticks: IntArray) -> IntArray:
-        """Ticks of the beat that is felt at each of some ticks."""
+        """Length in ticks of the felt beat at each of some ticks."""
         return self.metre_map.felt_ticks_at(ticks)
 
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
-        """See `MetreMap.bars`."""
+        """Ticks at which bars begin; see `MetreMap.bars`."""
         return self.metre_map.bars(first_tick, last_tick)
 
 
@@ -163,7 +163,7 @@ class NoteTimes:
         return self.played_end_s - self.onset_s
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether all arrays are equal, for comparing inputs of cached steps."""
         if self.__class__ is not other.__class__:
             return NotImplemented
         return all(np.array_equal(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
@@ -173,11 +173,11 @@ class NoteTimes:
 
 @dataclass(frozen=True, eq=False)
 class LineTimes(NoteTimes):
-    """The notes of a line.
+    """Times and loudness of the notes of a part.
 
-    ``slurs_next`` is whether the next note is slurred to it; ``silence_tick`` the silence before each note (none is 0;
-    before the first it is very long, since the pre-roll is silent); ``loudness`` 0..1; ``level`` that of the
-    dynamic mark in force, minus infinity where it is unknown.
+    ``slurs_next``: whether the next note is slurred to it; ``silence_tick``: ticks of silence before each note (very
+    many before the first, because of the pre-roll); ``loudness`` 0..1; ``level``: loudness of the dynamic in force,
+    minus infinity where unknown.
     """
 
     slurs_next: BoolArray
@@ -198,7 +198,9 @@ class LineTimes(NoteTimes):
 
     @cached_property
     def contour(self) -> LineTimes:
-        """The line as it divides into phrases: of the pitches only which note is higher, and which a leap away."""
+        """The part reduced to what divides it into phrases: direction of each step, and whether it is a leap, instead
+        of pitches.
+        """
         steps = np.sign(np.diff(self.pitch)) * np.where(self.leaps, LEAP_SEMITONES, 1)
         pitch = np.concatenate((np.zeros(min(len(self.pitch), 1), np.int64), np.cumsum(steps)))
         return replace(self, pitch=pitch)
@@ -219,9 +221,9 @@ DETACHED_SHARE = 0.1
 
 
 def slurs_next(onset_tick: IntArray, end_tick: IntArray) -> BoolArray:
-    """(N,): whether each note is slurred to the next: it overlaps it, or touches it in a line that detaches others.
+    """Mask (N,) of notes slurred to the next: they overlap it, or touch it in a part that detaches other notes.
 
-    Where all notes touch (an engraved score rendered to MIDI, or one gate for everything), touching says nothing.
+    If all notes touch (a rendered score, or one gate for everything), touching is no evidence.
     """
     following = np.append(onset_tick[1:], BEFORE_FIRST_TICK)
     between = np.maximum(following - onset_tick, 1)
@@ -242,14 +244,14 @@ STACCATO_QUARTERS = 1.0
 
 
 def staccato(onset_tick: IntArray, end_tick: IntArray, quarter_ticks: int) -> BoolArray:
-    """(N,): whether each note is short for the time to the next one; after the last one nothing comes that says so."""
+    """Mask (N,) of notes that are short relative to the time to the next; False for the last note."""
     between = np.append(np.diff(onset_tick), BEFORE_FIRST_TICK)
     short: BoolArray = end_tick - onset_tick <= STACCATO_GATE * between
     return short & (between <= STACCATO_QUARTERS * quarter_ticks)
 
 
 def line_times(part: MonophonicPart, clock: TempoMap) -> LineTimes:
-    """The times of a line's notes. A line without notes gives empty arrays."""
+    """Times of a part's notes; empty arrays without notes."""
     written = written_marks(part.notes, part.marks, part.source, clock.ticks_per_quarter, part.corrections)
     return note_times(part.notes, part.loudness, clock, written, part.levels)
 
@@ -261,12 +263,12 @@ def note_times(
     written: WrittenMarks | None = None,
     levels: tuple[float, ...] = (),
 ) -> LineTimes:
-    """The times of some notes, with what is given of their loudness and levels (see `MonophonicPart`).
+    """Times of notes, with given loudness and levels (see `MonophonicPart`).
 
     Parameters
     ----------
     written : WrittenMarks, optional
-        Slurs and dynamics in the score, which win over what the sound says.
+        Slurs and dynamics of the score, which override what the sound suggests.
     """
     count = len(notes)
     onset = np.fromiter((note.onset_tick for note in notes), np.int64, count)
@@ -299,7 +301,7 @@ def note_times(
 
 
 def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
-    """A loudness raised by a number of dynamic levels."""
+    """Loudness raised by a number of dynamic levels."""
     if not rows.any():
         return loudness
     return np.where(rows == 0.0, loudness, loudness_of_rows(rows_of_loudness(loudness) + rows))
@@ -312,8 +314,7 @@ def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
 
 @lru_cache(maxsize=64)
 def _digests(parts: tuple[str | int, ...], places: bytes) -> bytes:
-    """Digests of the parts with each place (int64) after them. Kept, since an edit of a pitch moves no note of its
-    part."""
+    """Hash of the parts with each place (int64); cached, since an edit of a pitch moves no note."""
     head = partial_digest(parts)
     digests = []
     for place in np.frombuffer(places, np.int64).tolist():
@@ -329,16 +330,16 @@ class Seeds(msgspec.Struct, frozen=True):
     Attributes
     ----------
     names : tuple of str or int
-        Seeds, and who it is.
+        Seeds, and the player's id.
     varied : tuple of (start_tick, end_tick, seed)
-        Where chances fall differently; of several the last counts.
+        Spans with another random variation; of several overlapping ones the last counts.
     """
 
     names: tuple[str | int, ...] = ()
     varied: tuple[tuple[int, int, int], ...] = ()
 
     def chance(self, *purpose: str | int) -> float:
-        """A number in [0, 1) for a purpose that belongs to no place of the score."""
+        """Return a random number in [0, 1) for a purpose without a place in the score."""
         return chance(*self.names, *purpose)
 
     def chance_at(self, purpose: str, tick: int) -> float:
@@ -353,14 +354,14 @@ class Seeds(msgspec.Struct, frozen=True):
     def chances_at(
         self, purpose: str, ticks: IntArray, places: IntArray | None = None, ends: IntArray | None = None
     ) -> FloatArray:
-        """Random numbers (N,) for many places at once, as of `chance_at`.
+        """Random numbers (N,) for many places at once, equal to those of `chance_at`.
 
         Parameters
         ----------
         places : (N,) int64, optional
-            Drawn for in the stead of ``ticks``, but where chances fall differently.
+            Places used for drawing instead of ``ticks``, except to select variations.
         ends : (N,) int64, optional
-            Up to where each has consequences: chances fall differently where these lie within the span too.
+            End of the effect of each value: a variation also applies if this is within its span.
         """
         drawn = np.asarray(ticks if places is None else places, np.int64)
         shares: FloatArray = np.frombuffer(_digests((*self.names, purpose), drawn.tobytes()), ">u8") / 2.0**64

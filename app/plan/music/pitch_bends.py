@@ -1,6 +1,6 @@
-"""Scoops and falls: pitch bends into a note's start and away at its end.
+"""Scoops and falls: pitch bends into the start of a note or away at its end.
 
-They are articulations of the note. The note keeps its pitch, its fingering and its player.
+They count as articulations: pitch, fingering and player of the note do not change.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ LEAST_BEND: Final = 0.3
 
 
 def bends(notes: Sequence[Note], bend: ControllerSteps | None) -> list[tuple[str, ...]]:
-    """Bends of each note: ``scoop`` (into its start from below) or ``plop`` (from above), ``fall`` (away at its end
-    downwards) or ``doit`` (upwards).
+    """Bends of each note: ``scoop`` (into its start from below), ``plop`` (from above), ``fall`` (down at its end) or
+    ``doit`` (up at its end).
 
     Parameters
     ----------
     notes : sequence of Note
-        By onset.
+        The notes by onset.
     bend : ControllerSteps or None
         Pitch bend in whole tones.
     """
@@ -67,7 +67,7 @@ def _of_note(bend: ControllerSteps, onset_tick: float, end_tick: float) -> tuple
 
 
 def written_bends(notes: Sequence[Note], marks: Sequence[Mark], clock: TempoMap) -> ControllerSteps | None:
-    """The pitch bend in whole tones that marks stand for; None where there are none of them."""
+    """Pitch bend in whole tones of the marks for bends; None if there are none."""
     kinds: dict[str, set[str]] = {}
     for mark in marks:
         if mark.kind in WRITTEN_BENDS:

@@ -1,9 +1,8 @@
-"""Rests of the score among the silences between the notes of a part.
+"""Finds rests among the silences between the notes of a part.
 
-A MIDI file has no rests: a note that stops early may be followed by one, or may be played detached. A silence of a beat
-is a rest, and so is one that lasts, or that is audible after a long note, whatever the notes around do. Of the other
-notes those are detached that stand in a run of equal steps with equal gates, and those that sound for the part of their
-step for which most notes of the line do.
+MIDI files have no rests: a note that ends early may be detached or followed by a rest. A silence of a beat is a rest,
+and so is one that is long, or audible after a long note. Otherwise notes count as detached if they are in a run of
+equal steps with equal gates, or if they sound for the same share of their step as most notes of the part.
 """
 
 from __future__ import annotations
@@ -42,16 +41,16 @@ HABIT_GATE = 0.04
 
 
 class Rests(NamedTuple):
-    """The rests of a line, before each note: (N,) each, 0 where there is none.
+    """Rest before each note, arrays (N,); 0 where there is none.
 
     Attributes
     ----------
     sounding_tick : int64
         As long as nothing sounds.
     written_tick : int64
-        As the score would have it, ...
+        Notated length in ticks.
     lasts_s : float64
-        ... and so in seconds, at its tempo.
+        Notated length in seconds, at the tempo of the score.
     """
 
     sounding_tick: IntArray
@@ -60,12 +59,12 @@ class Rests(NamedTuple):
 
 
 def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
-    """(N,): how long a rest of the score comes before each note, ticks; 0 where the silence is articulation.
+    """Length (N,) in ticks of the rest before each note; 0 where the silence is articulation.
 
     Parameters
     ----------
     times : LineTimes
-        As the score would have the line, at its tempo.
+        The part in notated timing, at the tempo of the score.
     beat_ticks : (N,) int64
         The felt beat at each note: a silence of a beat and more is always a rest.
     """
@@ -79,19 +78,20 @@ def rest_ticks(times: LineTimes, beat_ticks: IntArray) -> IntArray:
 
 
 def are_certain(times: LineTimes, beat_ticks: IntArray, released: float = 0.0) -> BoolArray:
-    """(N,): whether the silence before each note is a rest by itself, however the line is articulated or released:
-    it is audible (see `are_audible`), or lasts a felt beat."""
+    """Mask (N,) of silences that are rests however the part is articulated: audible (see `are_audible`), or a felt beat
+    long.
+    """
     return are_audible(times, released) | np.concatenate(([False], times.silence_tick[1:] >= beat_ticks[1:]))
 
 
 def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
-    """(N,): whether the silence before each note is a rest by its seconds alone, whatever the notes around do.
+    """Mask (N,) of silences that are rests by their length in seconds alone.
 
     Parameters
     ----------
     released : 0..1
-        Part of the time to the next onset by which notes of the line are released early: less than that is no rest
-        after a long note either.
+        Share of the time to the next onset by which notes of the part are released early; a shorter silence is no rest
+        even after a long note.
     """
     silence_s = times.onset_s[1:] - times.played_end_s[:-1]
     audible = (times.duration_s[:-1] >= LONG_NOTE_S - EPSILON) & (silence_s >= AUDIBLE_S - EPSILON)
@@ -100,7 +100,7 @@ def are_audible(times: LineTimes, released: float = 0.0) -> BoolArray:
 
 
 def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
-    """(N-1,): whether the silence after each note but the last is its articulation."""
+    """Mask (N-1,) of silences after notes that are articulation."""
     steps = np.maximum(np.diff(times.onset_tick), 1).astype(np.float64)
     gates = 1.0 - times.silence_tick[1:] / steps
     silent = times.silence_tick[1:] > 0
@@ -112,8 +112,7 @@ def _detached(times: LineTimes, silence_s: FloatArray) -> BoolArray:
 
 
 def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
-    """(N-1,): whether a note stands in a run of equal steps with equal gates that has at least a given number of
-    notes."""
+    """Mask (N-1,) of notes within a run of at least ``notes`` equal steps with equal gates."""
     result = np.zeros(len(steps), dtype=bool)
     count = len(steps) - notes + 1
     if count > 0:
@@ -127,7 +126,7 @@ def _in_a_run(steps: FloatArray, gates: FloatArray, notes: int) -> BoolArray:
 
 
 def _habit(gates: FloatArray, silent: BoolArray) -> float:
-    """The part of their steps that most notes of a line sound for; nan where there is no such habit."""
+    """Share of its step for which most notes of a part sound; nan if there is no such habit."""
     counts = np.bincount(np.round(gates[silent] / HABIT_GATE).astype(np.int64), minlength=1)
     usual = float(np.argmax(counts)) * HABIT_GATE
     near = silent & (np.abs(gates - usual) < HABIT_GATE)

@@ -1,4 +1,4 @@
-"""Many spans of time, asked for one at a time."""
+"""Spans of time that can be queried quickly."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 
 class Spans:
-    """Spans of time in order, and the latest end of those up to each, so that none has to be compared with all."""
+    """Spans of time in order, with the latest end so far, so that a query needs no full scan."""
 
     def __init__(self, spans: Iterable[tuple[float, float]]) -> None:
         ordered = sorted(spans)
@@ -16,7 +16,7 @@ class Spans:
         self._latest_ends_s = list(itertools.accumulate((end_s for _, end_s in ordered), max))
 
     def hold(self, start_s: float, end_s: float) -> bool:
-        """Return whether one begins at the start or before, and ends at the end or later."""
+        """Return whether one of the spans contains the given one."""
         begun = bisect_right(self._starts_s, start_s)
         return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
 

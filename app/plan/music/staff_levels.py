@@ -1,4 +1,4 @@
-"""The mark in force on a staff, and in the whole piece, at any time: that of notes which were written without one."""
+"""Dynamics in force on each staff and in the whole piece over time, for notes written without one."""
 
 from __future__ import annotations
 
@@ -31,28 +31,28 @@ class MarkChanges(msgspec.Struct, frozen=True):
 
 
 class StaffLevels(msgspec.Struct, frozen=True):
-    """The marks in force on every staff, and those that most staves have."""
+    """Dynamics in force on every staff, and those of most staves."""
 
     staves: dict[int, MarkChanges]
     most: MarkChanges
 
     def at(self, staff: int, onsets: IntArray) -> IntArray:
-        """(N,): the mark of a staff, before its first one that of most others; mezzoforte before any."""
+        """Dynamic (N,) of a staff at each onset; before its first one, that of most staves; mezzoforte before any."""
         marks = self.staves.get(staff, MarkChanges()).at(onsets)
         marks = np.where(marks < 0, self.most.at(onsets), marks)
         return np.where(marks < 0, MF, marks)
 
 
 def staff_levels(parts: Sequence[tuple[int, IntArray, IntArray]]) -> StaffLevels | None:
-    """Return the marks in force in a piece; None if every note has a mark of its own.
+    """Return the dynamics in force in a piece; None if every note has its own.
 
-    Players of one staff read one mark, though a program may have written it into the first voice only; and who has
-    none yet plays as loud as most others.
+    Players of one staff read the same dynamics, even if a program wrote them into the first voice only; a staff without
+    any yet follows most others.
 
     Parameters
     ----------
     parts : sequence of (staff, onsets (N,) in ticks, marks (N,))
-        Marks as rows of `DYNAMICS`; -1: none.
+        Dynamics as rows of `DYNAMICS`; -1: none.
     """
     if not any((marks < 0).any() for _, _, marks in parts):
         return None

@@ -1,4 +1,4 @@
-"""The velocities with which notation programs write dynamic marks."""
+"""Tables of the velocities with which notation programs write dynamics."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ DEFAULTS: Final = frozenset({64, 80, 90, 96, 100, 127})
 
 @dataclass(frozen=True)
 class Ladder:
-    """The velocities with which one program writes dynamic marks.
+    """The velocities with which one program writes dynamics.
 
     Attributes
     ----------
     steps : tuple of (mark, velocity)
         A mark may occur several times (``"sf"``: a stress after which the level returns; empty: no mark).
     default : int or None
-        Velocity without any dynamic mark; None: one of `DEFAULTS`.
+        Velocity without any dynamic; None: one of `DEFAULTS`.
     added : tuple of int
-        What articulations add to a velocity.
+        Velocities that articulations add.
     accent_share : float
-        What an accent multiplies it by; 1: nothing.
+        Factor of an accent; 1: no effect.
     usual : float
-        How common the program is: the logarithm of a share.
+        Frequency of the program, as the logarithm of a share.
     passed : tuple of int
-        Velocities at which hairpins end that lead to no mark.
+        Velocities at the end of hairpins without a target.
     """
 
     name: str
@@ -122,12 +122,12 @@ SHARES: Final = {
 
 
 def ladder_of(name: str, program: int | None) -> Ladder:
-    """The ladder of a program, for the instrument of a General MIDI program (from 0) or one of `SET_RANGES`."""
+    """The ladder of a program for an instrument, given as General MIDI program (from 0) or one of `SET_RANGES`."""
     return _lilypond(program) if name == LILYPOND else _BY_NAME[name]
 
 
 def articulated(ladder: Ladder, velocity: int) -> list[tuple[int, float]]:
-    """Return what articulations add to a velocity of a ladder, and how often."""
+    """Return the velocities that articulations add on a ladder, with their frequency."""
     more = [*ladder.added]
     if ladder.accent_share != 1.0:
         # Rounded down as MuseScore does it: the product, not what is added.

@@ -1,4 +1,4 @@
-"""Dynamics and hairpins that are written: which is in force at a tick, and how loud notes begin by them."""
+"""Written dynamics and hairpins: the dynamic in force at a tick, and the loudness of notes that begin there."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class WrittenDynamics(NamedTuple):
     Attributes
     ----------
     ticks, rows : (K,) float64
-        The dynamic in force, linear between these ticks.
+        Dynamic in force, linear between these ticks.
     spans : tuple of (tick, end tick, row)
-        Dynamics that hold for a passage only.
+        Dynamics for a passage only.
     swells : tuple of (tick, end tick, rows)
-        Hairpins that change what is heard, by so much at their end.
+        Hairpins relative to the sound, with the change in rows at their end.
     struck : tuple of int
         Ticks of sforzandi.
     """
@@ -53,7 +53,7 @@ class WrittenDynamics(NamedTuple):
     struck: tuple[int, ...]
 
     def rows_at(self, ticks: FloatArray) -> FloatArray:
-        """The dynamic in force at some ticks; NaN where there is none."""
+        """Dynamic in force at some ticks; NaN where there is none."""
         found = np.full(len(ticks), np.nan)
         if len(self.ticks):
             known = ticks >= self.ticks[0]
@@ -63,7 +63,7 @@ class WrittenDynamics(NamedTuple):
         return found
 
     def swell_at(self, ticks: FloatArray) -> FloatArray:
-        """Rows by which hairpins change what is heard at some ticks."""
+        """Change in rows by hairpins at some ticks, relative to the sound."""
         found = np.zeros(len(ticks))
         for start, end, rows in self.swells:
             within = (ticks >= start) & (ticks < end)
@@ -102,8 +102,9 @@ def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> Wri
 
 
 def note_dynamics(onsets: IntArray, written: WrittenDynamics, quarter: int) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Loudness of each note where it begins (NaN where no dynamic is in force), rows by which hairpins change what is
-    heard, and whether the loudness is the note's own."""
+    """Loudness of each note at its onset (NaN without a dynamic in force), change in rows by hairpins, and whether the
+    loudness applies to this note alone.
+    """
     at = onsets.astype(np.float64)
     rows = written.rows_at(at)
     struck = np.zeros(len(onsets), dtype=bool)
@@ -125,7 +126,7 @@ def rows_of_loudness(loudness: FloatArray) -> FloatArray:
 
 
 def struck_notes(onsets: IntArray, written: WrittenDynamics, quarter: int) -> list[int]:
-    """The notes that sforzandi stand at: each the first within a quarter."""
+    """Indices of the notes with a sforzando: the first note within a quarter after each."""
     found = []
     for tick in written.struck:
         index = int(np.searchsorted(onsets, tick))
@@ -135,22 +136,22 @@ def struck_notes(onsets: IntArray, written: WrittenDynamics, quarter: int) -> li
 
 
 def _is_of_one_note(text: str) -> bool:
-    """Return whether a dynamic begins with what is for one note."""
+    """Return whether a dynamic begins with an accent for one note."""
     return text in SFORZANDI or (text in FORTE_THEN and text != "pf")
 
 
 def holding_row(mark: Mark) -> float | None:
-    """Row in `DYNAMICS` of what a dynamic mark leaves in force; None: it says nothing about that."""
+    """Row in `DYNAMICS` of the dynamic that stays in force after a mark; None if it changes nothing."""
     return ROW_OF_DYNAMIC.get(FORTE_THEN.get(mark.text, mark.text)) if mark.kind == "dynamic" else None
 
 
 def _knots(holding: dict[int, float], hairpins: Sequence[Mark], quarter: int) -> tuple[list[int], list[float]]:
-    """Ticks and rows of the dynamic in force, linear between them: dynamics are steps, hairpins ways."""
+    """Knots of the dynamic in force as ticks and rows, linear in between: dynamics are steps, hairpins ramps."""
     ticks: list[int] = []
     rows: list[float] = []
 
     def go(tick: int, row: float) -> None:
-        """Add a knot; of two at one tick the earlier lies just before it."""
+        """Add a knot; of two knots at one tick the earlier is placed just before it."""
         if ticks and tick <= ticks[-1]:
             rows[-1] = row
             return

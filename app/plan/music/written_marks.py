@@ -1,4 +1,4 @@
-"""Written marks of a line by note: slurs, breath marks, articulations, tonguing, fingerings, dynamics."""
+"""Written marks of a part, by note: slurs, breath marks, articulations, tonguing, fingerings, dynamics."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OF_STROKE: Final = ("staccatissimo", "staccato", "tenuto", "accent", "marcato")
 
 
 class WrittenFingerings(NamedTuple):
-    """Fingerings in a score, each field by note; empty: none."""
+    """Fingerings in a score, by note; empty: none."""
 
     label: tuple[str, ...] = ()
     by_hand: tuple[bool, ...] = ()
@@ -41,11 +41,11 @@ class WrittenMarks:
     Attributes
     ----------
     source : {"sound", "score"}
-        Of a score a note without marks has none; of a sound they are unknown.
+        In a score, absence of a mark means that there is none; for a sound it means unknown.
     slurred : bool
         Whether the next note is slurred to it.
     tongued : bool
-        Whether the next note is tongued whatever the sound says: where a slur begins or ends, or each is tongued.
+        Whether the next note is tongued in any case: where a slur begins or ends, or each note is tongued.
     joined : bool
         Whether one slur is over it and the next note, divided or not.
     divided : bool
@@ -53,21 +53,21 @@ class WrittenMarks:
     glides : bool
         Whether a glissando leads to the next note, which follows without a rest.
     breath : bool
-        Whether a breath mark or a caesura follows it.
+        Whether a breath mark or caesura follows it.
     breath_by_hand, stroke_by_hand, fingering_by_hand : bool
-        Whether the breath mark, the mark of the stroke or the tonguing, and the fingering was written by hand.
+        Whether the breath mark, the articulation or tonguing, and the fingering were written by hand.
     stroke : str
-        The mark of `OF_STROKE` that it has; empty: none.
+        Its mark of `OF_STROKE`; empty: none.
     tonguing : str
         ``"double_tongue"``, ``"triple_tongue"`` or ``"flutter_tongue"``; empty: none.
     fingering : str
-        The fingering or slide position, as it is written; empty: none.
+        Fingering or slide position as written; empty: none.
     level : float64
         Loudness 0..1 by dynamics and hairpins; NaN where none is in force.
     swell : float64
-        Rows of `DYNAMICS` by which a hairpin changes what the sound says; 0 where there is a level.
+        Rows of `DYNAMICS` by which a hairpin changes the heard loudness; 0 where a level exists.
     struck : bool
-        Whether its dynamic is its own only, as of a sforzando.
+        Whether its dynamic is for this note only, as in a sforzando.
     """
 
     source: Source
@@ -89,22 +89,22 @@ class WrittenMarks:
 
     @cached_property
     def tongued_next(self) -> BoolArray:
-        """True if the next note has a mark that says that it is tongued, or follows a slur's end."""
+        """Mask of notes whose next note is tongued by a mark of its own or follows a slur's end."""
         marked = np.fromiter(map(bool, self.stroke), bool, len(self.stroke))
         return np.append(marked[1:], False)[: len(marked)] | self.tongued
 
     @cached_property
     def fingerings(self) -> WrittenFingerings:
-        """The fingerings, as the plan of fingerings reads them."""
+        """The fingerings in the form used by the fingering plan."""
         return WrittenFingerings(self.fingering, tuple(self.fingering_by_hand.tolist()), tuple(self.glides.tolist()))
 
     @property
     def is_score(self) -> bool:
-        """True if the absence of marks says something."""
+        """True if the absence of marks is information."""
         return self.source == "score"
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as inputs of steps are compared."""
+        """Return whether all arrays are equal, for comparing inputs of cached steps."""
         if not isinstance(other, WrittenMarks):
             return NotImplemented
         pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
@@ -125,12 +125,12 @@ def written_marks(
     ticks_per_quarter: int,
     corrections: tuple[Correcting, ...] = (),
 ) -> WrittenMarks:
-    """Return the marks of a line by note; those of notes that it does not have do nothing.
+    """Return the marks of a part by note; marks of missing notes have no effect.
 
     Parameters
     ----------
     corrections : tuple of Correcting
-        Of the line: they say which of the marks were written by hand.
+        Corrections of the part; marks set by them count as written by hand.
     """
     count = len(notes)
     if not marks and source == "sound":
@@ -179,7 +179,9 @@ def written_marks(
 
 
 def _divided(joined: BoolArray, stroke: list[str]) -> tuple[BoolArray, BoolArray]:
-    """Return which notes are slurred to the next, and which a stroke under a slur divides from the note before."""
+    """Return masks of notes slurred to the next, and of notes under a slur that are separated from the previous note by
+    a stroke.
+    """
     count = len(stroke)
     under = joined | np.concatenate(([False], joined[:-1]))[:count]
     divided = under & np.fromiter((mark in DIVIDING for mark in stroke), bool, count)
