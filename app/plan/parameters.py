@@ -1,8 +1,8 @@
-"""Parameters of a performer: each is declared once, where it is a field.
+"""Parameters of a performer, each declared once as a field.
 
-Its type, name and default are the field's; all else is said by the `Parameter` in its annotation. Sliders and lists of
-choices, ``--set``, checks, presets, randomising, the history, older files and what is made again after a change follow
-from that. Its texts are ids of `app.messages.parameters`.
+Type, name and default are the field's; everything else is in the `Parameter` of its annotation. Sliders, choice lists,
+``--set``, checks, presets, randomising, the history, migration and partial recomputation are derived from that. Texts
+are ids of `app.messages.parameters`.
 """
 
 from __future__ import annotations
@@ -35,36 +35,35 @@ class Parameter:
     Attributes
     ----------
     unit : str
-        Id of a text; empty: none.
+        Text id of the unit; empty: none.
     bounds : (low, high) or None
-        None: its type alone bounds it.
+        Lowest and highest value; None: limited only by its type.
     usual : float or None
-        The control fills up to here, more can be typed; None: up to the highest value.
+        Upper end of the slider, beyond which values can be typed; None: the highest value.
     step : float
         Of the control.
     choices : tuple of (value, word)
         A list instead of a slider; the words are ids of texts.
     names : tuple of str
-        A text may hold any of these, with commas between them.
+        Allowed words of a text that is a comma-separated list.
     section : str
-        Which part of the panel shows it; empty: something else than a slider or a plain list does.
+        Section of the panel; empty: shown by a special control instead of a slider or list.
     row : int
-        Rows of higher numbers stand lower in the section; those of the same follow the fields.
+        Row within the section; higher numbers are lower, equal ones keep the order of the fields.
     decides : frozenset of Decided
-        What has to be made again after a change.
+        Results that must be recomputed after a change.
     spread : float
-        How far from the ensemble's middle the players differ when they are randomised with a spread of 1; 0: they are
-        not.
+        Deviation of players from the ensemble's mean when they are randomised with a spread of 1; 0: not randomised.
     is_own : bool
-        It makes one player differ from the others, and is in no preset.
+        Whether it distinguishes one player from the others, and so is not in presets.
     since : int
-        The first version of project files that has it.
+        First version of project files that has it.
     in_older_files : Value
         Value for files without it; by default its default.
     has_tip : bool
-        A text explains it.
+        Whether it has an explaining text.
     texts : str
-        Before its name in the id of its label, and of its tip.
+        First part of its text ids.
     name, kind, default
         Of the field.
     """
@@ -92,17 +91,17 @@ class Parameter:
 
     @property
     def label(self) -> str:
-        """Id of its name in words."""
+        """Text id of its name."""
         return f"{self.texts}.{self.name}"
 
     @property
     def tip(self) -> str:
-        """Id of what explains it; empty: none."""
+        """Text id of its explanation; empty: none."""
         return f"{self.label}_tip" if self.has_tip else ""
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Every text that the user may see."""
+        """Text ids of everything the user may see of it."""
         return tuple(filter(None, (self.label, self.tip, self.unit, *(word for _, word in self.choices))))
 
     @property
@@ -121,7 +120,7 @@ class Parameter:
         return ", ".join(options)
 
     def allows(self, value: object) -> bool:
-        """Return whether it may have this value."""
+        """Return whether a value is allowed."""
         try:
             msgspec.convert(value, self.kind)
         except msgspec.ValidationError:
@@ -138,7 +137,7 @@ class Parameter:
         return self.kind(min(max(value, low), high))
 
     def read(self, text: str) -> Value:
-        """The value that a text means. Raises ValueError where it is not possible."""
+        """Parse a value. Raises ValueError if the text is invalid."""
         if self.names:
             text = "" if text.casefold() in (AUTOMATIC, NONE) else as_text(names_in(text))
         try:
@@ -157,7 +156,7 @@ def _is_number(value: object) -> bool:
 
 
 def declared(struct: type[msgspec.Struct], texts: str) -> dict[str, Parameter]:
-    """The parameters of a struct by name, in the order of its fields; ``texts``: as of `Parameter`."""
+    """Parameters of a struct by name, in the order of its fields; ``texts`` as in `Parameter`."""
     found = {}
     hints = get_type_hints(struct, include_extras=True)
     for field in msgspec.structs.fields(struct):
@@ -186,13 +185,13 @@ _RULES: Final[frozenset[Decided]] = frozenset({"rules", "motion"})
 
 
 def _times(section: str, spread: float, *also: Decided, since: int = 10) -> Parameter:
-    """A multiple of the natural amount, which decides the motion and what is named."""
+    """Declare a factor of the natural amount that affects the motion and the results in ``also``."""
     decides = frozenset[Decided]({"motion", *also})
     return Parameter("unit.times", bounds=_NATURAL, section=section, spread=spread, decides=decides, since=since)
 
 
 def _beats(usual: float) -> Parameter:
-    """A number of beats that decides breaths."""
+    """Declare a number of beats that affects breaths."""
     return Parameter("unit.beats", bounds=(0.0, 64.0), usual=usual, step=0.25, section="breath", decides=_BREATHS)
 
 
@@ -268,10 +267,10 @@ _DECIDING: Final = {
 
 
 def parameters_deciding(parameters: PlayerParameters, kind: Decided) -> PlayerParameters:
-    """Return those parameters that decide this; the others have their defaults."""
+    """Return the parameters that affect a result; all others have their defaults."""
     return PlayerParameters(**{name: getattr(parameters, name) for name in _DECIDING[kind]})
 
 
 def deciding_values(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:
-    """The values of the parameters that decide a result; equal values give the same result."""
+    """The values of the parameters that affect some results; equal values give equal results."""
     return tuple(getattr(parameters, name) for kind in kinds for name in _DECIDING[kind])

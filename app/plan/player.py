@@ -1,4 +1,4 @@
-"""One player's plan, step by step: what is fingered, blown, shown and moved, each done again only where it changes."""
+"""Steps of one player's plan: fingering, breath, face and motion, each recomputed only if its inputs change."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def _pins(corrections: tuple[Correction, ...]) -> dict[str, str]:
 def _envelope(
     controller: ControllerInput | None, clock: TempoMap, times: LineTimes, marks: tuple[Mark, ...], source: Source
 ) -> BreathEnvelope | None:
-    """Return the breath that was blown, if it was recorded, else as the score says, if it changes within notes."""
+    """Return the recorded breath curve; without one, the written dynamics if they change within notes."""
     if controller is not None and controller.breath is not None:
         return blown(controller.breath, clock)
     return dynamics_within(times, marks, source, clock) if marks else None
@@ -98,7 +98,7 @@ def _envelope(
 def _lip_input(
     controller: ControllerInput | None, notes: tuple[Note, ...], marks: tuple[Mark, ...], clock: TempoMap
 ) -> ControllerInput | None:
-    """Return what the lips follow: the controllers, and bends in the score where no controller bends."""
+    """Return the controllers for the lips, with bends written in the score if no controller bends."""
     if controller is not None and controller.bend is not None:
         return controller
     bend = written_bends(notes, marks, clock) if marks else None
@@ -118,14 +118,14 @@ def _cues_of(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent
 
 
 def _answered(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
-    """Return the cues that a player comes in with."""
+    """Return the cues with which a player comes in."""
     return tuple(cue for cue in cue_events if player_id in cue.takers)
 
 
 def _seen(
     player_id: str, cues: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], stage: Mapping[str, StagePlace]
 ) -> dict[str, StagePlace]:
-    """Return the places of the player, of the conductor and of those whom the player looks at."""
+    """Return the places of the player, the conductor and all players looked at."""
     others = {cue.player_id for cue in answered} | {taker for cue in cues for taker in cue.takers} | {CONDUCTOR}
     return {one: place for one, place in stage.items() if one == player_id or one in others}
 
@@ -141,7 +141,7 @@ def _after_the_end(
 
 
 def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """Return the gestures that eyes depend on."""
+    """Return the gestures that affect glances."""
     return tuple(
         event
         for event in gestures
@@ -150,7 +150,7 @@ def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
 
 
 def _ending(piece_ending: Ending, corrections: tuple[Correction, ...]) -> Ending:
-    """Return how it ends for this player: who corrected the smile after the last note keeps it."""
+    """Return the ending for this player; a correction of the smile after the last note makes it bright."""
     named = any(item.event_id == SMILE_ID for item in corrections if isinstance(item, ChangeExpression | RemoveEvent))
     return msgspec.structs.replace(piece_ending, bright=True) if named else piece_ending
 
@@ -172,7 +172,7 @@ def _lost(
     made_expressions: tuple[ExpressionEvent, ...],
     frame: TimeFrame,
 ) -> tuple[Problem, ...]:
-    """Return a problem for every correction of what is not there."""
+    """Return a problem for every correction whose note or event does not exist."""
     made = planned_breaths.generated_ids | cue_ids
     made |= {event.id for event in made_gestures} | {event.id for event in made_expressions}
     return orphans(corrections, note_ids, made, frame.first_frame_s)

@@ -1,4 +1,4 @@
-"""Problems as lines of a report: notes by place, fingerings in words, and one line for what occurs repeatedly."""
+"""Problems as lines of a report: notes by position, fingerings in words, one line for repeated problems."""
 
 from __future__ import annotations
 
@@ -31,25 +31,25 @@ def problem_lines(
     part_id: str | None = None,
     instrument: InstrumentMap | None = None,
 ) -> list[str]:
-    """One line for each kind of problem of a player, by the time of its first.
+    """One line for each kind of problem of a player, ordered by the first occurrence.
 
     Parameters
     ----------
     problems : iterable of Problem
-        Of one player.
+        Problems of one player.
     score : Score
-        Where the notes are.
+        Score with the notes.
     wording : callable
     part_id : str or None
-        The player's part, whose notes are looked up first.
+        The player's part, whose notes are searched first.
     instrument : InstrumentMap or None
-        The player's, which names the keys of fingerings.
+        The player's instrument, with the names of its keys.
     """
     return [_line(found, score, wording, part_id, instrument) for found in problems_by_kind(problems)]
 
 
 def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
-    """Problems of a player, those of one kind together, by the first of each kind."""
+    """Problems of a player grouped by kind, ordered by the first of each kind."""
     kinds: dict[tuple[object, ...], list[Problem]] = {}
     for problem in problems:
         kinds.setdefault(problem_kind(problem), []).append(problem)
@@ -57,15 +57,14 @@ def problems_by_kind(problems: Iterable[Problem]) -> list[list[Problem]]:
 
 
 def problem_kind(problem: Problem) -> tuple[object, ...]:
-    """The kind of a problem: equal for problems of a player that stand in one line."""
+    """The kind of a problem; problems with equal kinds share one line."""
     return (problem.message.id, *(problem.message.arguments.get(name) for name in PARTS))
 
 
 def problems_in_bars(
     problems: Iterable[Problem], score: Score, part_id: str | None, bars: tuple[int, int]
 ) -> tuple[Problem, ...]:
-    """Problems in some bars, the first and the last included: their notes sound there, and those without a note last
-    there.
+    """Problems within some bars (inclusive): their notes sound there, or they last there if they have no note.
 
     Parameters
     ----------
@@ -93,7 +92,7 @@ def note_place(score: Score, note: Note) -> Message:
 
 
 def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | None:
-    """The note of an id, or None; the part given is searched first."""
+    """The note of an id, or None; the given part is searched first."""
     for part in sorted(score.parts, key=lambda part: part.id != part_id):
         known = _indexed.get(part.id)
         if known is None or known[0] is not part.notes:
@@ -106,8 +105,9 @@ def note_of(score: Score, note_id: str, part_id: str | None = None) -> Note | No
 def with_names(
     message: Message, score: Score, wording: Wording, part_id: str | None, instrument: InstrumentMap | None
 ) -> Message:
-    """The message with notes by pitch, bar and beat instead of by id, and fingerings by the names of their keys; what
-    is no note of the score stays as it is."""
+    """The message with note ids replaced by pitch, bar and beat, and fingerings by the names of their keys; unknown ids
+    stay.
+    """
     message = in_words(message, instrument, wording(Message("language.tag")))
     named: dict[str, Argument] = {}
     transposed = {} if instrument is None else {TRANSPOSITION: instrument.transposition_semitones}
@@ -128,7 +128,7 @@ _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
 def _line(
     found: list[Problem], score: Score, wording: Wording, part_id: str | None, instrument: InstrumentMap | None
 ) -> str:
-    """The first of some problems of a kind, and the places of the others."""
+    """Line for problems of one kind: the text of the first, and the positions of the others."""
     message, first = found[0].message, _place(found[0], score, part_id)
     line = wording(with_names(message, score, wording, part_id, instrument))
     if not NOTES & message.arguments.keys() and first:
@@ -148,7 +148,7 @@ def _line(
 
 
 def _place(problem: Problem, score: Score, part_id: str | None) -> str:
-    """Bar and beat of a problem's note, else of its begin; empty for what lasts from before the music."""
+    """Bar and beat of a problem's note, else of its start; empty if it starts before the music."""
     note = note_of(score, problem.note_id, part_id) if problem.note_id is not None else None
     if note is None and problem.start_s < 0.0:
         return ""

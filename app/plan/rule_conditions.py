@@ -1,4 +1,4 @@
-"""Conditions of rules (`metadata.rules`): of which notes they hold, and how much."""
+"""Conditions of rules (`metadata.rules`): the notes that meet them, and to what degree."""
 
 from __future__ import annotations
 
@@ -52,7 +52,9 @@ def facts_of(
     dynamics: Dynamics,
     embouchures: tuple[EmbouchureEvent, ...] = (),
 ) -> Facts:
-    """Return what rules ask of notes. The silence before the first and after the last has no end."""
+    """Return the facts about notes that rules use. The silences before the first and after the last note are
+    infinite.
+    """
     rests_s = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
     pitch = times.pitch.astype(np.float64)
     apart = times.silence_tick >= piece.beat_ticks_at(times.onset_tick)
@@ -90,7 +92,7 @@ def facts_of(
 
 
 def matches(when: When, facts: Facts) -> BoolArray:
-    """(N,): of which notes everything holds but style, habits and chance."""
+    """Mask (N,) of notes that meet all conditions except style, habits and chance."""
     loudness, count = facts.loudness, len(facts.loudness)
     least = (
         (when.loudness_above, loudness),
@@ -128,7 +130,7 @@ def concerns(when: When, styles: Collection[str], habits: Sequence[str]) -> bool
 
 
 def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[str, Gesture]) -> Message | None:
-    """Reason why a rule cannot do what it says."""
+    """Reason why a rule cannot be applied; None if it can."""
     for kind, name, known in (("expression", rule.do.expression, faces), ("gesture", rule.do.gesture, gestures)):
         if name and name not in known:
             said: dict[str, Argument] = {"rule": rule.name, "name": name, "known": ", ".join(sorted(known))}
@@ -137,14 +139,14 @@ def unknown_in(rule: Rule, faces: Mapping[str, Expression], gestures: Mapping[st
 
 
 def by_chance(rule: Rule, ticks: IntArray, seeds: Seeds) -> BoolArray:
-    """(N,): at which of some places chance lets a rule do something."""
+    """Mask (N,) of the places at which chance lets a rule take effect."""
     if rule.when.chance >= 1.0:
         return np.ones(len(ticks), bool)
     return seeds.chances_at(f"rule {rule.name}", ticks) < rule.when.chance
 
 
 def growth_of(rule: Rule, facts: Facts) -> FloatArray:
-    """(N,): `Do.grows_from` where a note just meets the condition, 1 where it could not meet it more."""
+    """Strength (N,) of a rule: `Do.grows_from` where the condition is just met, 1 where it is met fully."""
     grows = rule.do.growth
     if not grows:
         return np.ones(len(facts.lasts_s))
@@ -162,7 +164,7 @@ def growth_of(rule: Rule, facts: Facts) -> FloatArray:
 
 
 def _share(grows: Growth, when: When, facts: Facts) -> FloatArray:
-    """(N,): how far beyond the condition, 0..1 and less or more."""
+    """Position (N,) between just meeting a condition (0) and meeting it fully (1); may be outside that range."""
     if grows == "loudness":
         least = when.loudness_above or 0.0
         return (facts.loudness - least) / max(1.0 - least, 1e-6)

@@ -1,4 +1,4 @@
-"""Events that rules (`metadata.rules`) generate; their ids name the rule and the note."""
+"""Generates events from rules (`metadata.rules`); their ids contain the rule and the note."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ E = TypeVar("E", GestureEvent, ExpressionEvent)
 
 
 class Ruled(NamedTuple):
-    """Events that the rules generate for a part, with the problems of the rules."""
+    """Events generated from rules for a part, with problems of the rules."""
 
     expressions: tuple[ExpressionEvent, ...]
     gestures: tuple[GestureEvent, ...]
@@ -45,7 +45,7 @@ class Ruled(NamedTuple):
 
 
 class _Line(NamedTuple):
-    """The notes that rules look at."""
+    """Notes of a part as input of rules."""
 
     notes: tuple[Note, ...]
     times: LineTimes
@@ -72,17 +72,17 @@ def plan_by_rules(
     faces: Mapping[str, Expression],
     known_gestures: Mapping[str, Gesture],
 ) -> Ruled:
-    """All events that the rules ask for at notes, ordered by start; those of moments are of
+    """Plan all events from rules about notes, ordered by start; rules about moments are in
     `app.plan.faces.expressions_at_moments`.
 
     Parameters
     ----------
     styles : tuple of StyleEvent
-        Where the player plays in another style.
+        Spans in which the player plays in another style.
     lowered_s : tuple of (start, end)
-        Where the instrument is off the lips.
+        Spans in which the instrument is off the lips.
     rules : tuple of Rule
-        In the order in which they are asked.
+        Rules in the order in which they are applied.
     """
     played_in = styles_at(styles, usual_style, times.onset_s)
     in_styles = frozenset((usual_style, *played_in))
@@ -117,7 +117,9 @@ def plan_by_rules(
 
 
 def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray, FloatArray]:
-    """At which notes a rule holds, and (N,) how much; ``played_in`` are the notes' styles where there are several."""
+    """Indices of the notes that meet a rule, and its strength (N,); ``played_in`` has the notes' styles if there are
+    several.
+    """
     here, when = matches(rule.when, line.facts), rule.when
     if not here.any():
         return np.zeros(0, np.int64), np.zeros(len(here))
@@ -133,12 +135,12 @@ def _where(line: _Line, rule: Rule, played_in: Sequence[str]) -> tuple[IntArray,
 
 
 def in_order(event: ExpressionEvent) -> tuple[float, bool, str]:
-    """By start; at the same time first what is not the rule's own."""
+    """Sort key: by start, and at equal start events not made by rules first."""
     return event.start_s, EventId.parse(event.id).is_by_rule, event.id
 
 
 def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:
-    """Return where it begins and ends, for each of some notes; ``length_s``: of what has a length of its own."""
+    """Return start and end of a rule's events for some notes; ``length_s`` is the fixed length, if there is one."""
     anchors = {"onset": times.onset_s[found], "end": times.played_end_s[found]}
     start_s = anchors[rule.do.start] + rule.do.start_s
     if length_s is not None and rule.do.end_s is None:
@@ -147,7 +149,7 @@ def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | No
 
 
 def _faces(line: _Line, rule: Rule, face: Expression, found: IntArray, sizes: FloatArray) -> list[ExpressionEvent]:
-    """Make one expression for every run of notes with no more than `Rule.apart_s` between them."""
+    """Make one expression for every run of notes with at most `Rule.apart_s` between them."""
     starts_s, ends_s = _spans_s(rule, line.times, found, None)
     apart = starts_s[1:] - np.maximum.accumulate(ends_s)[:-1] > rule.apart_s
     events = []
@@ -175,7 +177,7 @@ def shown_by(
     clock: TempoMap,
     reason: Message,
 ) -> ExpressionEvent:
-    """The expression of a rule; ``of`` is what its id ends with, if anything."""
+    """The expression of a rule; ``of`` is the last part of its id."""
     start_s, end_s = span_s
     return ExpressionEvent(
         id=":".join(("expression", rule.prefix, *((of,) if of else ()))),
@@ -213,8 +215,9 @@ def _gestures(
     lowered: LoweredSpans,
     others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Make one gesture for every note, where it may start and the one before is `Rule.apart_s` away; ``others`` are
-    there already."""
+    """Make a gesture for every note where it is possible, at least `Rule.apart_s` after the previous one and clear of
+    ``others``.
+    """
     notes, times, clock, seeds = line.notes, line.times, line.clock, line.seeds
     starts_s, ends_s = _spans_s(rule, times, found, gesture.length_s)
     if rule.do.spread_s:
@@ -254,15 +257,16 @@ def _gestures(
 
 
 def with_ruled(made: tuple[E, ...], ruled: tuple[E, ...]) -> tuple[E, ...]:
-    """Events with those that the rules ask for, ordered by start; the same where they ask for none."""
+    """Events with those of rules added, ordered by start; the same tuple if rules add none."""
     both = list(made + ruled)
     both.sort(key=lambda event: event.start_s)
     return tuple(both) if ruled else made
 
 
 def without_overruled(events: tuple[E, ...]) -> tuple[E, ...]:
-    """Drop the events of rules where the animator placed one of the same kind: what is placed by hand wins. The same
-    tuple is returned if nothing is dropped."""
+    """Drop events of rules that overlap one of the same kind placed by hand; returns the same tuple if none is
+    dropped.
+    """
     placed = [event for event in events if event.corrected and not EventId.parse(event.id).is_by_rule]
     by_kind: dict[str, list[tuple[float, float]]] = {}
     for event in placed:
@@ -280,6 +284,6 @@ def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spa
 
 
 def lowered_spans_s(gestures: Sequence[GestureEvent]) -> tuple[tuple[float, float], ...]:
-    """Return where the instrument is off the lips."""
+    """Return the spans in which the instrument is off the lips."""
     lowering = answered_by("lowering")
     return tuple((event.start_s, event.end_s) for event in gestures if event.kind in lowering)

@@ -1,4 +1,4 @@
-"""Curves of what the lips do within the notes, sampled."""
+"""Sampled curves of lips and air within notes."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from app.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class SampledCurves:
-    """Sampled curves of the lips within the notes, 0..1; the ends hold.
+    """Sampled curves of lips and air within notes, 0..1; the end values extend outwards.
 
-    Fields as of `EmbouchureEvent`, which has the mean of each note.
+    Fields as in `EmbouchureEvent`, which has the means over notes.
 
     Attributes
     ----------
@@ -21,9 +21,9 @@ class SampledCurves:
         Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
     tension : (K,) float64
     air, effort : (K,) float64 or None
-        None where no breath was recorded.
+        None if no breath was recorded.
     recorded : bool
-        Whether a player recorded them, with a vibrato of their own; else they are from the dynamics in the score.
+        Whether they were recorded by a player, including vibrato; otherwise they follow the dynamics of the score.
     """
 
     start_s: float
@@ -34,7 +34,7 @@ class SampledCurves:
     recorded: bool = True
 
     def __eq__(self, other: object) -> bool:
-        """Return whether they are the same to the last bit, as plans are compared."""
+        """Return whether all arrays are equal, for comparing plans."""
         if not isinstance(other, SampledCurves):
             return NotImplemented
         return (

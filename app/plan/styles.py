@@ -1,6 +1,6 @@
-"""Regions in which a player plays in another style: how much of each layer is shown at any time.
+"""Spans in which a player plays in another style: amount of each layer over time.
 
-What such a region names is what the player would show with that style throughout; at its edges both are blended.
+A span has the amounts of its style throughout; they are blended at its edges.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ def plan_styles(
     player: str,
     clock: TempoMap,
 ) -> Planned[StyleEvent]:
-    """The regions of a player, ordered by start, and a problem for each whose style is not there.
+    """The style spans of a player, ordered by start, and a problem for each with an unknown style.
 
     Parameters
     ----------
     actings : tuple of (str, Acting)
-        By style what the player shows in it.
+        The player's acting in each style.
     usual : Acting
-        What the player shows elsewhere.
+        The player's acting elsewhere.
     known, player : str
-        Names of the styles there are, and of the player, for what is reported.
+        Names of the available styles and of the player, for messages.
     """
     by_name = dict(actings)
     events, problems = [], []
@@ -76,10 +76,9 @@ def amount_at(styles: Sequence[StyleEvent], layer: str, usual: float, times_s: F
 def amount_at(
     styles: Sequence[StyleEvent], layer: str, usual: float, times_s: FloatArray | float
 ) -> FloatArray | float:
-    """Return how much of a layer (a field of `Acting`) is shown at some times; ``usual`` itself where there are no
-    regions.
+    """Return the amount of a layer (a field of `Acting`) at some times; ``usual`` outside the spans.
 
-    Where regions overlap, the one that begins later goes over the others.
+    Where spans overlap, the later one has priority.
     """
     shown: FloatArray | float = usual
     for event in styles:
@@ -88,7 +87,7 @@ def amount_at(
 
 
 def most_shown(styles: Sequence[StyleEvent], usual: Acting) -> Acting:
-    """The most that is shown of each layer at any time."""
+    """Largest amount of each layer at any time."""
     if not styles:
         return usual
     shown = (usual, *(event.acting for event in styles))
@@ -96,7 +95,7 @@ def most_shown(styles: Sequence[StyleEvent], usual: Acting) -> Acting:
 
 
 def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> FloatArray | float:
-    """Amount of a layer at some times, as a share of `most_shown`: 1.0 where there are no regions."""
+    """Amount of a layer at some times relative to `most_shown`; 1.0 without spans."""
     if not styles:
         return 1.0
     usual = styles[0].usual
@@ -105,8 +104,9 @@ def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> F
 
 
 def shown_in_style(plan: PlayerPlan) -> PlayerPlan:
-    """The plan with cues and gestures as large as the regions let them be, as shares of `most_shown`; the same
-    plan where there are no regions. The same tuples give the same tuples."""
+    """The plan with cues and gestures scaled by style spans, relative to `most_shown`; the same plan without spans.
+    Cached by its tuples.
+    """
     if not plan.styles:
         return plan
     return msgspec.structs.replace(
@@ -117,7 +117,7 @@ def shown_in_style(plan: PlayerPlan) -> PlayerPlan:
 
 
 def differing_s(styles: Sequence[StyleEvent], others: Sequence[StyleEvent]) -> FloatArray:
-    """Spans (K, 2) of seconds outside of which two players whose `most_shown` is the same show the same."""
+    """Spans (K, 2) in seconds in which the style spans of two players with equal `most_shown` may differ."""
     if tuple(styles) == tuple(others):
         return np.zeros((0, 2))
     different = [event for event in (*styles, *others) if event not in styles or event not in others]
@@ -125,7 +125,7 @@ def differing_s(styles: Sequence[StyleEvent], others: Sequence[StyleEvent]) -> F
 
 
 def styles_at(styles: Sequence[StyleEvent], usual: str, times_s: FloatArray) -> list[str]:
-    """The style in which a player plays at some times."""
+    """Name of the style at each time."""
     found = [usual] * len(times_s)
     for event in styles:
         for place in np.flatnonzero((times_s >= event.start_s) & (times_s < event.end_s)).tolist():
@@ -152,7 +152,7 @@ def _shown_cues(cues: tuple[CueEvent, ...], styles: tuple[StyleEvent, ...]) -> t
 
 
 def _presence(event: StyleEvent, times_s: FloatArray | float) -> FloatArray | float:
-    """Return how far a region holds, 0..1: eased at its edges."""
+    """Return the weight of a style span, 0..1, with eased edges."""
     rising = _eased((times_s - event.start_s) / max(event.fade_in_s, 1e-9))
     falling = _eased((event.end_s - times_s) / max(event.fade_out_s, 1e-9))
     return np.minimum(rising, falling)

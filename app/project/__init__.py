@@ -1,1 +1,1 @@
-"""Project: the immutable value that holds a piece, its players and every correction."""
+"""Project: an immutable value with a piece, its players and all corrections."""

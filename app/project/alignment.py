@@ -1,9 +1,8 @@
-"""Alignment of the notes of two lines by pitch and place.
+"""Aligns the notes of two versions of a line by pitch and time.
 
-The two are versions of one line: notes were added, taken out, moved or changed, bars inserted or cut, the whole
-transposed. So most notes are found again exactly, at one of a few distances in time; which distance holds where is
-found by dynamic programming over those distances (Viterbi), and what lies between the notes found by dynamic
-programming over both lines (Needleman and Wunsch, 1970).
+Between the versions notes may be added, removed, moved or changed, bars inserted or cut, or everything transposed. Most
+notes recur exactly at one of a few time shifts. Dynamic programming (Viterbi) finds the shift in force at each place;
+the notes in between are matched by dynamic programming over both lines (Needleman and Wunsch, 1970).
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ _MOST_CELLS = 5_000_000
 
 @dataclass(frozen=True, eq=False)
 class AlignmentPart:
-    """A line as arrays, all of one length and in the order of onset and pitch; times in quarters."""
+    """Notes of a line as arrays of equal length in order of onset and pitch; times in quarters."""
 
     onsets: FloatArray
     lengths: FloatArray
@@ -68,7 +67,7 @@ class AlignmentPart:
 
 
 def align(old: AlignmentPart, new: AlignmentPart) -> IntArray:
-    """The pairs of notes that are one, as indices.
+    """Return the pairs of matching notes, as indices (old, new).
 
     Returns
     -------
@@ -96,9 +95,9 @@ def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], 
     Parameters
     ----------
     shifts : sequence of float
-        How far the new line may lie behind the old one, quarters; the best counts.
+        Allowed shifts in quarters of the new line after the old one; the best one counts.
     transposition : int
-        How much higher it is, semitones.
+        Semitones by which the new line is higher.
     """
     moved = new.onsets[None, :] - old.onsets[:, None]
     away = np.min([np.abs(moved - shift) for shift in shifts], axis=0)
@@ -109,7 +108,7 @@ def pair_costs(old: AlignmentPart, new: AlignmentPart, shifts: Sequence[float], 
 
 
 def cheapest(costs: FloatArray) -> list[tuple[int, int]]:
-    """The cheapest way to pair the rows of a matrix with its columns in order; what stays alone costs `GAP_COST`."""
+    """Return the cheapest ordered pairing of a matrix's rows with its columns; an unpaired one costs `GAP_COST`."""
     rows, columns = costs.shape
     steps = GAP_COST * np.arange(columns + 1)
     totals = np.empty((rows + 1, columns + 1))
@@ -137,7 +136,7 @@ def cheapest(costs: FloatArray) -> list[tuple[int, int]]:
 
 
 def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]:
-    """The distances in time (new - old, quarters) at which many notes are found again, and the transposition."""
+    """Time shifts (new - old, quarters) at which many notes recur, and the transposition."""
     found, _ = _partners(old, new, 0.0, 0)
     if np.count_nonzero(found >= 0) >= 0.98 * max(len(old), len(new)):
         return np.zeros(1), 0
@@ -166,7 +165,9 @@ def _distances(old: AlignmentPart, new: AlignmentPart) -> tuple[FloatArray, int]
 def _partners(
     old: AlignmentPart, new: AlignmentPart, distance: float, transposition: int
 ) -> tuple[IntArray, FloatArray]:
-    """The new note where each old one would be, -1 where there is none, and how far it is off (quarters)."""
+    """For each old note the index of the new note nearest to its shifted place (-1: none), and the distance in
+    quarters.
+    """
     width = float(max(old.onsets[-1] + abs(distance), new.onsets[-1]) + 2.0)
     order = np.lexsort((new.onsets, new.pitches))
     keys = new.pitches[order] * 4.0 * width + new.onsets[order]
@@ -181,7 +182,7 @@ def _partners(
 def _anchors(
     old: AlignmentPart, new: AlignmentPart, distances: FloatArray, transposition: int
 ) -> list[tuple[int, int]]:
-    """Notes found again at a distance that holds over a stretch of the line, both indices ascending."""
+    """Pairs of notes that match at a shift which holds over a stretch of the line; both indices ascend."""
     partners, away = zip(*(_partners(old, new, distance, transposition) for distance in distances), strict=True)
     found = np.array(partners)
     costs = np.where(found >= 0, 0.2 * np.array(away) / SAME_QUARTERS, 1.0)
@@ -201,7 +202,7 @@ def _anchors(
 
 
 def _held(costs: FloatArray, changes: FloatArray) -> IntArray:
-    """For every column the row of a cheapest path through them; to go from row a to b costs ``changes[a, b]``."""
+    """For every column the row of the cheapest path; changing from row a to b costs ``changes[a, b]``."""
     states, count = costs.shape
     if states == 1:
         return np.zeros(count, np.int64)
@@ -221,7 +222,7 @@ def _held(costs: FloatArray, changes: FloatArray) -> IntArray:
 
 
 def _ascending(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Longest selection of pairs whose second index ascends too (patience sorting)."""
+    """Longest subset of pairs whose second index also ascends (patience sorting)."""
     tops: list[int] = []
     last: list[int] = []
     before: list[int] = []
@@ -244,7 +245,7 @@ def _ascending(pairs: list[tuple[int, int]]) -> list[tuple[int, int]]:
 def _gaps(
     anchors: list[tuple[int, int]], old_count: int, new_count: int
 ) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-    """Stretches between the anchors in which both lines have notes: where they begin and where they end."""
+    """Stretches between the anchors in which both lines have notes, as (start, end) in each line."""
     ends = [*anchors, (old_count, new_count)]
     first, new_first = 0, 0
     for end, new_end in ends:

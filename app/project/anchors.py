@@ -1,8 +1,8 @@
-"""Anchors of corrections, and moving corrections to others.
+"""Anchors of corrections (notes, events, ticks), and moving corrections to other anchors.
 
-Fields say it by their names: ``note_id``, ``last_note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place),
-``event_id`` ends with the note or the place of its event, ``..._offset_tick`` and ``..._ticks`` are lengths, ``tick``
-and other ``..._tick`` places.
+Field names determine the kind: ``note_id``, ``last_note_id`` and ``moved_from`` are notes (or ``"@tick"``, a place);
+``event_id`` ends with the note or place of its event; ``..._offset_tick`` and ``..._ticks`` are lengths; ``tick`` and
+other ``..._tick`` are places.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _PLACE = re.compile(r"(?:^|(?<=:))@(-?\d+)$", re.ASCII)
 
 
 def note_of(correction: Correction) -> str | None:
-    """The note a correction is about; None for one that belongs to a place or an event without a note."""
+    """Note of a correction; None for one that belongs to a place or to an event without a note."""
     note_id: str | None = getattr(correction, "note_id", None)
     if note_id is not None:
         return None if _PLACE.search(note_id) else note_id
@@ -43,14 +43,14 @@ def notes_of(correction: Correction) -> tuple[str, ...]:
 def moved_correction(
     correction: C, note_ids: Mapping[str, str], place: Callable[[int], int] | None = None, scale: Fraction = Fraction(1)
 ) -> C:
-    """The correction about other notes and places; the same value where nothing changes.
+    """Return the correction with other notes and places; the same value if nothing changes.
 
     Parameters
     ----------
     note_ids : mapping of str to str
-        New ids by the old ones; what is not among them stays.
+        New id of each old one; ids that are missing stay.
     place : callable, optional
-        New ticks of old ones.
+        Function from old to new ticks.
     scale : Fraction
         Of lengths in ticks.
     """
@@ -80,7 +80,7 @@ def moved_correction(
 def _moved_keys(
     keys: tuple[CurveKey, ...], place: Callable[[int], int] | None, scale: Fraction
 ) -> tuple[CurveKey, ...]:
-    """Keys of a curve at other places: still one after another, none lost."""
+    """Keys of a curve at other places, kept in ascending order without losing any."""
     result: list[CurveKey] = []
     for key in keys:
         tick = key.tick if place is None else place(key.tick)
@@ -96,13 +96,13 @@ def _scaled(handle: Tangent | None, scale: Fraction) -> Tangent | None:
 
 
 def correction_span(correction: Correction | DanceCorrection) -> int:
-    """Return how long the stretch is that a correction says both ends of; 0 where it does not."""
+    """Return the length in ticks of a correction's span; 0 if it has none."""
     start, end = getattr(correction, "start_tick", None), getattr(correction, "end_tick", None)
     return 0 if start is None or end is None else int(end - start)
 
 
 def _renamed(text: str, note_ids: Mapping[str, str], place: Callable[[int], int] | None) -> str:
-    """A note's id, or an event's that ends with one or with a place, after the change."""
+    """Return a note id, or an event id that ends with a note or place, after the change."""
     note = _NOTE.search(text)
     if note is not None:
         return text[: note.start()] + note_ids.get(note.group(), note.group())

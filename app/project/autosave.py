@@ -1,13 +1,13 @@
-"""Unsaved work is written down by itself, beside the project's file and never over it.
+"""Saves unsaved work automatically next to the project's file, never over it.
 
-When to write is decided here from times that are handed in, so that a test never sleeps; the shell asks when
-something is due. Writing is a value (`Writing`) that is done in the background.
+Times are arguments, so that tests need not wait; the editor asks when a save is due. A save is a value (`Writing`) that
+runs in the background.
 
-A project that has no file yet is kept in the user's state folder, each running editor its own. So is one whose file a
-second editor has open, because two editors must not write one autosave; one beside whose file a crash left work that
-the user has not decided about; and one whose folder refuses (read-only, full, gone, not answering) until it does not.
+Unsaved work goes to the user's state folder, separately for each running editor, in these cases: the project has no
+file yet; a second editor has the file open (two editors must not share an autosave); there is an undecided recovery
+file next to it; or the project's folder cannot be written (read-only, full, gone, not responding).
 
-A project that cannot be saved, which no edit should make, is written without the value that is at fault.
+If a project cannot be saved, which no edit should cause, it is saved without the offending value.
 """
 
 from __future__ import annotations
@@ -36,26 +36,26 @@ MOST_PENDING: Final = 2
 
 
 def autosave_path(document: Path) -> Path:
-    """Return where the unsaved work on a project's file is kept."""
+    """Return the path of the autosave for a project file."""
     return document.with_name(document.name + AUTOSAVE)
 
 
 @dataclass(frozen=True)
 class AutosaveResult:
-    """Result of an autosave.
+    """Result of one autosave.
 
     Attributes
     ----------
     path : Path or None
-        None: a newer one is there already.
+        Path of the file; None if a newer autosave exists already.
     held : frozenset of Path
-        All files that hold this work now, of whatever generation.
+        All files that contain this work, of any generation.
     warning : Message or None
-        Why it is not in its usual place: ``autosave.elsewhere``.
+        Warning if it was not saved at the usual place.
     without : Message or None
-        What is not in it because it cannot be saved: ``autosave.without``.
+        Message about content that was left out because it cannot be saved.
     project : Project or None
-        The project in it.
+        The saved project.
     """
 
     path: Path | None
@@ -66,7 +66,7 @@ class AutosaveResult:
 
 
 class _OwnPlace:
-    """Lets no writing that was held up replace a newer one in the state folder."""
+    """Prevents a delayed save from replacing a newer one in the state folder."""
 
     def __init__(self) -> None:
         self.lock = threading.Lock()
@@ -75,16 +75,16 @@ class _OwnPlace:
 
 @dataclass(frozen=True, eq=False)
 class Writing:
-    """An autosave to be made: a snapshot, so that it can be made on another thread.
+    """A snapshot to be autosaved, which can run on another thread.
 
     Attributes
     ----------
     held : frozenset of Path
-        Files that hold earlier generations of this work: they may be replaced, and go once there is a newer one.
+        Files with earlier generations of this work; they may be replaced, and are deleted once a newer one exists.
     asks_usual : bool
-        Whether the place beside the project's file is tried first; not while it keeps another writing waiting.
+        Whether the place next to the project's file is tried first; False while another save there is still waiting.
     former : Project or None
-        What was written last of the work.
+        Previously saved state of the work.
     """
 
     project: Project
@@ -97,13 +97,12 @@ class Writing:
     former: Project | None = None
 
     def run(self) -> AutosaveResult:
-        """Write it; what was there is replaced only when the new one is whole. What cannot be saved is left out.
+        """Save the snapshot atomically, without values that cannot be saved.
 
         Raises
         ------
         FileError
-            ``autosave.refused``, ``autosave.nowhere``: no place takes it. ``project.cannot_save``: nothing of it can
-            be saved.
+            No place can be written, or nothing of the project can be saved.
         """
         try:
             return self._run()
@@ -119,7 +118,7 @@ class Writing:
             return replace(written, without=Message("autosave.without", without))
 
     def _saved(self) -> Project | None:
-        """The project as its file has it."""
+        """The project in its saved form."""
         try:
             return None if self.document is None else load(self.document)
         except FileError:
@@ -155,7 +154,7 @@ class Writing:
         return self._written(self.presence.own_path, warning)
 
     def _usual(self) -> Path | None:
-        """The usual place of unsaved work, next to the project's file, if this editor may use it."""
+        """Path next to the project's file, if this editor may use it."""
         document, presence = self.document, self.presence
         if document is None or not self.asks_usual or is_open_elsewhere(document, presence.folder, presence.token):
             return None
@@ -193,7 +192,7 @@ class Autosave:
     Parameters
     ----------
     presence : Presence
-        This editor's.
+        This editor's record of open files.
     """
 
     def __init__(self, presence: Presence, delay_s: float = DELAY_S) -> None:
@@ -203,7 +202,7 @@ class Autosave:
         self._begin("", None)
 
     def _begin(self, base: str, former: Autosaved | None) -> None:
-        """Another work: what was taken in the one before is nothing in this one."""
+        """Start tracking another project; state of the previous one is dropped."""
         self._project: Project | None = None
         self._written: Project | None = None
         self._former: Project | None = None
@@ -217,7 +216,7 @@ class Autosave:
 
     @property
     def document(self) -> Path | None:
-        """The project's file; None before it has one."""
+        """Path of the project's file; None before it has one."""
         return self._document
 
     @property
@@ -229,44 +228,44 @@ class Autosave:
 
     @property
     def due_s(self) -> float | None:
-        """Return when the next autosave is to be made; None: everything is written down, or about to be."""
+        """Return the time when the next autosave is due; None if everything is saved or being saved."""
         if self._changed_s is None or len(self._pending) >= MOST_PENDING:
             return None
         # One that does not come back is not waited for.
         return max([self._changed_s + self.delay_s, *(taken_s + PATIENCE_S for taken_s in self._pending.values())])
 
     def has(self, project: Project) -> bool:
-        """Return whether this project is written down."""
+        """Return whether this state of the project is saved."""
         return project is self._written
 
     @property
     def has_work(self) -> bool:
-        """Return whether there is unsaved work, written down or not."""
+        """Return whether there is unsaved work, autosaved or not."""
         return self._project is not None or bool(self._held)
 
     def is_current(self, writing: Writing) -> bool:
-        """Return whether a writing is of the work that is open."""
+        """Return whether a save belongs to the open project."""
         return writing.own_place is self._own_place
 
     def opened(
         self, document: Path | None, base: str = "", former: Autosaved | None = None, held: Path | None = None
     ) -> None:
-        """A project is open that was just read from this file, or saved to it, or has none (None); the unsaved work
-        before was saved or given up, and there is nothing of it to recover any more.
+        """Begin with a project that was just read from or saved to a file, or is new (None). Earlier unsaved work was
+        saved or discarded, so its recovery files are removed.
 
         Parameters
         ----------
         base : str
             `app.project.storage.content_hash` of that file.
         former : Autosaved, optional
-            The project is unsaved work that is taken over: what its autosave said.
+            The autosave from which the project was recovered.
         held : Path, optional
-            Where that work is. The file is this editor's from now on, and goes when the work is written again.
+            File of the recovered work. It belongs to this editor from now on, and is deleted after the next autosave.
 
         Raises
         ------
         FileError
-            The note of what this editor works on cannot be written.
+            The record of open files cannot be written.
         """
         self._drop()
         self._begin(base, former)
@@ -276,7 +275,7 @@ class Autosave:
         self._report(held)
 
     def changed(self, project: Project, now_s: float) -> None:
-        """The project is this now and is not in its file."""
+        """Report a change of the project that is not in its file."""
         self._project = project
         if project is self._written:
             # Undone to what is written down already.
@@ -285,14 +284,15 @@ class Autosave:
             self._changed_s = now_s
 
     def due(self, now_s: float) -> Writing | None:
-        """The autosave to be made now; None where there is none. To be done at once or in the background, and
-        reported with `ended`, then, if it was made, with `written`."""
+        """Return the autosave to be made now, or None. Run it directly or in the background, then call `ended`, and
+        `written` if it succeeded.
+        """
         if self.due_s is None or now_s < self.due_s:
             return None
         return self.take(now_s)
 
     def take(self, now_s: float) -> Writing | None:
-        """The autosave that would be due next, now; None where everything is written down."""
+        """Return the next autosave immediately; None if everything is saved."""
         if self._project is None or self._changed_s is None:
             return None
         self._changed_s = None
@@ -307,12 +307,14 @@ class Autosave:
         return writing
 
     def ended(self, writing: Writing, now_s: float) -> None:
-        """The writing is over, however it went. What was not written is due again after the delay."""
+        """Report that a save has finished, successfully or not. Work that was not saved becomes due again after the
+        delay.
+        """
         if self._pending.pop(writing, None) is not None and self._changed_s is None:
             self._changed_s = now_s
 
     def written(self, writing: Writing, written: AutosaveResult) -> None:
-        """Note that unsaved work was written. Raises FileError where the note cannot be written."""
+        """Record that unsaved work was saved. Raises FileError if the record cannot be written."""
         path = written.path
         if path is None:
             return

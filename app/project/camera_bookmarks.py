@@ -1,4 +1,4 @@
-"""Cameras that are kept with a piece by name, as bookmarks of the viewport."""
+"""Cameras stored with a piece by name, as bookmarks of the viewport."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _Point: TypeAlias = tuple[_Metres, _Metres, _Metres]
 
 
 class CameraBookmark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A camera: an orbit about a target, which a close-up moves with what it shows.
+    """A stored camera: an orbit around a target; in a close-up the target moves with its performer.
 
     Attributes
     ----------
     name : str
         Unique in a piece, ignoring case.
     view : str
-        One of `VIEWS`; close-ups follow their player.
+        One of `VIEWS`; close-ups follow their performer.
     player_id : str
-        The player or dancer in front; empty: none. Where that performer is missing, the camera stands still.
+        Id of the followed player or dancer; empty: none. If the performer no longer exists, the camera is fixed.
     target_m : (float, float, float)
         Point in the middle of the picture when the camera was kept.
     yaw_rad, pitch_rad : float
@@ -40,7 +40,7 @@ class CameraBookmark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     fov_deg : float
         Vertical angle of view.
     shift_m : (float, float, float)
-        Target of a close-up against the place that it follows.
+        Offset of a close-up's target from the followed point.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Casting: characters, places on the stage and amplitudes of players, the same in every run."""
+"""Casting: assigns characters, stage places and amplitudes to players, reproducibly."""
 
 from __future__ import annotations
 
@@ -54,13 +54,13 @@ class StagePosition(msgspec.Struct, frozen=True):
 
 
 class ConductorPlace(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A place before the players for a conductor, who faces them: as `StagePosition`.
+    """Place in front of the players for a conductor, who faces them; fields as in `StagePosition`.
 
     Attributes
     ----------
     on_stage : bool
-        Whether a conductor stands there, who gives the entries. An empty place conducts no one; so do those of older
-        projects, in which no one said that there is a conductor.
+        Whether a conductor stands there and gives the entries. An empty place has no effect; older projects always have
+        an empty place.
     """
 
     x_m: float
@@ -69,14 +69,14 @@ class ConductorPlace(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
 
 
 class Footprint(msgspec.Struct, frozen=True):
-    """The room a player takes, and where the usual seating has them.
+    """Space that a player needs, and the section's place in the usual seating.
 
     Attributes
     ----------
     row, place : int
-        Of the instrument's section in the seating of a band: rows from the audience, places from its left.
+        Row (from the audience) and place (from its left) of the instrument's section in a band's seating.
     left_m, right_m, ahead_m : float
-        How far the instrument goes to the player's left, right and ahead, as it is usually carried.
+        Extent of the instrument to the player's left, right and front in the usual playing position.
     """
 
     row: int = 0
@@ -87,10 +87,10 @@ class Footprint(msgspec.Struct, frozen=True):
 
 
 def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
-    """Places for an ensemble, in its order: an arc for a few, the rows of a band for many.
+    """Places for an ensemble in its order: an arc for a few players, rows as in a band for many.
 
-    Neighbours stand as far apart as what they hold asks for. In rows players sit with their section, the sections
-    in the usual order; one that has too many for a row goes on in another behind it.
+    Neighbours are spaced by the extent of their instruments. In rows players sit by section in the usual order; a
+    section too large for a row continues in another row behind.
     """
     if len(footprints) <= MOST_IN_ARC:
         return stage_arc(len(footprints), _spacing(footprints))
@@ -114,8 +114,9 @@ def stage_seats(footprints: Sequence[Footprint]) -> tuple[StagePosition, ...]:
 
 
 def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
-    """Return where a conductor would stand before players: in their middle, as far from the nearest as that one needs,
-    and on the audience's side of them."""
+    """Return the usual place of a conductor: centred in front of the players, at the distance that the nearest one
+    needs.
+    """
     if not stages:
         return ConductorPlace(0.0, CONDUCTOR_AWAY_M)
     x_m = math.fsum(stage.x_m for stage in stages) / len(stages)
@@ -126,7 +127,7 @@ def conductor_place(stages: Sequence[StagePosition]) -> ConductorPlace:
 
 
 def usual_posture(count: int) -> Posture:
-    """Usual posture of an ensemble of this size: a few stand, a band sits."""
+    """Usual posture for an ensemble of this size: standing in an arc, seated in rows."""
     return "standing" if count <= MOST_IN_ARC else "seated"
 
 
@@ -137,10 +138,10 @@ def _spacing(row: Sequence[Footprint]) -> float:
 
 
 def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, ...]:
-    """Places of a few players on an arc open to the audience, in the order of the score from the audience's left (-X).
+    """Places of a few players on an arc open to the audience, in score order from the audience's left (-X).
 
-    Everyone stands ``spacing_m`` from the next and faces the middle of the arc's opening, half way between a
-    colleague across and the audience.
+    Neighbours are ``spacing_m`` apart. Each faces the middle of the opening, half way between the colleague opposite
+    and the audience.
     """
     if count < 2:
         return (StagePosition(0.0, 0.0, 0.0),) * count
@@ -150,34 +151,34 @@ def stage_arc(count: int, spacing_m: float = SPACING_M) -> tuple[StagePosition, 
 
 
 def _row(count: int, step: float, radius: float) -> tuple[StagePosition, ...]:
-    """Players on one arc, ``step`` radians apart."""
+    """Places of players on one arc, ``step`` radians apart."""
     angles = [(index - (count - 1) / 2.0) * step for index in range(count)]
     return tuple(StagePosition(radius * math.sin(angle), -radius * math.cos(angle), -angle / 2.0) for angle in angles)
 
 
 def amplitude(seed: int, player_id: str) -> float:
-    """A player's own amount of motion, around the natural one."""
+    """Amplitude of a player's motion, a random value near the natural one."""
     return round(NATURAL_AMPLITUDE + AMPLITUDE_SPREAD * (2.0 * chance("amplitude", seed, player_id) - 1.0), 3)
 
 
 def player_seed(seed: int, player_id: str) -> int:
-    """A player's own seed."""
+    """Random seed of one player."""
     return seed_of("player", seed, player_id)
 
 
 def choose_characters(
     travels_m: Sequence[float], arms_m: Mapping[str, float], left_out: Sequence[Collection[str]] = ()
 ) -> tuple[str, ...]:
-    """A character for every player: a far reach gets one of the long arms, and everyone the least used character.
+    """Choose a character for every player: long arms for instruments with a long reach, otherwise the least used one.
 
     Parameters
     ----------
     travels_m : sequence of float
-        How far each player's instrument asks a hand to travel.
+        Distance a hand must travel on each player's instrument.
     arms_m : mapping of str to float
-        Length of arm of every character to choose from; at least one.
+        Arm length of every available character; at least one.
     left_out : sequence of collection of str, optional
-        By player: characters who are too small for the instrument.
+        Characters too small for each player's instrument.
 
     Returns
     -------

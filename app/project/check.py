@@ -1,7 +1,7 @@
-"""Checks a project beyond the types of its fields: names that exist, ids that are unique, times in order.
+"""Checks a project beyond field types: known names, unique ids, ordered times.
 
-One check at every door: what a reader makes of a file, an edit of the project, and a save must all pass `faults`, so
-that whatever got in can be saved and is read again.
+The same checks run after reading a file, after an edit and before saving, so that every accepted project can be saved
+and read again.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ _MORPHS = frozenset(ARKIT_MORPHS)
 
 
 def faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
-    """Everything that is wrong, one by one as it is found; a caller may stop at the first.
+    """Yield all faults of a project one by one; callers may stop at the first.
 
     Parameters
     ----------
     before : Project, optional
-        A project that is known to be sound: what is the same object in both is not looked at again, so that an edit
-        costs what it changes.
+        A project known to be valid: objects shared with it are not checked again, so an edit costs only what it
+        changes.
     """
     if before is None or project.score is not before.score:
         yield from faults_at_key("score", score_faults(project.score, None if before is None else before.score))
@@ -65,12 +65,12 @@ def faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
 
 
 def require_sound(project: Project, before: Project | None = None) -> None:
-    """Raise UsageError ``project.not_storable`` for a project that could not be saved and read again.
+    """Raise UsageError for a project that could not be saved and read again.
 
     Parameters
     ----------
     before : Project, optional
-        What the project was made from. A fault that it has too is not the edit's, and no other edit is refused for it.
+        The project before the edit; faults that it already has are ignored, so that they do not block other edits.
     """
     known: frozenset[Fault] | None = None
     for fault in faults(project, before):
@@ -164,7 +164,7 @@ def _recorded_faults(recorded: PlayerTakes, place: str) -> Iterator[Fault]:
 
 
 def take_faults(take: Take, place: str) -> Iterator[Fault]:
-    """Faults of a take by itself."""
+    """Faults of a single take."""
     if not _TAKE.fullmatch(take.id):
         yield f"{place}.id", 'must be like "take:1"'
     yield from text_faults(f"{place}.name", take.name)
@@ -232,7 +232,7 @@ def _setting_faults(project: Project) -> Iterator[Fault]:
 
 
 def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
-    """Faults of an expression of the animator's own."""
+    """Faults of an expression added by the animator."""
     yield from id_faults(f"{place}.name", expression.name)
     yield from text_faults(f"{place}.description", expression.description)
     for morph, weight in expression.weights.items():
@@ -246,7 +246,7 @@ def expression_faults(expression: Expression, place: str) -> Iterator[Fault]:
 
 
 def track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
-    """Faults of a path, an offset and its confidence."""
+    """Faults in path, offset and confidence of a track."""
     if not track.path:
         yield "path", "must be the path of a file"
     yield from path_faults("path", track.path)
@@ -256,7 +256,7 @@ def track_faults(track: AudioTrack | VideoTrack) -> Iterator[Fault]:
 
 
 def audio_faults(audio: AudioTrack) -> Iterator[Fault]:
-    """Faults of a recording, with what following it found."""
+    """Faults of a recording and of its alignment."""
     yield from track_faults(audio)
     for index, pin in enumerate(audio.pins):
         yield from faults_of_bounds(f"pins[{index}].tick", pin.tick, (0, limits.LAST_TICK))

@@ -1,4 +1,4 @@
-"""Checks of an animator's corrections: texts and numbers of a sane size, and what makes curves sound."""
+"""Checks an animator's corrections: size of texts and numbers, and validity of curves."""
 
 from __future__ import annotations
 
@@ -26,8 +26,9 @@ _TICKS: Final = (-limits.LAST_TICK, limits.LAST_TICK)
 
 
 def project_correction_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
-    """Faults of all players' corrections, with the player, the bar and the correction; of those that `before`, which
-    is known to be sound, does not have."""
+    """Faults of all players' corrections, with player, bar and correction; skips corrections shared with `before`,
+    which is known to be valid.
+    """
     known = {player.id: player for player in project.players}
     for player_id, corrections in project.corrections.items():
         if player_id not in known:
@@ -43,7 +44,7 @@ def project_correction_faults(project: Project, before: Project | None = None) -
 
 
 def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
-    """Faults of one correction by itself."""
+    """Faults of a single correction."""
     if isinstance(correction, AdditiveCurve):
         yield from id_faults(f"{place}.name", correction.name, least=0)
         yield from curve_faults(correction, place)
@@ -55,7 +56,7 @@ def correction_faults(correction: Correction, place: str) -> Iterator[Fault]:
 
 
 def _mark_faults(correction: OfMark) -> Iterator[Fault]:
-    """Faults of a mark's anchors and text, by its kind."""
+    """Faults in a mark's anchors and text, by its kind."""
     anchor = MARK_KINDS[correction.kind].anchor
     at_tick = anchor in ("place", "span")
     needed = {"note_id": not at_tick, "last_note_id": anchor == "notes", "start_tick": at_tick}
@@ -79,7 +80,7 @@ def _mark_faults(correction: OfMark) -> Iterator[Fault]:
 
 
 def _place(project: Project, correction: Correction, place: str) -> str:
-    """The bar of a fault, and the kind and the name of its correction, for a message."""
+    """Bar of a fault, and kind and name of its correction, for a message."""
     name, score = _name(correction), project.score
     named = f"{correction.tag} {name!r}" if name else correction.tag
     tick = _tick(project, correction, place)
@@ -89,7 +90,7 @@ def _place(project: Project, correction: Correction, place: str) -> str:
 
 
 def _name(correction: Correction) -> str:
-    """Name of a correction in the panels: the user's title, or its subject; empty for those tied to a note."""
+    """Display name of a correction: the user's title, or its subject; empty for corrections of a note."""
     if isinstance(correction, OfMark):
         return correction.kind
     fields = ("title", "channel", "target", "style", "gesture", "expression")
@@ -98,8 +99,7 @@ def _name(correction: Correction) -> str:
 
 
 def _tick(project: Project, correction: Correction, place: str) -> int | None:
-    """The tick of the key at fault, or else where the correction begins; None where it is tied to nothing that has a
-    place in the score."""
+    """Tick of the faulty key, or else of the correction's start; None if it has no place in the score."""
     if isinstance(correction, AdditiveCurve):
         found = _KEY.search(place)
         index = 0 if found is None else int(found[1])

@@ -1,4 +1,4 @@
-"""Checks of dancers and the corrections of their dances."""
+"""Checks dancers and corrections of their dances."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from app.project.value_checks import (
 
 
 def dancer_faults(project: Project) -> Iterator[Fault]:
-    """Everything that is wrong with dancers, one by one as it is found."""
+    """Yield all faults of dancers one by one."""
     dancers, players = project.dancers, project.players
     if len(dancers) > limits.MOST_DANCERS:
         yield "dancers", f"at most {limits.MOST_DANCERS}"

@@ -1,4 +1,4 @@
-"""Checks of the stored decisions of an import."""
+"""Checks the stored decisions of an import."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.score.model import MOST_VOICES
 
 
 def import_faults(imported: ImportDecisions) -> Iterator[Fault]:
-    """Everything that is wrong with them."""
+    """Yield all faults of import decisions."""
     if imported.encoding is not None and not is_encoding(imported.encoding):
         yield "encoding", "must be the name of a text encoding"
     if len(imported.rows) > MOST_ROWS:

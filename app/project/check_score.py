@@ -1,4 +1,4 @@
-"""Checks of a score: notes, curves, tempi, metres and markers of a sane size, in order."""
+"""Checks a score: sizes and order of notes, curves, tempi, metres and markers."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def score_faults(score: Score, before: Score | None) -> Iterator[Fault]:
 
 
 def _note_id_faults(parts: Sequence[Part], before: Sequence[Part]) -> Iterator[Fault]:
-    """Ids of notes that appear twice in the piece."""
+    """Duplicate note ids in the piece."""
     old = {part.id: part for part in before}
     if all(
         part.id in old and len(part.note_ids) == len(part.notes) and part.note_ids <= old[part.id].note_ids

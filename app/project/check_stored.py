@@ -1,8 +1,7 @@
-"""Check that a file gives values back: each is encoded as in the file and decoded again.
+"""Checks that every value survives a file: each is encoded as in the file and decoded again.
 
-The bounds of `app.project.check` say which values make sense. This says that none is lost on the way: a number that is
-not finite becomes ``null`` in JSON, a whole number that arithmetic made a float is none of the file's, a lone surrogate
-is no text.
+`app.project.check` bounds the values; this module ensures that none is lost: non-finite numbers become ``null`` in
+JSON, integers that arithmetic turned into floats have the wrong type, and lone surrogates are invalid text.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ _SETTINGS: Final = (
 
 
 class _Group(NamedTuple):
-    """Values of one type, each written and read by itself: at places of the project counted from 0, or at one."""
+    """Values of one type that are encoded together: a list indexed by place in the project, or a single value."""
 
     place: str
     values: Sequence[Any]
@@ -44,12 +43,12 @@ class _Group(NamedTuple):
 
 
 def stored_faults(project: Project, before: Project | None = None) -> Iterator[Fault]:
-    """Values that a file would not give back.
+    """Values that would not be restored from a file.
 
     Parameters
     ----------
     before : Project, optional
-        A project that is known to be sound: what is the same object in both is not looked at again.
+        A project known to be valid: objects shared with it are not checked again.
     """
     known = {} if before is None else {group.place: group.values for group in _groups(before)}
     for place, values, kind, is_list in _groups(project):
@@ -63,7 +62,7 @@ def stored_faults(project: Project, before: Project | None = None) -> Iterator[F
 
 
 def unit_faults(value: Any, kind: Any, place: str) -> Iterator[Fault]:
-    """Return what is wrong with one value that is to come back from a file as this type."""
+    """Return the faults of one value that must be restored from a file as this type."""
     value = _as_stored(value)
     try:
         decoder = _decoder(kind)
@@ -80,7 +79,7 @@ def unit_faults(value: Any, kind: Any, place: str) -> Iterator[Fault]:
 
 
 def plain_number(value: Any) -> Any:
-    """Numbers of numpy, which calculations leave behind, are numbers; the hook of every encoder of a project."""
+    """Convert numpy numbers, left by calculations, for the encoder of a project."""
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"{type(value).__name__} cannot be kept in a file")
@@ -111,7 +110,7 @@ def _groups(project: Project) -> Iterator[_Group]:
 
 
 def _as_stored(value: Any) -> Any:
-    """The value with its paths as a file keeps them: names of files may be bytes that are no text."""
+    """The value with paths in stored form; file names may be bytes that are not valid text."""
     if isinstance(value, AudioTrack | VideoTrack):
         return msgspec.structs.replace(value, path=stored(value.path))
     if isinstance(value, Dancer):
@@ -124,7 +123,7 @@ def _as_stored(value: Any) -> Any:
 
 
 def _not_text(value: Any, place: str) -> Iterator[str]:
-    """Places of texts that are no Unicode text."""
+    """Places of texts that are not valid Unicode."""
     if isinstance(value, str):
         if not is_text(value):
             yield place

@@ -1,4 +1,4 @@
-"""The choreographies that come with the program, and where a choreography's file is."""
+"""Bundled choreographies, and the paths of choreography files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,59}", re.ASCII)
 
 @cache
 def bundled_choreographies() -> tuple[str, ...]:
-    """Names of the choreographies that come with the program, in order."""
+    """Sorted names of the bundled choreographies."""
     folder = _folder()
     if not os.path.isdir(folder):
         return ()
@@ -24,14 +24,16 @@ def bundled_choreographies() -> tuple[str, ...]:
 
 
 def is_bundled_name(choreography: str) -> bool:
-    """Return whether this is the name of a bundled choreography, of this version or of another, and no path: it has
-    neither separator nor suffix."""
+    """Return whether a text can be the name of a bundled choreography of any version, not a path: it has neither
+    separator nor suffix.
+    """
     return _NAME.fullmatch(choreography) is not None
 
 
 def is_choreography(choreography: str) -> bool:
-    """Return whether this can name a choreography: a bundled one, or the absolute path of a ``.choreography`` file on
-    any system."""
+    """Return whether a text can identify a choreography: a bundled name, or an absolute path of a ``.choreography``
+    file on any system.
+    """
     if is_bundled_name(choreography):
         return True
     absolute = PurePosixPath(choreography).is_absolute() or PureWindowsPath(choreography).is_absolute()
@@ -39,7 +41,7 @@ def is_choreography(choreography: str) -> bool:
 
 
 def choreography_path(choreography: str) -> Path:
-    """Return where the file of a choreography is: of a bundled one with the program, else the path itself."""
+    """Return the path of a choreography's file: bundled, or the path itself."""
     return _folder() / f"{choreography}{SUFFIX}" if is_bundled_name(choreography) else Path(choreography)
 
 

@@ -1,4 +1,4 @@
-"""Corrections of a dance, in musical time: generating the dance again solves around them."""
+"""Corrections of a dance, in musical time; a regenerated dance satisfies them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class _Correction(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_f
 
 
 class PinState(_Correction, frozen=True, tag="pin_state"):
-    """Dance this basic motion at this tick.
+    """Require a basic motion at a tick.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class PinState(_Correction, frozen=True, tag="pin_state"):
 
 
 class ForbidState(_Correction, frozen=True, tag="forbid_state"):
-    """Do not dance this basic motion from one tick to another (half-open)."""
+    """Exclude a basic motion from one tick to another (half-open)."""
 
     start_tick: int
     end_tick: int
@@ -33,7 +33,7 @@ class ForbidState(_Correction, frozen=True, tag="forbid_state"):
 
 
 class UseSegment(_Correction, frozen=True, tag="use_segment"):
-    """Dance this segment of the learned motion at this tick, and so its basic motion.
+    """Require a segment of the learned motion at a tick, and with it its basic motion.
 
     Attributes
     ----------

@@ -1,5 +1,6 @@
-"""Decisions of an import that are not stored, as those of projects of version 13 and older, found by what came of them:
-the parts of the project and, of tracks that no one plays, its unplayed parts."""
+"""Reconstructs import decisions that were not stored, in projects of version 13 and older, from the parts and the
+unplayed parts of the project.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +35,7 @@ def is_read(project: Project, part: Part) -> bool:
 
 
 def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
-    """The notes of a part as the file had them; those that it did not have, or that are unknown, as they are."""
+    """Notes of a part as in the file; notes that were not in the file, or are unknown, unchanged."""
     read = project.read_notes.get(part.id)
     if not read:
         return part.notes
@@ -43,12 +44,12 @@ def held_by_file(project: Project, part: Part) -> tuple[Note, ...]:
 
 
 def derived_decisions(project: Project, contents: PieceContents, choices: Sequence[MapChoice]) -> ImportDecisions:
-    """The decisions that follow from a project's parts.
+    """The import decisions implied by a project's parts.
 
     Parameters
     ----------
     contents : PieceContents
-        What its file holds now: by it is known how tracks were split.
+        Current contents of its file, which show how tracks were split.
     """
     groups: dict[Place, list[Part]] = {}
     for part in project.score.parts:
@@ -83,8 +84,9 @@ def derived_decisions(project: Project, contents: PieceContents, choices: Sequen
 
 
 def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: PieceContents) -> dict[Place, list[int]]:
-    """The channels that most notes of a group's parts were read from, where the file is much as it was then: their ids
-    say which notes they are."""
+    """Channels from which most notes of each group's parts were read, identified by note ids if the file is largely
+    unchanged.
+    """
     old, new = project.score.ticks_per_quarter, contents.tempo_map.ticks_per_quarter
     owners = {
         (note.id, note.onset_tick * new, note.pitch - part.transposed_semitones): place
@@ -116,7 +118,7 @@ def _owned(project: Project, groups: Mapping[Place, Sequence[Part]], contents: P
 
 
 def _marks(project: Project, parts: Sequence[Part]) -> Iterator[TrackMark]:
-    """Marks of the tracks that a group's parts were read from, as far as the parts tell."""
+    """Marks that identify the tracks of a group's parts, as far as the parts contain them."""
     first = parts[0]
     held = [note for part in parts for note in held_by_file(project, part)]
     # Players in unison have the same notes.
@@ -145,7 +147,7 @@ def _row(
     choices: Sequence[MapChoice],
     unchanged: bool,
 ) -> RowDecision:
-    """The decision that makes these parts of these channels."""
+    """The decision that would make these parts from these channels."""
     first, *_ = parts
     by_id = {choice.map_id: choice for choice in choices}
     own = by_id.get(first.map_id)
@@ -173,7 +175,7 @@ def _row(
 
 
 def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: int) -> float:
-    """Return how much two readings of some channels have in common, 0..1: above all melodies, then lengths."""
+    """Return the similarity of two readings of some channels, 0..1: mainly by melody, then by note lengths."""
     if not new:
         return 0.0
     before = project.score.ticks_per_quarter
@@ -186,7 +188,7 @@ def _alike(project: Project, old: Sequence[Part], new: Sequence[Part], quarter: 
 
 
 def _same_lengths(one: Part, other: Part, one_quarter: int, other_quarter: int) -> float:
-    """The share of notes that last as long, where two parts have as many; 0..1."""
+    """Share of notes with equal length, if two parts have the same number of notes; 0..1."""
     if len(one.notes) != len(other.notes) or not one.notes:
         return 0.0
     lengths = zip(one.notes, other.notes, strict=True)

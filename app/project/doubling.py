@@ -1,7 +1,7 @@
-"""Doublings: one musician who plays several instruments in turn, as flutists change to the piccolo.
+"""Doublings: one musician plays several instruments in turn, for example flute and piccolo.
 
-A `Player` is one instrument part. A player who doubles another shares that player's body: the player of the first
-instrument stands for the musician, and has the character, the parameters and the place.
+A `Player` is one instrument part. A doubling player shares the body of another player: the player of the first
+instrument represents the musician and holds character, parameters and place.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ written early. More makes two musicians."""
 
 
 def embodied(players: tuple[Player, ...]) -> tuple[Player, ...]:
-    """The players, doubling ones with the character, parameters and place of their musician; the same tuple if nothing
-    changes."""
+    """The players, with doubling ones given the character, parameters and place of their musician; the same tuple if
+    nothing changes.
+    """
     if not any(player.doubles for player in players):
         return players
     musicians = {player.id: player for player in players if not player.doubles}
@@ -50,7 +51,7 @@ def _of_musician(player: Player, musician: Player | None) -> Player:
 
 
 def promote_remaining(players: Iterable[Player]) -> tuple[Player, ...]:
-    """Players after a removal: where a musician's first player was removed, the next one takes that role."""
+    """Players after a removal: if a musician's first player was removed, the next one takes its role."""
     left = tuple(players)
     there = {player.id for player in left if not player.doubles}
     heirs: dict[str, str] = {}
@@ -64,8 +65,9 @@ def promote_remaining(players: Iterable[Player]) -> tuple[Player, ...]:
 
 
 def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], clock: TempoMap) -> dict[str, str]:
-    """Return which parts the musician of another part plays, by part id: a track's second instrument, unless no posture
-    fits both or they sound at once."""
+    """Return parts played by the musician of another part, as part id to part id: a track's second instrument, unless
+    no posture fits both or they sound together.
+    """
     groups: dict[tuple[int, int, int], list[Part]] = {}
     for part in sorted(parts, key=lambda part: part.voice):
         groups.setdefault((part.track, part.channel, part.voice % MOST_VOICES), []).append(part)
@@ -83,18 +85,18 @@ def doubled_parts(parts: Sequence[Part], maps: Mapping[str, InstrumentMap], cloc
 
 
 def common_postures(instruments: Sequence[InstrumentMap]) -> tuple[Posture, ...]:
-    """The postures in which all of some instruments can be played."""
+    """Postures in which all given instruments can be played."""
     postures: tuple[Posture, ...] = ("standing", "seated")
     return tuple(one for one in postures if all(one in instrument.hold.postures for instrument in instruments))
 
 
 def together_s(played: Sequence[Sequence[Note]], notes: Sequence[Note], clock: TempoMap) -> float:
-    """Return how long notes sound while others do, in seconds."""
+    """Return the seconds in which the notes sound at the same time as already played ones."""
     return _overlap_s(_spans(chain.from_iterable(played)), _spans(notes), clock)
 
 
 def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]], clock: TempoMap) -> float:
-    """Seconds that are in spans of both, each apart and in order."""
+    """Overlap in seconds of two lists of ordered, separate spans."""
     common: list[tuple[int, int]] = []
     mine = theirs = 0
     while mine < len(one) and theirs < len(other):
@@ -113,7 +115,7 @@ def _overlap_s(one: Sequence[tuple[int, int]], other: Sequence[tuple[int, int]],
 
 
 def _spans(notes: Iterable[Note]) -> list[tuple[int, int]]:
-    """Spans in which notes sound, apart and in order."""
+    """Spans in which notes sound, ordered and separate."""
     return _joined((note.onset_tick, note.end_tick) for note in notes)
 
 

@@ -1,4 +1,4 @@
-"""Controllers of a part whose file is read again: what was edited here stays where the file says the same as before."""
+"""Merges controllers when a part's file is read again: edits stay where the file is unchanged."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from app.score.model import ControllerCurve, CurveKind
 
 @dataclass(frozen=True)
 class MergedCurves:
-    """The controllers of the new part.
+    """Merged controllers of a part.
 
     Attributes
     ----------
     replaced : bool
-        Some were edited here and in the file: the file's are taken.
+        Whether curves were edited both in the project and in the file; the file's are used.
     """
 
     curves: tuple[ControllerCurve, ...]
@@ -28,14 +28,14 @@ def merged_curves(
     file: Sequence[ControllerCurve],
     place: Callable[[int], int],
 ) -> MergedCurves:
-    """Three-way merge of each controller: ours where the file did not change it, else the file's.
+    """Three-way merge of each controller: the project's if the file did not change it, else the file's.
 
     Parameters
     ----------
     ours, read, file : sequence of ControllerCurve
-        As they are here, as the file had them, and as it has them now.
+        Curves in the project, in the file when last read, and in the file now.
     place : callable
-        Where a tick of the former score is now.
+        Function from ticks of the previous score to ticks of the new one.
     """
     mine, former, new = (_by_kind(curves) for curves in (ours, read, file))
     result, replaced = [], False
@@ -52,7 +52,7 @@ def merged_curves(
 
 
 def moved_curve(curve: ControllerCurve, place: Callable[[int], int]) -> ControllerCurve:
-    """A curve where its music is now; of points that come together the last one holds."""
+    """Move a curve with its music; if points coincide, the last one counts."""
     points = {max(place(tick), 0): value for tick, value in zip(curve.ticks, curve.values, strict=True)}
     return ControllerCurve(curve.kind, tuple(points), tuple(points.values()))
 

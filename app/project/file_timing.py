@@ -1,4 +1,4 @@
-"""Tempo and metres of a file that is read again: what was edited here stays where the file says the same as before."""
+"""Merges tempo and metres when a file is read again: edits stay where the file is unchanged."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ TimingKind: TypeAlias = Literal["tempo", "metres"]
 
 @dataclass(frozen=True)
 class MergedTiming:
-    """The timing of the new score.
+    """Merged timing of the new score.
 
     Attributes
     ----------
     replaced : tuple of {"tempo", "metres"}
-        Edited here and in the file: the file's is taken.
+        Items edited both in the project and in the file; the file's are used.
     """
 
     timing: ReadTiming
@@ -39,23 +39,23 @@ def timing_of(score: Score) -> ReadTiming:
 
 
 def with_timing(score: Score, timing: ReadTiming) -> Score:
-    """The score with this tempo and these metres."""
+    """The score with another tempo and metres."""
     return msgspec.structs.replace(
         score, tempo_map=timing.tempo_map, metres=timing.metres, pickup_ticks=timing.pickup_ticks
     )
 
 
 def merged_timing(project: Project, file: Score, place: Placing, scale: Fraction, unchanged: bool) -> MergedTiming:
-    """Three-way merge of tempo and metres: the project's where the file did not change it, else the file's.
+    """Three-way merge of tempo and metres: the project's if the file did not change them, else the file's.
 
     Parameters
     ----------
     place : callable
-        Where a tick of the project's score is in the file's.
+        Function from ticks of the project's score to ticks of the file's.
     scale : Fraction
         Ticks of the file per tick of the project.
     unchanged : bool
-        The file has the notes that it had.
+        Whether the notes of the file are unchanged.
     """
     ours, new = timing_of(project.score), timing_of(file)
     read = project.read_timing
@@ -90,7 +90,7 @@ def _moved_tempo(tempo_map: TempoMap, place: Placing, scale: Fraction) -> TempoM
 
 
 def _moved_metres(metres: tuple[Metre, ...], pickup_ticks: int, place: Placing) -> tuple[tuple[Metre, ...], int]:
-    """The metres at their new places, and the pickup while the metre after it still begins there."""
+    """Metres at their new places, and the pickup if the metre after it still begins at its end."""
     moved = {}
     for metre in metres:
         tick = max(place(metre.tick), 0) if metre.tick else 0

@@ -1,4 +1,4 @@
-"""Room of an instrument on the stage, and place of its section: from its map and the vocabulary alone."""
+"""Space of an instrument on the stage and place of its section, from its map and the vocabulary."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ _FOOTPRINTS: IdentityCache[Footprint] = IdentityCache(128)
 
 
 def footprint(instrument: InstrumentMap | None) -> Footprint:
-    """The room that a player of an instrument takes; of an unknown one, what a body takes."""
+    """The space that a player of an instrument needs; without a map, that of a body."""
     if instrument is None:
         return Footprint(row=len(vocabulary().seating))
     return _FOOTPRINTS.step(_footprint, instrument)
 
 
 def together(footprints: Iterable[Footprint]) -> Footprint:
-    """The room of a musician who plays several instruments in turn, in the section of the first."""
+    """The space of a musician who plays several instruments in turn, in the section of the first."""
     first, *others = footprints
     if not others:
         return first
@@ -73,7 +73,7 @@ def _turn(carriage: Carriage) -> FloatArray:
 
 
 def _ends(instrument: InstrumentMap) -> FloatArray:
-    """Points around the bodies of the model, in the root's frame; what a hand pulls out, also where it goes."""
+    """Corners of the model's bodies in the root's frame; for parts that a hand moves, in both end positions."""
     travels = {
         control.node: np.array(control.motion.axis) * control.travel_m
         for control in instrument.controls
@@ -89,7 +89,7 @@ def _ends(instrument: InstrumentMap) -> FloatArray:
 
 
 def _bodies(instrument: InstrumentMap) -> Iterator[tuple[FloatArray, str]]:
-    """Corners of a box around every body, with its node."""
+    """Corners of a box around every body, with the name of its node."""
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     for body in instrument.proxy:
         if isinstance(body, Box):

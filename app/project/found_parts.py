@@ -1,6 +1,6 @@
-"""Parts and notes of a MIDI file that is read again, recognised as those of the project.
+"""Matches the parts and notes of a re-read MIDI file with those of the project.
 
-A note found again keeps its id; of a change here and one in the file the file's is taken.
+A matched note keeps its id; if both the project and the file changed it, the file's version is used.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from app.score.model import Note, Part, Score, transposed
 
 @dataclass(frozen=True)
 class PartMatch:
-    """A part that was found again.
+    """A part matched again in the file.
 
     Attributes
     ----------
     part_id : str
-        It keeps this id.
+        Id of the part, which it keeps.
     kept, added, removed : int
         Notes.
     by_hand : int
-        Notes whose change by hand stays.
+        Number of notes whose change by hand is kept.
     """
 
     part_id: str
@@ -49,16 +49,16 @@ class PartMatch:
 
 @dataclass(frozen=True)
 class Conflict:
-    """A note that both the user and the file changed; the file's version is taken.
+    """A note changed both by the user and in the file; the file's version is used.
 
     Attributes
     ----------
     read : Note
-        What the file held before.
+        The note in the file when last read.
     by_hand : Note or None
-        What the user made of it; None: erased.
+        The user's version; None: deleted.
     file : Note or None
-        What the file holds now; None: it is gone.
+        The note in the file now; None: deleted.
     """
 
     part_id: str
@@ -70,24 +70,24 @@ class Conflict:
 
 @dataclass(frozen=True)
 class FoundParts:
-    """The parts of the file as those of the project.
+    """The parts of the file matched with those of the project.
 
     Attributes
     ----------
     parts : tuple of Part
         With the ids of the project.
     former : tuple of (Part or None)
-        What each of them was; None: it is new, or kept.
+        Previous version of each part; None if it is new or kept.
     others : tuple of Part
-        The project's parts that the file does not have.
+        Parts of the project that the file lacks.
     places : mapping of str to list of (int, int)
-        Of the notes that were found again, by part id: former and present tick.
+        Previous and new tick of each matched note, by part id.
     added : tuple of str
         Ids of new notes.
     still : bool
         No note has moved.
     kept : frozenset of str
-        Ids of parts that stay as they are here, whatever the file has (`app.project.kept_parts`).
+        Ids of parts that stay unchanged whatever the file has (`app.project.kept_parts`).
     """
 
     parts: tuple[Part, ...]
@@ -103,24 +103,24 @@ class FoundParts:
 
     @property
     def is_unchanged(self) -> bool:
-        """Return whether the file has the notes that it had, where they were."""
+        """Return whether the file has the same notes at the same places as before."""
         return self.still and not (self.added or self.conflicts) and not any(match.removed for match in self.matches)
 
     @property
     def pairs_of_ticks(self) -> list[tuple[int, int]]:
-        """Former and present ticks of all parts; none where nothing has moved."""
+        """Previous and new ticks of matched notes in all parts; empty if nothing moved."""
         if self.still:
             return []
         return [pair for id, own in self.places.items() if id not in self.kept for pair in own]
 
 
 def found_again(project: Project, score: Score, places_now: Mapping[Place, Place], scale: Fraction) -> FoundParts:
-    """Find the parts and notes of the project in a score that was read.
+    """Match the parts and notes of the project with those of a score that was read.
 
     Parameters
     ----------
     places_now : mapping of Place to Place
-        Where tracks are that are recognised, by where they were.
+        New place of each recognised track, by its previous place.
     """
     old = project.score
     hints = [places_now.get(part.place) if is_read(project, part) else None for part in old.parts]
@@ -152,7 +152,7 @@ def found_again(project: Project, score: Score, places_now: Mapping[Place, Place
 
 @dataclass(frozen=True)
 class _FoundPart:
-    """One part, as `FoundParts` has all; ``read`` are its notes in the file by id."""
+    """One matched part with the fields of `FoundParts`; ``read`` has its notes in the file by id."""
 
     part: Part
     read: dict[str, Note]
@@ -172,7 +172,7 @@ def _new_part(part: Part, id: str, note_ids: Iterator[str]) -> _FoundPart:
 def _found_part(
     project: Project, before: Part, part: Part, scale: Fraction, quarters: tuple[int, int], note_ids: Iterator[str]
 ) -> _FoundPart:
-    """A part that was found again, with what was done to it by hand.
+    """Match one part and carry over its changes by hand.
 
     Parameters
     ----------
@@ -211,12 +211,12 @@ def _found_part(
 def _same_notes(
     places: Sequence[int], was: Sequence[Note], now: Sequence[Note], scale: Fraction
 ) -> list[tuple[int, int]] | None:
-    """The pairs of notes of a line that is the same as before, or begins earlier or later as a whole; None: it is not.
+    """The pairs of notes of a line that is unchanged or shifted as a whole; None otherwise.
 
     Parameters
     ----------
     places : sequence of int
-        Of those of the former notes that the file had.
+        Indices of those previous notes that were in the file.
     """
     if len(places) != len(now):
         return None
@@ -233,8 +233,9 @@ def _same_notes(
 
 
 def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
-    """The score with the parts that were found again transposed as they were, and on the map that they were read for
-    where nothing else is said."""
+    """The score with matched parts transposed as before, and with their previous instrument map if no other was
+    chosen.
+    """
     parts = list(score.parts)
     for new, former in former_of.items():
         before, part = old.parts[former], parts[new]
@@ -247,7 +248,7 @@ def _as_read(score: Score, old: Score, former_of: Mapping[int, int]) -> Score:
 
 @dataclass(frozen=True)
 class _Merged:
-    """The file's part with what stays of the changes by hand."""
+    """The file's part with the user's remaining changes."""
 
     part: Part
     by_hand: int
@@ -263,20 +264,20 @@ def _merged(
     *,
     as_a_whole: bool,
 ) -> _Merged:
-    """Three-way merge of each note: the user's where the file did not change it, else the file's.
+    """Three-way merge of each note: the user's version if the file did not change it, else the file's.
 
     Parameters
     ----------
     before : Part
-        As the user has it.
+        The part in the project.
     was : sequence of Note
-        As the file had it.
+        The notes in the file when last read.
     part : Part
-        As the file has it, with the ids of the project.
+        The part in the file now, with ids of the project.
     pairs : sequence of (int, int)
-        Which of ``was`` is which of the part's notes.
+        Indices of matching notes in ``was`` and in the part.
     as_a_whole : bool
-        The line is the same as before, or begins earlier or later: no note has moved by itself.
+        Whether the line is unchanged or shifted as a whole, so that no single note moved.
     """
     here = {note.id: note for note in before.notes}
     distances = [part.notes[new].onset_tick - round(was[one].onset_tick * scale) for one, new in pairs]
@@ -325,7 +326,7 @@ def _renamed(part: Part, part_id: str, note_ids: Sequence[str]) -> Part:
 def _drawn(
     before: Part, kept: frozenset[str], place: Callable[[int], int], scale: Fraction, part: Part
 ) -> tuple[Note, ...]:
-    """Notes drawn here that the file does not have: those that still have room, at their new places."""
+    """Notes added by the user that the file lacks: those that still fit, at their new places."""
     ends = np.maximum.accumulate(np.array([0, *(note.end_tick for note in part.notes)]))
     onsets = [note.onset_tick for note in part.notes]
     result = []

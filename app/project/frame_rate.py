@@ -1,4 +1,4 @@
-"""Frame rates as they are typed and shown: ``24``, ``29.97``, ``30000/1001``."""
+"""Parses and formats frame rates: ``24``, ``29.97``, ``30000/1001``."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _STORED: Final = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
 
 
 def stored_rate(text: str) -> Fraction | None:
-    """The rate that a project's file holds; None where it holds none."""
+    """Parse the frame rate of a project file; None if it is invalid."""
     return Fraction(text) if _STORED.fullmatch(text) else None
 
 
@@ -54,13 +54,13 @@ def exact_number(text: str) -> Fraction:
 
 
 def frame_rate(text: str) -> Fraction:
-    """The exact rate that a text means, whatever its size. Raises ValueError, ZeroDivisionError."""
+    """Parse a frame rate exactly, of any size. Raises ValueError or ZeroDivisionError."""
     rate = exact_number(text)
     return rate if "/" in _plain(text) else pulled_down(rate)
 
 
 def pulled_down(rate: Fraction) -> Fraction:
-    """The exact rate that a decimal short form means: 23.98, 23.976, 29.97 or 59.94."""
+    """The exact rate for a decimal short form: 23.98, 23.976, 29.97 or 59.94."""
     for nominal in PULLED_DOWN:
         exact = Fraction(nominal * 1000, 1001)
         # The usual short forms keep two or three decimals.
@@ -70,11 +70,13 @@ def pulled_down(rate: Fraction) -> Fraction:
 
 
 def frame_rate_text(rate: Fraction) -> str:
-    """The rate as `frame_rate` reads it back exactly: ``60``, ``29.97``, or ``1000/7`` where decimals do not say it."""
+    """Format a rate so that `frame_rate` restores it exactly: ``60``, ``29.97``, or ``1000/7`` if decimals are not
+    exact.
+    """
     short = f"{float(rate):.3f}".rstrip("0").rstrip(".")
     return short if frame_rate(short) == rate else str(rate)
 
 
 def _plain(text: str) -> str:
-    """Full-width digits and signs, as Japanese input methods type them, are digits and signs."""
+    """Normalise full-width digits and signs, as typed by Japanese input methods."""
     return unicodedata.normalize("NFKC", text).strip()

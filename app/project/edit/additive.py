@@ -1,7 +1,6 @@
-"""Edits of an animator's curves: keys, handles, blends, weights.
+"""Edits of additive curves: keys, handles, blends, weights.
 
-Keys are named by their ticks, curves by their names. Moving keys never lets two of a curve share a tick: a key that
-comes upon one that stays takes its place.
+Keys are identified by tick, curves by name. A key moved to the tick of another key replaces it.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ DECIMALS: Final = 5
 
 
 def curves_of(project: Project, player_id: str, channel: str | None = None) -> tuple[AdditiveCurve, ...]:
-    """A player's curves, of one channel or all."""
+    """Additive curves of a player, of one channel or all."""
     return tuple(
         item
         for item in project.corrections.get(player_id, ())
@@ -37,7 +36,7 @@ def curves_of(project: Project, player_id: str, channel: str | None = None) -> t
 def add_curve(
     project: Project, player_id: str, channel: str, keys: Iterable[tuple[int, float]], title: str = ""
 ) -> tuple[Project, str]:
-    """A new curve with automatic handles, and its name. KeyError where there is no such channel."""
+    """Add a curve with automatic handles, and return its name. KeyError for an unknown channel."""
     made = tuple(CurveKey(tick, _bounded(channel, value)) for tick, value in sorted(dict(keys).items()))
     blend = BLEND_BEATS * project.score.ticks_per_quarter
     curve = AdditiveCurve(_new_name(project, player_id), channel, made, blend, blend, title=title)
@@ -45,7 +44,7 @@ def add_curve(
 
 
 def add_key(project: Project, player_id: str, name: str, tick: int, value: float) -> Project:
-    """A key at a tick, with the interpolation of the one before it; one that is there gets the value."""
+    """Add a key with the interpolation of the previous one; an existing key at the tick gets the value."""
 
     def added(curve: AdditiveCurve) -> AdditiveCurve:
         by_tick = {key.tick: key for key in curve.keys}
@@ -77,12 +76,12 @@ def move_keys(project: Project, player_id: str, keys: Keys, ticks: int, value: f
 
 
 def set_values(project: Project, player_id: str, keys: Keys, value: float) -> Project:
-    """Give keys a value."""
+    """Set the value of keys."""
     return _each_key(project, player_id, keys, lambda key, channel: _valued(key, channel, value))
 
 
 def set_interpolation(project: Project, player_id: str, keys: Keys, interpolation: Interpolation) -> Project:
-    """Set how curves continue from keys."""
+    """Set the interpolation after keys."""
     return _each_key(project, player_id, keys, lambda key, _: msgspec.structs.replace(key, interpolation=interpolation))
 
 
@@ -95,7 +94,7 @@ def set_tangent(
     tangent: Tangent,
     other: Tangent | None = None,
 ) -> Project:
-    """Place one handle of a key; the other one is placed as ``other`` says, or stays."""
+    """Place one handle of a key; the opposite handle is set to ``other`` or stays."""
 
     def placed(key: CurveKey, channel: str) -> CurveKey:
         values: dict[str, Tangent] = {side: _sane(tangent, channel)}
@@ -107,12 +106,12 @@ def set_tangent(
 
 
 def free_tangents(project: Project, player_id: str, keys: Keys) -> Project:
-    """Let the handles of keys be automatic again."""
+    """Make the handles of keys automatic again."""
     return _each_key(project, player_id, keys, lambda key, _: msgspec.structs.replace(key, arrive=None, leave=None))
 
 
 def flatten_tangents(project: Project, player_id: str, keys: Keys) -> Project:
-    """Let curves be level at keys: each handle a third of the way to the neighbour."""
+    """Make curves level at keys: handles reach a third of the way to the neighbouring keys."""
     for name, chosen in keys.items():
 
         def level(curve: AdditiveCurve, chosen: Collection[int] = frozenset(chosen)) -> AdditiveCurve:
@@ -133,7 +132,7 @@ def flatten_tangents(project: Project, player_id: str, keys: Keys) -> Project:
 
 
 def delete_keys(project: Project, player_id: str, keys: Keys) -> Project:
-    """Remove keys; a curve without any goes."""
+    """Delete keys; a curve without keys is removed."""
     for name, chosen in keys.items():
         curve = _curve(project, player_id, name)
         left = [key for key in curve.keys if key.tick not in frozenset(chosen)]
@@ -145,8 +144,7 @@ def delete_keys(project: Project, player_id: str, keys: Keys) -> Project:
 
 
 def paste_keys(project: Project, player_id: str, name: str, keys: Iterable[CurveKey], at_tick: int) -> Project:
-    """Put copied keys into a curve, the first of them at a tick; they take the places of those between the first and
-    the last."""
+    """Insert copied keys into a curve, the first at a tick; existing keys between the first and last are replaced."""
     copied = sorted(keys, key=lambda key: key.tick)
     if not copied:
         return project
@@ -167,8 +165,9 @@ def paste_keys(project: Project, player_id: str, name: str, keys: Iterable[Curve
 
 
 def change_curves(project: Project, player_id: str, names: Iterable[str], **values: object) -> Project:
-    """Set ``weight``, ``enabled``, ``title``, ``blend_in_ticks`` or ``blend_out_ticks`` of curves, each within what
-    there is."""
+    """Set ``weight``, ``enabled``, ``title``, ``blend_in_ticks`` or ``blend_out_ticks`` of curves, clipped to their
+    ranges.
+    """
     if "weight" in values:
         values["weight"] = round(min(max(float(str(values["weight"])), 0.0), 1.0), 4)
     for field in ("blend_in_ticks", "blend_out_ticks"):
@@ -184,7 +183,7 @@ def change_curves(project: Project, player_id: str, names: Iterable[str], **valu
 
 
 def delete_curves(project: Project, player_id: str, names: Iterable[str]) -> Project:
-    """Remove whole curves."""
+    """Delete whole curves."""
     gone = frozenset(names)
     return take_back(project, player_id, [curve for curve in curves_of(project, player_id) if curve.name in gone])
 

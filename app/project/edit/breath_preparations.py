@@ -1,4 +1,4 @@
-"""Events that belong to a breath and go along with it: its preparation, and the instrument lowered in the rest."""
+"""Events that move with a breath: its preparation, and the lowered instrument in the same rest."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LOWERINGS = answered_by("lowering")
 
 
 def preparations_of(plan: PlayerPlan) -> dict[str, BreathEvent]:
-    """Return the preparations of a plan by the ids of the breaths that they lead to."""
+    """Return the preparations of a plan, by the id of the breath they lead to."""
     of_note = {EventId.parse(event.id).of: event for event in plan.breaths if not event.draws_air}
     breaths = ((event.id, EventId.parse(event.id)) for event in plan.breaths if event.draws_air)
     return {
@@ -32,7 +32,7 @@ def preparations_of(plan: PlayerPlan) -> dict[str, BreathEvent]:
 def preparation_with(
     project: Project, player_id: str, breath: BreathEvent, placed: SetBreath, prepared: BreathEvent
 ) -> SetBreath:
-    """Return a preparation shifted as far as the start of its breath, and before the same note."""
+    """Return a preparation shifted by as much as the start of its breath, before the same note."""
     before = breath_of(project, player_id, prepared)
     onset, by = _start(project, player_id, breath, placed)
     return msgspec.structs.replace(
@@ -45,8 +45,9 @@ def preparation_with(
 
 
 def lowered_with(project: Project, player_id: str, breath: BreathEvent, placed: SetBreath) -> list[Correction]:
-    """Return the corrections of the instrument lowered before a breath's note, raised as much sooner or later as the
-    breath starts. One that the generator ends follows by itself."""
+    """Return corrections for the lowered instrument before a breath's note, so that it is raised earlier or later by as
+    much as the breath moved; none if the generator adapts it anyway.
+    """
     if BREATH_KINDS[placed.kind].within or not breath.draws_air:
         return []
     _, by = _start(project, player_id, breath, placed)
@@ -60,7 +61,7 @@ def lowered_with(project: Project, player_id: str, breath: BreathEvent, placed: 
 
 
 def moved_along(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[str, ...]:
-    """Return the ids of the preparations that end where breaths placed by hand begin: they went along with them."""
+    """Return the ids of preparations that moved along because they end where breaths placed by hand begin."""
     said = {item.about: item for item in project.corrections.get(player_id, ()) if isinstance(item, SetBreath)}
     found = []
     for event_id in event_ids:
@@ -72,6 +73,6 @@ def moved_along(project: Project, player_id: str, event_ids: Iterable[str]) -> t
 
 
 def _start(project: Project, player_id: str, breath: BreathEvent, placed: SetBreath) -> tuple[int, int]:
-    """Return the onset of the note that a placed breath serves, and the ticks by which the breath starts later."""
+    """Return the onset of the note after a placed breath, and the new start tick of the breath."""
     onset = next(note.onset_tick for note in notes_of(project, player_id) if note.id == placed.note_id)
     return onset, onset + placed.start_offset_tick - breath.start_tick

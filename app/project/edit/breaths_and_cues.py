@@ -1,4 +1,4 @@
-"""Breaths and cues added and moved by hand: each belongs to a note, and goes over to another one."""
+"""Adding and moving breaths and cues by hand: each belongs to a note, and changes its note when moved."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ CATCH_S = 0.3
 
 
 def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind = "breath") -> Edited:
-    """Add a breath (or preparation) for the first note at or after a tick, unless there is one already.
+    """Add a breath (or preparation) for the first note at or after a tick, unless it already has one.
 
-    It takes the rest before the note, at most one felt beat; where notes touch, `CATCH_S` of the note before, at most
-    half of it. A preparation takes the beat before the breath.
+    It uses the rest before the note, at most one felt beat; if notes touch, `CATCH_S` of the previous note, at most
+    half of it. A preparation uses the beat before the breath.
     """
     notes = notes_of(project, plan.player_id)
     index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
@@ -60,7 +60,7 @@ def add_breath(project: Project, plan: PlayerPlan, tick: int, kind: BreathKind =
 
 
 def add_cue(project: Project, plan: PlayerPlan, tick: int) -> Edited:
-    """Add a cue to the player's first entry at or after a tick, unless there is one already."""
+    """Add a cue for the player's first entry at or after a tick, unless it already has one."""
     notes = notes_of(project, plan.player_id)
     index = bisect_left(notes, tick, key=lambda note: note.onset_tick)
     if index == len(notes):
@@ -76,19 +76,19 @@ def notes_of(project: Project, player_id: str) -> tuple[Note, ...]:
 
 
 def removals_of(project: Project, player_id: str, event_id: str) -> tuple[Correction, ...]:
-    """The corrections that leave an event out, and do nothing else."""
+    """The corrections that only remove an event."""
     return tuple(item for item in corrections_of(project, player_id, (event_id,)) if item.left_out == event_id)
 
 
 def _added(project: Project, player_id: str, item: SetBreath | SetCue) -> Edited:
-    """The project with something added, or back in place of what was removed there."""
+    """Add a correction, or restore what was removed there."""
     removed = removals_of(project, player_id, item.about)
     item = msgspec.structs.replace(item, added=not removed)
     return Edited(with_corrections(take_back(project, player_id, removed), player_id, (item,)), (item.about,))
 
 
 def breath_of(project: Project, player_id: str, event: BreathEvent) -> SetBreath:
-    """The correction that already speaks of a breath, or one that repeats the generated one."""
+    """The existing correction of a breath, or one that equals the generated breath."""
     for item in corrections_of(project, player_id, (event.id,)):
         if isinstance(item, SetBreath):
             return item
@@ -122,7 +122,7 @@ def breath_at(
 
 
 def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: bool) -> SetBreath:
-    """A breath within a note stays in it."""
+    """Move a breath within a note, keeping it inside the note."""
     first, last = start - note.onset_tick, end - note.onset_tick
     if moves:
         by = max(-first, 0) + min(note.duration_tick - last, 0)
@@ -133,7 +133,7 @@ def _breath_within(before: SetBreath, note: Note, start: int, end: int, moves: b
 
 
 def _note_after(notes: Sequence[Note], end: int) -> int:
-    """The note that a breath ending at a tick serves: the next one, or the one whose first half it ends in."""
+    """Index of the note for a breath that ends at a tick: the next note, or the note in whose first half it ends."""
     index = bisect_left(notes, end, key=lambda note: note.onset_tick)
     if index > 0 and (index == len(notes) or end < notes[index - 1].onset_tick + notes[index - 1].duration_tick / 2):
         return index - 1
@@ -141,7 +141,7 @@ def _note_after(notes: Sequence[Note], end: int) -> int:
 
 
 def moved_from(before: SetBreath | SetCue, note_id: str) -> str | None:
-    """Return the note whose event it was at first; None for what is at home, or was added."""
+    """Return the note to which the event belonged originally; None if it is at its original note or was added."""
     if before.added:
         return None
     home = before.note_id if before.moved_from is None else before.moved_from
@@ -157,7 +157,7 @@ def cue_at(project: Project, player_id: str, event: CueEvent, start: int, end: i
 
 
 def _room_before(project: Project, notes: Sequence[Note], index: int) -> int:
-    """Return where an added breath before a note begins."""
+    """Return the start tick of an added breath before a note."""
     onset, clock = notes[index].onset_tick, project.score.tempo_map
     beat = project.metre_map.felt_ticks_at(onset)
     if index == 0:

@@ -1,4 +1,4 @@
-"""Edits of the bookmarks of cameras."""
+"""Edits of camera bookmarks."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from app.project.names import clean_name
 
 
 def keep_camera(project: Project, camera: CameraBookmark) -> Project:
-    """Add a bookmark, or put it in place of the one of its name, ignoring case. Raises UsageError
-    (``camera.no_name``)."""
+    """Add a bookmark, replacing one of the same name (ignoring case). Raises UsageError for an empty name."""
     camera = msgspec.structs.replace(camera, name=_named(camera.name))
     cameras, index = project.cameras, _index(project, camera.name)
     before, after = (cameras, ()) if index is None else (cameras[:index], cameras[index + 1 :])
@@ -22,7 +21,7 @@ def keep_camera(project: Project, camera: CameraBookmark) -> Project:
 
 
 def rename_camera(project: Project, name: str, new_name: str) -> Project:
-    """Give a bookmark another name. Raises UsageError (``camera.no_name``, ``camera.name_taken``)."""
+    """Rename a bookmark. Raises UsageError if the name is empty or taken."""
     new_name = _named(new_name)
     taken = _index(project, new_name)
     if taken is not None and taken != _index(project, name):
@@ -37,7 +36,7 @@ def rename_camera(project: Project, name: str, new_name: str) -> Project:
 
 
 def remove_camera(project: Project, name: str) -> Project:
-    """Take a bookmark away."""
+    """Delete a bookmark."""
     return replace(project, cameras=tuple(camera for camera in project.cameras if camera.name != name))
 
 

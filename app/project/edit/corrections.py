@@ -1,4 +1,4 @@
-"""Corrections put into a project and taken out: one for each place, the last one counts; and problems let be."""
+"""Adding and removing corrections, of which the last one at each place counts; and ignoring problems."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 
 def with_corrections(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
-    """Add corrections; each takes the place of one about the same place. KeyError where there is no such player."""
+    """Add corrections; each replaces one with the same place. KeyError for an unknown player."""
     before = project.corrections.get(project.player(player_id).id, ())
     kept = {correction.place: correction for correction in before}
     for correction in corrections:
@@ -30,14 +30,14 @@ def with_corrections(project: Project, player_id: str, corrections: Iterable[Cor
 
 
 def take_back(project: Project, player_id: str, corrections: Iterable[Correction]) -> Project:
-    """Remove corrections: the generator decides there again. Others are not touched."""
+    """Remove corrections, so that the generated values return. Others are not changed."""
     places = {correction.place for correction in corrections}
     before = project.corrections.get(player_id, ())
     return _with(project, player_id, tuple(item for item in before if item.place not in places))
 
 
 def ignore(project: Project, performer_id: str, problems: Iterable[Problem]) -> Project:
-    """Let problems of a performer be."""
+    """Mark problems of a performer as ignored."""
     clock, known = project.score.tempo_map, project.ignored_problems.get(performer_id, ())
     added = (ignored_problem(problem, clock) for problem in problems)
     return _ignoring(project, performer_id, tuple(dict.fromkeys((*known, *added))))
@@ -64,7 +64,7 @@ def _ignoring(project: Project, performer_id: str, ignored: tuple[IgnoredProblem
 def _changed(
     known: Mapping[str, tuple[T, ...]], performer_id: str, items: tuple[T, ...]
 ) -> Mapping[str, tuple[T, ...]]:
-    """Give a performer other items, of whom no row is left without any; the same mapping where nothing changes."""
+    """Set a performer's items in a mapping, without keeping empty rows; the same mapping if nothing changes."""
     if items == known.get(performer_id, ()):
         return known
     others = {id: kept for id, kept in known.items() if id != performer_id}
@@ -72,7 +72,7 @@ def _changed(
 
 
 class Edited(NamedTuple):
-    """A project after an edit, and the ids that the edited events have in it, in the order they were given."""
+    """A project after an edit, and the new ids of the edited events, in the given order."""
 
     project: Project
     event_ids: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""Givers and takers of entries: a cue that another player takes over, or that brings in others."""
+"""Changes who gives a cue and which players it cues."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ LEAST_BEATS, MOST_BEATS = 0.05, 8.0
 
 
 def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, peak_tick: float | None = None) -> Edited:
-    """Let another player give an entry; it is marked as that player's, with a preparatory beat as long as before.
+    """Assign a cue to another player; it is stored as that player's correction with a preparatory beat of equal length.
 
     Parameters
     ----------
     plan : PlayerPlan
-        Of who gives it in the plan that the user saw.
+        Plan of the current giver, as shown to the user.
     giver_id : str
-        Who gives it from now on. Who had it taken away before by the user and gets it back is as generated again.
+        The new giver. If the cue was generated for that player and removed by the user, the generated cue returns.
     peak_tick : float, optional
-        Where the preparatory beat begins from now on.
+        New time of the preparatory beat.
     """
     cue = _cue(project, plan, cue_id)
     if cue is None:
@@ -58,7 +58,7 @@ def set_giver(project: Project, plan: PlayerPlan, cue_id: str, giver_id: str, pe
 
 
 def set_takers(project: Project, plan: PlayerPlan, cue_id: str, takers: Collection[str] | None) -> Project:
-    """Let a cue bring in these players (ids); None: who comes in there."""
+    """Set the players that a cue brings in (ids); None: all who come in there."""
     cue = _cue(project, plan, cue_id)
     if cue is None:
         return project
@@ -68,19 +68,19 @@ def set_takers(project: Project, plan: PlayerPlan, cue_id: str, takers: Collecti
 
 
 def hand_over(project: Project, plan: PlayerPlan, cue_id: str, taker_id: str, other_id: str, entry_tick: int) -> Edited:
-    """Let a cue bring in another player in place of one, and at another place.
+    """Replace one cued player of a cue by another, possibly at another place.
 
     Parameters
     ----------
     taker_id, other_id : str
-        Who took it, and who does from now on; the same player where only the place is another.
+        The former and the new cued player; equal if only the place changes.
     entry_tick : int
-        Where the entry is from now on.
+        New place of the entry.
 
     Raises
     ------
     AppError
-        ``edit.no_note_to_take``: the player plays nothing from there on.
+        The player has no note from there on.
     """
     cue = _cue(project, plan, cue_id)
     if cue is None:
@@ -94,13 +94,13 @@ def hand_over(project: Project, plan: PlayerPlan, cue_id: str, taker_id: str, ot
 
 
 def _cue(project: Project, plan: PlayerPlan, cue_id: str) -> CueEvent | None:
-    """The cue of a plan, where it is still there."""
+    """The cue in a plan; None if it no longer exists."""
     there = is_there(project, plan.player_id, cue_id)
     return next((event for event in plan.cues if event.id == cue_id), None) if there else None
 
 
 def _said(project: Project, player_id: str, cue: CueEvent) -> SetCue:
-    """The correction that speaks of a cue already, or one that repeats the generated one."""
+    """The existing correction of a cue, or one that equals the generated cue."""
     said = corrections_of(project, player_id, (cue.id,))
     found = next((item for item in said if isinstance(item, SetCue)), None)
     return found or SetCue(EventId.parse(cue.id).of, _beats_from(project, cue, _peak_tick(project, cue)))
@@ -111,12 +111,12 @@ def _peak_tick(project: Project, cue: CueEvent) -> float:
 
 
 def _beats_from(project: Project, cue: CueEvent, peak_tick: float) -> float:
-    """Return how long a preparatory beat from a tick is, in felt beats."""
+    """Return the length in felt beats of a preparatory beat that begins at a tick."""
     beats = (cue.end_tick - peak_tick) / project.metre_map.felt_ticks_at(cue.end_tick)
     return min(max(round(beats, 4), LEAST_BEATS), MOST_BEATS)
 
 
 def _beats(project: Project, cue: CueEvent) -> float:
-    """Return how long its preparatory beat is, in beats of the score."""
+    """Return the length of the preparatory beat in beats of the score."""
     beat = LEAD_BEATS * project.metre_map.felt_ticks_at(cue.end_tick)
     return max(round((cue.end_tick - cue.start_tick) / beat, 4), LEAST_BEATS) if cue.corrected else 1.0

@@ -1,4 +1,4 @@
-"""Corrections of dances: put in, and taken out again. KeyError where there is no such dancer."""
+"""Adding and removing corrections of dances. KeyError for an unknown dancer."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ from app.project.model import Project
 
 
 def pin_state(project: Project, dancer_id: str, tick: int, state: int) -> Project:
-    """Dance this basic motion at this tick, whatever was pinned there."""
+    """Require a basic motion at a tick, replacing what was pinned there."""
     return _put(project, dancer_id, PinState(_tick(tick), state))
 
 
 def use_segment(project: Project, dancer_id: str, tick: int, segment: int) -> Project:
-    """Dance this segment at this tick, whatever was pinned there."""
+    """Require a segment at a tick, replacing what was pinned there."""
     return _put(project, dancer_id, UseSegment(_tick(tick), segment))
 
 
 def forbid_state(project: Project, dancer_id: str, start_tick: int, end_tick: int, state: int) -> Project:
-    """Do not dance this basic motion from one tick to another; an empty span forbids nothing. What is pinned there
-    stays, and counts."""
+    """Exclude a basic motion from one tick to another; an empty span has no effect. Pinned motions within the span stay
+    and have priority.
+    """
     start, end = _tick(start_tick), _tick(end_tick)
     return _put(project, dancer_id, ForbidState(start, end, state)) if start < end else project
 
@@ -42,7 +43,7 @@ def _tick(tick: int) -> int:
 
 
 def _place(item: DanceCorrection) -> tuple[int, ...]:
-    """Place of a correction: at one tick one thing is pinned."""
+    """Key of a correction: at one tick only one thing can be pinned."""
     return (item.start_tick, item.end_tick, item.state) if isinstance(item, ForbidState) else (item.tick,)
 
 

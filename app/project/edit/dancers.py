@@ -1,4 +1,4 @@
-"""Edits of dancers: who dances, what, where and how."""
+"""Edits of dancers: choreography, place, name and other settings."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ MOST_IN_ROW: Final = 5
 
 
 def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str) -> tuple[Project, str]:
-    """Add a dancer at a free place in front of the players, in the bundled character that is seen least often; the
-    dancer's id comes with the project.
+    """Add a dancer at a free place in front of the players, with the least used bundled character; returns the project
+    and the dancer's id.
 
     Parameters
     ----------
     choreography : str or path
         A ``.choreography`` file, or the name of a bundled choreography.
     name : str
-        Gets a number where another performer carries it.
+        Name; a number is added if another performer has it.
 
     Raises
     ------
     AppError
-        ``player.no_name``, ``dancer.too_many``, ``dancer.no_choreography``.
+        The name is empty, there are too many dancers, or the choreography is invalid.
     """
     [dancer_id] = fresh_dancer_ids(project)
     dancer = Dancer(
@@ -55,7 +55,9 @@ def add_dancer(project: Project, choreography: str | os.PathLike[str], name: str
 
 
 def remove_dancers(project: Project, dancer_ids: Collection[str]) -> Project:
-    """Send dancers away, with their corrections and ignored problems."""
+    """Copy dancers with their corrections and seed, so that the copies dance in unison; returns their ids. Each copy is
+    listed after its original.
+    """
     kept = tuple(dancer for dancer in project.dancers if dancer.id not in dancer_ids)
     if len(kept) == len(project.dancers):
         return project
@@ -87,15 +89,15 @@ def duplicate_dancers(project: Project, dancer_ids: Collection[str]) -> tuple[Pr
 
 
 def rename_dancer(project: Project, dancer_id: str, name: str) -> Project:
-    """Call a dancer something else; a name that another performer carries gets a number. Raises AppError
-    ``player.no_name``."""
+    """Rename a dancer; a number is added if another performer has the name. Raises AppError for an empty name."""
     called = free_name(visible_name(name), project.performer_names(but=dancer_id))
     return _changed(project, (dancer_id,), {"name": called})
 
 
 def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any) -> Project:
     """Set fields of `Dancer` (``character_id``, ``delay_beats``, ``mirrored`` ...) for several dancers; numbers are
-    held within their bounds. See `rename_dancer`, `set_choreography` and `place_dancers` for the others."""
+    clipped. See `rename_dancer`, `set_choreography` and `place_dancers` for the others.
+    """
     held = {
         name: DANCER_PARAMETERS[name].held(value) if name in DANCER_PARAMETERS else value
         for name, value in fields.items()
@@ -104,20 +106,21 @@ def change_dancers(project: Project, dancer_ids: Collection[str], **fields: Any)
 
 
 def dancer_edit(field: str, dancer: str) -> Message:
-    """Name in the history for a change of a field of a dancer of this name."""
+    """History entry for a change of a dancer's field."""
     if field in DANCER_PARAMETERS:
         return Message("edit.dancer_parameter", {"parameter": DANCER_PARAMETERS[field].label, "dancer": dancer})
     return Message(f"edit.dancer_{field}", {"dancer": dancer})
 
 
 def set_choreography(project: Project, dancer_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
-    """Let dancers dance another choreography. Corrections stay: their basic motions and segments are then those of its
-    list. Raises AppError ``dancer.no_choreography``."""
+    """Change the choreography of dancers. Corrections stay, and now refer to its motions and segments by number. Raises
+    AppError for an invalid choreography.
+    """
     return _changed(project, dancer_ids, {"choreography": checked_choreography(choreography)})
 
 
 def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Put dancers, by id, somewhere on the stage."""
+    """Set the stage places of dancers, by id."""
     return _with_dancers(
         project,
         (msgspec.structs.replace(dancer, stage=places.get(dancer.id, dancer.stage)) for dancer in project.dancers),
@@ -125,13 +128,12 @@ def place_dancers(project: Project, places: Mapping[str, StagePosition]) -> Proj
 
 
 def move_dancers(project: Project, dancer_ids: Collection[str], before: int) -> Project:
-    """Put dancers, in their order, before the one who has the number ``before`` now; no one moves on the stage."""
+    """Move dancers in the list, keeping their order, before index ``before``; stage places do not change."""
     return _with_dancers(project, moved_before(project.dancers, dancer_ids, before))
 
 
 def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
-    """Places in front of the players for so many more dancers, facing the audience: rows, filled from the middle, in
-    which no one stands yet."""
+    """Free places for more dancers in front of the players, facing the audience: in rows filled from the middle."""
     taken = [dancer.stage for dancer in project.dancers]
     found: list[StagePosition] = []
     places = _rows(_front_m(project))
@@ -143,7 +145,7 @@ def free_places(project: Project, count: int) -> tuple[StagePosition, ...]:
 
 
 def _front_m(project: Project) -> float:
-    """Return how near to the audience the first row is: no player's instrument reaches a dancer."""
+    """Return the z coordinate of the first row, far enough from the players' instruments."""
     reaches_m = (
         player.stage.z_m + max(room.left_m, room.right_m, room.ahead_m, ELBOW_M)
         for player in project.players
@@ -153,8 +155,9 @@ def _front_m(project: Project) -> float:
 
 
 def _rows(front_m: float) -> Iterator[StagePosition]:
-    """Places row by row towards the audience, from the middle to both sides; every other row stands in the gaps of the
-    one behind it. Where the stage ends they go on in its last row."""
+    """Yield places row by row towards the audience, from the middle to both sides, in a staggered grid. At the edge of
+    the stage they continue in the last row.
+    """
     row = 0
     while True:
         z_m = min(front_m + row * DANCER_ROOM_M, limits.STAGE_M[1])
@@ -190,8 +193,9 @@ def _changed(project: Project, dancer_ids: Collection[str], fields: Mapping[str,
 
 
 def checked_choreography(choreography: str | os.PathLike[str]) -> str:
-    """A choreography as a project keeps it: a bundled one's name, or the absolute path of a file. Raises AppError
-    ``dancer.no_choreography``."""
+    """A choreography in stored form: a bundled name, or the absolute path of a file. Raises AppError if it is
+    invalid.
+    """
     text = os.fspath(choreography)
     if is_bundled_name(text):
         return text
@@ -208,20 +212,20 @@ def _seldom_seen(project: Project) -> str:
 
 
 def set_body_dance(project: Project, player_ids: Collection[str], choreography: str | os.PathLike[str]) -> Project:
-    """Let the bodies of players dance a choreography while they play: a bundled one by its name, any other by its file;
-    empty: they move as is generated.
+    """Set the choreography that players' bodies dance while they play: a bundled name or a file; empty: generated
+    motion only.
 
     Raises
     ------
     AppError
-        ``dancer.no_choreography``.
+        The choreography is invalid.
     """
     chosen = checked_choreography(choreography) if os.fspath(choreography) else ""
     return set_parameters(project, player_ids, choreography=chosen)
 
 
 def vary_body_dances(project: Project, player_ids: Collection[str]) -> Project:
-    """Give each of these players another dance to the same music, each a different one."""
+    """Give each of these players a different dance to the same music."""
     for player in project.players:
         if player.id in player_ids:
             # 0 is a dance of the player's own.

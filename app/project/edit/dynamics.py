@@ -1,4 +1,4 @@
-"""Curves of the dynamics: taken from a recording, and corrected by hand."""
+"""Edits of dynamics curves, taken from a recording or corrected by hand."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _RESOLUTION: Final = 127
 
 
 def set_dynamics(project: Project, curves: Mapping[str, ControllerCurve]) -> Project:
-    """Give parts (by id) these curves in the place of those of their kind."""
+    """Replace the parts' curves of the same kind."""
     return _with_curves(
         project,
         {
@@ -31,17 +31,17 @@ def set_dynamics(project: Project, curves: Mapping[str, ControllerCurve]) -> Pro
 def change_level(
     project: Project, player_id: str, kind: CurveKind, spans: Sequence[tuple[int, int]], by: float, blend_beats: float
 ) -> Project:
-    """Let a controller say more or less (``by`` of 0..1) in some spans of ticks.
+    """Raise or lower a controller (by ``by``, -1..1) in some spans of ticks.
 
     Parameters
     ----------
     blend_beats : float
-        Over so many felt beats beside a span the curve goes back to what it was.
+        Felt beats next to a span over which the curve returns to its previous values.
 
     Raises
     ------
     UsageError
-        ``dynamics.no_curve``: the part has no such controller.
+        The part has no such controller.
     """
     part = project.part(project.player(player_id))
     curve = next((curve for curve in part.curves if curve.kind == kind), None)

@@ -1,7 +1,7 @@
-"""Edits of a player's events: what the user requests of an event becomes the correction that makes it so.
+"""Edits of a player's events: each request becomes a correction.
 
-All take the plan that the user saw, and event ids of that plan. Those that may give an event another id (a breath
-dragged to another note) return the new ids beside the project.
+All functions take the plan shown to the user and ids of its events. Functions that may change an event's id (a breath
+dragged to another note) also return the new ids.
 """
 
 from __future__ import annotations
@@ -63,21 +63,23 @@ _KEPT: Final = 1e-4
 
 
 def move(project: Project, plan: PlayerPlan, event_ids: Sequence[str], ticks: int) -> Edited:
-    """Shift events in time. Breaths and cues that come to another note belong to that one from then on."""
+    """Shift events in time. Breaths and cues that reach another note belong to it afterwards."""
     return _placed(project, plan, event_ids, ticks, ticks)
 
 
 def resize(
     project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_ticks: int = 0, end_ticks: int = 0
 ) -> Project:
-    """Shift the starts and the ends of events; each keeps a tick of length and its note. A cue has its entry as end:
-    only its start, the time of the preparatory beat, can be drawn."""
+    """Shift the starts and ends of events; each keeps at least a tick and its note. The end of a cue is the entry, so
+    only its start, the preparatory beat, can be changed.
+    """
     return _placed(project, plan, event_ids, start_ticks, end_ticks).project
 
 
 def set_amounts(project: Project, plan: PlayerPlan, amounts: Mapping[str, float]) -> Project:
-    """Return how deep (breaths), how far (gestures, -1..1) or how strong (expressions) events are, by id; clipped to
-    what there is."""
+    """Set depth (breaths), amount (gestures, -1..1) or strength (expressions) of events by id; clipped to the allowed
+    range.
+    """
     corrections: list[Correction] = []
     for event in _current(project, plan, amounts):
         if type(event) in AMOUNTS:
@@ -93,7 +95,7 @@ def set_fades(
     fade_in_s: float | None = None,
     fade_out_s: float | None = None,
 ) -> Project:
-    """Return how long expressions, poses and styles take to come and to go, seconds; None leaves it."""
+    """Set fade-in and fade-out times of expressions, poses and styles, in seconds; None leaves a value unchanged."""
     ticks = project.score.tempo_map.ticks
     corrections: list[Correction] = []
     for event in _current(project, plan, event_ids):
@@ -122,12 +124,12 @@ def set_expression(project: Project, plan: PlayerPlan, event_ids: Iterable[str],
 
 
 def set_style(project: Project, plan: PlayerPlan, event_ids: Iterable[str], style: str) -> Project:
-    """Play in another style there."""
+    """Change the style of style spans."""
     return _all_changed(project, plan, event_ids, StyleEvent, style=style)
 
 
 def set_embouchure(project: Project, player_id: str, note_ids: Iterable[str], **values: float) -> Project:
-    """Set ``tension``, ``effort`` or ``air`` of notes, 0..1; what else was set by hand stays."""
+    """Set ``tension``, ``effort`` or ``air`` of notes, 0..1; other values set by hand stay."""
     before = {item.note_id: item for item in project.corrections.get(player_id, ()) if isinstance(item, SetEmbouchure)}
     clipped = {name: round(min(max(value, 0.0), 1.0), 4) for name, value in values.items()}
     return with_corrections(
@@ -138,7 +140,7 @@ def set_embouchure(project: Project, player_id: str, note_ids: Iterable[str], **
 
 
 def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) -> Project:
-    """Play notes (by id) with the fingerings of these labels."""
+    """Pin notes (by id) to the fingerings of these labels."""
     return with_corrections(project, player_id, [PinFingering(note_id, label) for note_id, label in labels.items()])
 
 
@@ -146,7 +148,7 @@ def pin_fingerings(project: Project, player_id: str, labels: Mapping[str, str]) 
 
 
 def toggle_preparation(project: Project, plan: PlayerPlan, note_id: str) -> Edited:
-    """Take the preparatory motion before a note's breath away, or give it one."""
+    """Remove the preparatory motion before a note's breath, or add one."""
     event_id = f"preparation:{note_id}"
     if any(event.id == event_id for event in plan.breaths):
         return Edited(remove(project, plan, (event_id,)), ())
@@ -166,7 +168,7 @@ def add_gesture(
     amount: float = 0.5,
     gesture: str = "",
 ) -> Edited:
-    """Add a gesture of the animator's; ``gesture`` is the name of one of the kind ``"named"``."""
+    """Add a gesture; ``gesture`` is its name if the kind is ``"named"``."""
     end_tick = max(end_tick, start_tick + 1)
     added = AddGesture(_new_name(project, player_id), kind, start_tick, end_tick, amount, gesture)
     return Edited(with_corrections(project, player_id, (added,)), (added.about,))
@@ -190,7 +192,7 @@ def add_expression(
 
 
 def add_style(project: Project, player_id: str, style: str, start_tick: int, end_tick: int) -> Edited:
-    """Add a region in which the player plays in a style; it fades within a felt beat, or a quarter of its length."""
+    """Add a span in another style, with fades of a felt beat or a quarter of its length."""
     end_tick = max(end_tick, start_tick + 1)
     fade = min(project.metre_map.felt_ticks_at(start_tick), (end_tick - start_tick) // 4)
     added = PlayStyle(_new_name(project, player_id), style, start_tick, end_tick, fade, fade)
@@ -201,8 +203,7 @@ def add_style(project: Project, player_id: str, style: str, start_tick: int, end
 
 
 def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Project:
-    """Leave events and marks out: what the user added is forgotten, what the generator made or the score has is marked
-    as removed."""
+    """Remove events and marks: added ones are deleted, generated or written ones are marked as removed."""
     player_id = plan.player_id
     note_ids = frozenset(note.id for note in notes_of(project, player_id))
     event_ids = tuple(event_ids)
@@ -224,8 +225,9 @@ def remove(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> Proj
 
 
 def give_back(project: Project, player_id: str, event_ids: Iterable[str] = (), note_ids: Iterable[str] = ()) -> Project:
-    """Let the generator decide again about events, and about fingering, embouchure and marks of notes. What the user
-    added has nothing to go back to, and goes."""
+    """Reset events, and fingering, embouchure and marks of notes, to their generated values. Added events are
+    deleted.
+    """
     notes = tuple(note_ids)
     project = take_back(project, player_id, corrections_at(project, player_id, notes))
     events = tuple(event_ids)
@@ -244,7 +246,7 @@ def forget(
     note_ids: Collection[str],
     field: str | None = None,
 ) -> Project:
-    """Take pins or embouchures of notes back; of an embouchure perhaps only one value."""
+    """Remove pinned fingerings or embouchures of notes; optionally only one value of an embouchure."""
     for item in project.corrections.get(player_id, ()):
         if not isinstance(item, kind) or item.note_id not in note_ids:
             continue
@@ -258,7 +260,7 @@ def forget(
 
 
 def give_back_player(project: Project, player_id: str) -> Project:
-    """Let the generator decide about everything of a player again."""
+    """Reset everything of a player to the generated values."""
     return take_back(project, player_id, project.corrections.get(player_id, ()))
 
 
@@ -315,12 +317,12 @@ def _placed(project: Project, plan: PlayerPlan, event_ids: Sequence[str], start_
 
 
 def _current(project: Project, plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
-    """Events of a plan, without those whose notes or additions are gone: plans lag behind the project."""
+    """Events of a plan, without those whose note or correction no longer exists, since plans lag behind the project."""
     return placed_events(plan, [event_id for event_id in event_ids if is_there(project, plan.player_id, event_id)])
 
 
 def _new_name(project: Project, player_id: str) -> str:
-    """The first ``own-n`` that no added event of the player has."""
+    """The first name ``own-n`` that no added event of the player has."""
     taken = {item.anchor for item in project.corrections.get(player_id, ())}
     number = 1
     while f"{OWN}{number}" in taken:
@@ -329,8 +331,9 @@ def _new_name(project: Project, player_id: str) -> str:
 
 
 def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object) -> list[Correction]:
-    """The correction that speaks of an event with other values: the one there is, or one of what was generated. None
-    where a generated event has these values already."""
+    """Corrections that give an event other values: the existing one or one of the generated event; empty if a generated
+    event has these values already.
+    """
     said = corrections_of(project, plan.player_id, (event.id,))
     if not said and not event.corrected and all(_same(getattr(event, name), value) for name, value in values.items()):
         return []
@@ -343,7 +346,7 @@ def _changed(project: Project, plan: PlayerPlan, event: Placed, **values: object
 
 
 def _same(now: object, value: object) -> bool:
-    """Return whether a value is the one there is, as exactly as values are kept."""
+    """Return whether two values are equal at the precision of stored values."""
     return abs(now - value) < _KEPT / 2 if isinstance(now, float) and isinstance(value, float) else now == value
 
 

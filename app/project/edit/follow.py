@@ -1,4 +1,4 @@
-"""The piece at the tempo of a recording. Notes keep their ticks, and with them everything that was set by hand."""
+"""Adapts the tempo of the piece to a recording. Notes keep their ticks, so corrections stay valid."""
 
 from __future__ import annotations
 
@@ -21,18 +21,17 @@ _LEAST_TIME: Final = 0.7
 
 
 def follow_recording(project: Project, following: Following, path: str | os.PathLike[str]) -> Project:
-    """Let the beats lie where they sound in a recording, which plays with the piece from now on.
+    """Set the tempo so that beats are at their times in a recording, which becomes the audio of the piece.
 
     Parameters
     ----------
     following : Following
-        Its beats begin at tick 0.
+        Alignment whose beats begin at tick 0.
 
     Raises
     ------
     UsageError
-        ``align.bars_missing`` (first, last) where the recording leaves out bars between others: they would have no
-        time to sound in.
+        The recording omits bars in the middle, which would leave them no time.
     """
     bar_of_tick = project.metre_map.bar_of_tick
     for span in following.missing:
@@ -51,8 +50,7 @@ def follow_recording(project: Project, following: Following, path: str | os.Path
 
 
 def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan) -> bool:
-    """Return whether the recording goes on at once after bars that it does not have; else something else sounds
-    there."""
+    """Return whether the recording continues directly after missing bars, so that they would have no time."""
     # Beats before the first note and after the last one are no bars that would have to wait for those left out.
     sounding = following.confidence >= SURE
     earlier = np.flatnonzero(sounding & (following.ticks < span.start))
@@ -67,14 +65,14 @@ def _leaves_no_time(project: Project, following: Following, span: UnmatchedSpan)
 
 
 def pins_for(project: Project, path: str | os.PathLike[str]) -> tuple[BeatPin, ...]:
-    """The beats that were pinned to this recording, to follow it again."""
+    """Beats pinned to this recording, for following it again."""
     audio = project.audio
     same = audio is not None and audio.path == os.path.abspath(path)  # noqa: PTH100 - as `set_audio` has it
     return audio.pins if audio is not None and same else ()
 
 
 def _doubts(project: Project, following: Following) -> tuple[Doubt, ...]:
-    """Bars to be checked by ear, and those that the recording does not have."""
+    """Bars to be checked by ear, and bars missing in the recording."""
     metre_map = project.metre_map
     last = int(following.ticks[-1])
     there = dict(following.bars(metre_map))

@@ -1,4 +1,4 @@
-"""Finding events of a plan, and what the user said about them."""
+"""Finds events of a plan and their corrections."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _OF_NOTES: Final = ("fingering", "embouchure", "tongue", *BREATH_KINDS, "cue")
 
 
 def corrections_of(project: Project, player_id: str, event_ids: Iterable[str]) -> tuple[Correction, ...]:
-    """The corrections that made or changed these events."""
+    """The corrections that added or changed these events."""
     requested = frozenset(event_ids)
     return tuple(item for item in project.corrections.get(player_id, ()) if item.about in requested)
 
 
 def events_of(plan: PlayerPlan) -> dict[str, Event]:
-    """Every event of a plan that the user may select, by id."""
+    """All selectable events of a plan, by id."""
     groups: tuple[Sequence[Event], ...] = (
         plan.fingerings, plan.breaths, plan.embouchures, plan.cues, plan.gestures, plan.expressions, plan.poses,
         plan.styles,
@@ -42,7 +42,9 @@ def events_of(plan: PlayerPlan) -> dict[str, Event]:
 
 
 def player_marks(project: Project, player_id: str) -> Mapping[Mark, Origin]:
-    """Return a player's marks after corrections, and where each is from. One whose notes are gone does nothing."""
+    """Return a player's marks after corrections, with the origin of each. A mark whose notes no longer exist has no
+    effect.
+    """
     return _marks_of(project, player_id).origins
 
 
@@ -67,8 +69,9 @@ def _corrected(marks: tuple[Mark, ...], corrections: tuple[Correction, ...]) -> 
 
 
 def is_there(project: Project, player_id: str, event_id: str) -> bool:
-    """Return whether the project has what an event is about: its player, its note, and the correction that added it.
-    Whether the generator makes such an event only a plan knows, and plans lag behind the project."""
+    """Return whether the project has the event's player, note, and, for an added event, its correction. Whether the
+    generator makes the event is only known from a plan, which may lag behind.
+    """
     try:
         player = project.player(player_id)
     except KeyError:
@@ -82,7 +85,7 @@ def is_there(project: Project, player_id: str, event_id: str) -> bool:
 
 
 def placed_events(plan: PlayerPlan, event_ids: Iterable[str]) -> list[Placed]:
-    """The events of these ids that have a place of their own, in the order of the ids."""
+    """Events of these ids that have a place of their own, in the order of the ids."""
     requested = tuple(event_ids)
     among = frozenset(requested)
     groups: tuple[Sequence[Placed], ...] = (

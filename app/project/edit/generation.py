@@ -1,4 +1,4 @@
-"""Another performance of the same plan: new seeds for everyone, some players or some bars. Corrections stay."""
+"""Creates another random variation: new seeds for all, some players, or some bars. Corrections stay."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ NAME = "varied-"
 
 
 def vary_everyone(project: Project) -> Project:
-    """Another performance by all."""
+    """Change the seed of the whole performance."""
     return replace(project, seed=next_seed("everyone", project.seed))
 
 
 def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
-    """Another performance by some, with all that they play; the others play as they did."""
+    """Change the seed of some players, with everything they play; the others stay as they are."""
     chosen = musicians_of(project, frozenset(player_ids))
 
     def varied(player: Player) -> Player:
@@ -36,7 +36,9 @@ def vary_players(project: Project, player_ids: Iterable[str]) -> Project:
 
 
 def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
-    """Another performance by some from one tick to another; again the same span, again another one."""
+    """Add a random variation for some players from one tick to another; repeating it for the span gives another
+    variation.
+    """
     for player_id in player_ids:
         said = variations(project, player_id)
         same = [item for item in said if (item.start_tick, item.end_tick) == (start_tick, end_tick)]
@@ -51,7 +53,7 @@ def vary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_
 
 
 def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, end_tick: int) -> Project:
-    """Take back every variation that reaches into a span, so that the first performance is there again."""
+    """Remove every variation that overlaps a span, restoring the original performance there."""
     for player_id in player_ids:
         there = variations(project, player_id, start_tick, end_tick)
         if there:
@@ -62,7 +64,7 @@ def unvary_span(project: Project, player_ids: Iterable[str], start_tick: int, en
 def variations(
     project: Project, player_id: str, start_tick: int | None = None, end_tick: int | None = None
 ) -> tuple[Vary, ...]:
-    """A player's variations, of the whole piece or those that reach into a span."""
+    """Variations of a player, all or those that overlap a span."""
     return tuple(
         item
         for item in project.corrections.get(player_id, ())

@@ -1,4 +1,4 @@
-"""Limit of a piece's length: no edit makes one that no file could hold."""
+"""Limits the length of a piece, so that every edit can be saved."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.score.model import Score
 
 
 def with_score(project: Project, score: Score) -> Project:
-    """The project with another score. Raises UsageError where it would be too long."""
+    """Replace the score. Raises UsageError if it would be too long."""
     long = too_long(score)
     if long is not None:
         raise UsageError("piece.too_long", **long)

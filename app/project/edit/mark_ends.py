@@ -1,4 +1,6 @@
-"""Ends of slurs where notes are erased, cut in two and joined: of the marks of the score and of those by hand."""
+"""Adapts the ends of slurs and other marks when notes are deleted, split or joined, for marks of the score and by
+hand.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ Ends: TypeAlias = Callable[[str, str, str], tuple[str, str]]
 
 
 def drawn_in(project: Project, gone: Collection[str]) -> Project:
-    """Let slurs end at the nearest notes within them that stay when notes are erased; those of one note are left."""
+    """Shorten slurs to the nearest remaining notes when notes are deleted; slurs left with one note stay unchanged."""
 
     lost = frozenset(gone)
 
@@ -40,7 +42,7 @@ def drawn_in(project: Project, gone: Collection[str]) -> Project:
 
 
 def carried_on(project: Project, seconds: Mapping[str, str]) -> Project:
-    """Let slurs end, and breath marks stand, at other notes: those by the ids of the notes that had them."""
+    """Move the ends of slurs, and breath marks, to other notes, given by the ids of the old ones."""
 
     def ends(kind: str, first: str, last: str) -> tuple[str, str]:
         if kind in AFTER:
@@ -57,7 +59,7 @@ def _spans(kind: str) -> bool:
 
 
 def _anchored(project: Project, note_ids: Collection[str], ends_of: Callable[[Part], Ends]) -> Project:
-    """Return the project with other ends of the marks at some notes."""
+    """Return the project with other ends for the marks at some notes."""
     parts, corrections = [], dict(project.corrections)
     for part in project.score.parts:
         players = [player.id for player in project.players if player.part_id == part.id]

@@ -1,7 +1,7 @@
-"""Marks that an animator writes over notes, takes away and moves: slurs, articulations, breaths, dynamics, hairpins.
+"""Writes, deletes and moves marks of a part: slurs, articulations, breaths, dynamics, hairpins.
 
-A mark of the score that is changed is taken away, and the changed one written. In a part read from sound a dynamic that
-is written over several notes holds for these; over one note, and always in a part of a score, up to the next dynamic.
+Changing a mark of the score removes it and writes a new one. In a part from MIDI a dynamic written over several notes
+applies to those; over one note, and always in a part from a score, it applies until the next dynamic.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ AFTER: Final = frozenset({"breath", "caesura"})
 
 
 class Marked(NamedTuple):
-    """A project after marks were written or taken away."""
+    """A project after marks were written or removed."""
 
     project: Project
     added: bool
@@ -48,7 +48,7 @@ class Marked(NamedTuple):
 
 
 def set_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
-    """Write marks; each takes the place of one of its kind that stands there. One that the score has there is back."""
+    """Write marks; each replaces one of its kind at the same place. A mark equal to one of the score restores that."""
     chosen = tuple(marks)
     read = frozenset(project.part(project.player(player_id)).marks)
     project = give_back_marks(project, player_id, chosen)
@@ -56,7 +56,7 @@ def set_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Projec
 
 
 def remove_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
-    """Take marks away: those by hand are forgotten, those of the score are left out."""
+    """Remove marks: those by hand are deleted, those of the score are marked as removed."""
     chosen = tuple(marks)
     project = take_back(project, player_id, [remove_mark(mark) for mark in chosen])
     left = player_marks(project, player_id)
@@ -65,17 +65,17 @@ def remove_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Pro
 
 
 def replace_mark(project: Project, player_id: str, mark: Mark, changed: Mark) -> Project:
-    """Let a mark stand elsewhere, or have another text."""
+    """Move a mark or change its text."""
     return set_marks(remove_marks(project, player_id, [mark]), player_id, [changed])
 
 
 def give_back_marks(project: Project, player_id: str, marks: Iterable[Mark]) -> Project:
-    """Let what the score has stand at these places."""
+    """Restore the marks of the score at these places."""
     return take_back(project, player_id, [remove_mark(mark) for mark in marks])
 
 
 def corrections_at(project: Project, player_id: str, note_ids: Collection[str]) -> tuple[SetMark | RemoveMark, ...]:
-    """Return what was said by hand of marks that stand at these notes, or begin there."""
+    """Return the corrections of marks that are at these notes or begin there."""
     said = mark_corrections(project.corrections.get(player_id, ()))
     if not said:
         return ()
@@ -85,20 +85,20 @@ def corrections_at(project: Project, player_id: str, note_ids: Collection[str]) 
 
 
 def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: str, text: str = "") -> Marked:
-    """Write a mark over chosen notes, or take it away where all have it.
+    """Write a mark over the selected notes, or remove it if all of them have it.
 
-    A mark of notes goes over a player's notes from the first chosen to the last. A breath mark or a caesura stands
-    after the last one, a dynamic at the first one, and a hairpin goes up to the end of the last one.
+    A mark of notes extends from a player's first selected note to the last. A breath mark or caesura follows the last
+    one, a dynamic is at the first one, and a hairpin lasts to the end of the last one.
 
     Parameters
     ----------
     notes : mapping of str to sequence of Note
-        The chosen notes by player, in order.
+        The selected notes by player, in order.
 
     Raises
     ------
     UsageError
-        ``mark.no_notes``, ``mark.one_note``: no player has as many chosen notes as the kind needs.
+        No player has enough selected notes for this kind of mark.
     """
     anchor = MARK_KINDS[kind].anchor
     least = 2 if anchor == "notes" else 1
@@ -121,7 +121,7 @@ def toggle_marks(project: Project, notes: Mapping[str, Sequence[Note]], kind: st
 
 
 def next_dynamic_tick(marks: Iterable[Mark], mark: Mark) -> int | None:
-    """Return the tick of the next dynamic that holds, up to which one without an end does; None: there is none."""
+    """Return the tick of the next dynamic, at which one without an end stops being in force; None if there is none."""
     later = (one.tick for one in marks if one.tick > mark.tick and not one.end_tick and holding_row(one) is not None)
     return min(later, default=None)
 
@@ -132,7 +132,7 @@ def marks_at(marks: Collection[Mark], notes: Sequence[Note], order: Mapping[str,
     Parameters
     ----------
     order : mapping of str to int
-        Places of all notes of the part by id.
+        Index of every note of the part by id.
     """
     places = sorted(order[note.id] for note in notes)
     onsets = sorted(note.onset_tick for note in notes)
@@ -158,7 +158,7 @@ def _any_within(ordered: Sequence[int], first: int, last: int) -> bool:
 
 
 def _marks_over(project: Project, player_id: str, notes: Sequence[Note], kind: str, text: str) -> list[Mark]:
-    """Return the marks of a kind over chosen notes of one player."""
+    """Return the marks of a kind to be written over selected notes of one player."""
     anchor = MARK_KINDS[kind].anchor
     first, last = notes[0], max(notes, key=lambda note: note.end_tick)
     if anchor == "notes":
@@ -172,7 +172,7 @@ def _marks_over(project: Project, player_id: str, notes: Sequence[Note], kind: s
 
 
 def _excluded(there: Collection[Mark], fresh: Sequence[Mark]) -> list[Mark]:
-    """The marks that cannot stand together with new ones."""
+    """Existing marks that cannot be combined with new ones."""
     others: dict[str, frozenset[str]] = {kind: kinds - {kind} for kinds in EXCLUDING for kind in kinds}
     places = {(other, *_place(mark)) for mark in fresh for other in others.get(mark.kind, ())}
     return [mark for mark in there if (mark.kind, *_place(mark)) in places]

@@ -1,5 +1,4 @@
-"""Notes that begin earlier or later than the score has them, as they were played. They keep their ids, and with them
-what was corrected about them."""
+"""Moves note onsets to the times at which they were played. Notes keep their ids and so their corrections."""
 
 from __future__ import annotations
 
@@ -14,8 +13,9 @@ from app.score.tempo import TempoMap
 
 
 def shift_onsets(project: Project, seconds: Mapping[str, float]) -> Project:
-    """Let notes (by id) begin so much later; their ends stay. What lasts until a note goes on doing so, none gets
-    shorter than a tick, and none begins before the one before it, or before the piece."""
+    """Delay the onsets of notes (by id) by these seconds; ends stay. A note that lasted until the next one still does,
+    none gets shorter than a tick, and none moves before the previous note or the start of the piece.
+    """
     clock = project.score.tempo_map
     parts = tuple(_shifted(part, seconds, clock) for part in project.score.parts)
     if all(one is other for one, other in zip(parts, project.score.parts, strict=True)):
@@ -45,5 +45,5 @@ def _shifted(part: Part, seconds: Mapping[str, float], clock: TempoMap) -> Part:
 
 
 def _goes_on(was_end: int, end: int, note: Note, onset: int) -> bool:
-    """Return whether the note before lasts until this one: it did so, or would reach into it now and did not."""
+    """Return whether the previous note should end at this note's new onset: it did so before, or would now overlap."""
     return was_end == note.onset_tick or (was_end < note.onset_tick and end > onset)

@@ -1,7 +1,7 @@
-"""Edits of notes. Ids stay with their notes, so corrections stay where they belong.
+"""Edits of notes. Ids stay with their notes, so corrections stay valid.
 
-A note made here is called ``"n:<number>"``, the next one free: no file's note is called so ("track:number"), and the
-same edits give the same names. Erasing a note erases its corrections; undo restores both.
+A new note gets the next free id ``"n:<number>"``, which differs from ids of notes from files ("track:number"); equal
+edits give equal ids. Deleting a note deletes its corrections; undo restores both.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ LOW_VELOCITY, HIGH_VELOCITY = 1, 127
 
 
 def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[Part, list[Note]]]:
-    """The parts that have some of these notes, each with its own of them in order."""
+    """Yield the parts that contain some of these notes, each with those notes in order."""
     requested = frozenset(note_ids)
     for part in project.score.parts:
         if not requested.isdisjoint(part.note_ids):
@@ -42,7 +42,7 @@ def chosen_notes(project: Project, note_ids: Collection[str]) -> Iterator[tuple[
 def add_note(
     project: Project, part_id: str, onset_tick: int, duration_tick: int, pitch: int, velocity: int
 ) -> tuple[Project, str]:
-    """Add a note to a part; its id comes with the project. KeyError where there is no such part."""
+    """Add a note to a part; returns the project and the note's id. KeyError for an unknown part."""
     note = _checked(Note(next(new_note_ids(project)), onset_tick, duration_tick, pitch, velocity))
     if part_id not in {part.id for part in project.score.parts}:
         raise KeyError(part_id)
@@ -50,7 +50,7 @@ def add_note(
 
 
 def reach_of_move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int) -> tuple[int, int]:
-    """Return how far these notes can be moved together, towards (by_tick, by_pitch)."""
+    """Return the largest possible move of these notes together, up to (by_tick, by_pitch)."""
     notes = [note for _, mine in chosen_notes(project, note_ids) for note in mine]
     if not notes:
         return 0, 0
@@ -73,7 +73,7 @@ def move(project: Project, note_ids: Collection[str], by_tick: int, by_pitch: in
 
 
 def resize(project: Project, note_ids: Collection[str], by_tick: int, *, at_start: bool = False) -> Project:
-    """Move the ends of notes, or their beginnings. None gets shorter than a tick, none begins before the piece."""
+    """Move the ends of notes, or their onsets. None gets shorter than a tick or begins before the piece."""
 
     def resized(note: Note) -> Note:
         if at_start:
@@ -85,7 +85,7 @@ def resize(project: Project, note_ids: Collection[str], by_tick: int, *, at_star
 
 
 def erase(project: Project, note_ids: Collection[str]) -> Project:
-    """Remove notes, and what was corrected by hand about them. A slur that ended at one ends at the nearest left."""
+    """Delete notes and their corrections. A slur that ended at one ends at the nearest remaining note."""
     gone = {note.id for _, mine in chosen_notes(project, note_ids) for note in mine}
     if not gone:
         return project
@@ -121,7 +121,7 @@ def split(project: Project, note_ids: Collection[str], tick: int) -> tuple[Proje
 
 
 def join(project: Project, note_ids: Collection[str]) -> Project:
-    """Make one note of chosen notes of one pitch that follow one another in their part. The first of them stays."""
+    """Join selected consecutive notes of one pitch in their part into one, keeping the first id."""
     longer: dict[str, int] = {}
     absorbed: dict[str, str] = {}
     requested = frozenset(note_ids)
@@ -141,7 +141,7 @@ def join(project: Project, note_ids: Collection[str]) -> Project:
 
 
 def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
-    """A part's notes, each with the number of its run: 0 for notes that were not chosen."""
+    """Yield a part's notes with the number of their run of selected notes; 0 for others."""
     run = 0
     before: Note | None = None
     for note in part.notes:
@@ -158,7 +158,7 @@ def _runs(part: Part, requested: Collection[str]) -> Iterator[tuple[int, Note]]:
 def duplicate(
     project: Project, note_ids: Collection[str], by_tick: int, by_pitch: int = 0
 ) -> tuple[Project, tuple[str, ...]]:
-    """Copy notes within their parts, moved by a distance; the ids of the copies come with the project."""
+    """Copy notes within their parts, moved by a distance; returns the project and the ids of the copies."""
     ids = new_note_ids(project)
     copies = {
         note.id: _checked(
@@ -173,12 +173,12 @@ def duplicate(
 
 
 def set_velocity(project: Project, note_ids: Collection[str], velocity: int) -> Project:
-    """Give notes one velocity."""
+    """Set the velocity of notes."""
     return _each(project, note_ids, lambda note: _checked(msgspec.structs.replace(note, velocity=velocity)))
 
 
 def change_velocity(project: Project, note_ids: Collection[str], by: int = 0, factor: float = 1.0) -> Project:
-    """Scale velocities, then add; what would leave 1..127 stays at its end."""
+    """Scale velocities, then add; results are clipped to 1..127."""
 
     def changed(note: Note) -> Note:
         velocity = round(note.velocity * factor) + by
@@ -196,7 +196,7 @@ def quantise(
     onsets: bool = True,
     ends: bool = False,
 ) -> Project:
-    """Draw notes towards the lines of a grid.
+    """Move notes towards a grid.
 
     Parameters
     ----------
@@ -205,8 +205,8 @@ def quantise(
     strength : float
         0..1: the share of the way to the line.
     onsets, ends : bool
-        What is drawn. Of a note whose onset alone is drawn the length stays; where its end would come before its onset
-        it keeps a tick.
+        Which ends of the notes to move. If only the onset moves, the length stays; if only the end moves, at least a
+        tick remains.
     """
     grid, score = Grid(quarters), project.score
 
@@ -226,7 +226,7 @@ def quantise(
 
 
 class CopiedNote(msgspec.Struct, frozen=True):
-    """A note on the clipboard: its onset counts from the first one's."""
+    """A note on the clipboard; its onset is relative to the first one."""
 
     offset_tick: int
     duration_tick: int
@@ -235,21 +235,21 @@ class CopiedNote(msgspec.Struct, frozen=True):
 
 
 class CopiedLine(msgspec.Struct, frozen=True):
-    """The notes that came from one part."""
+    """Clipboard notes of one part."""
 
     part_id: str
     notes: tuple[CopiedNote, ...]
 
 
 class ClipboardNotes(msgspec.Struct, frozen=True):
-    """Notes on the clipboard, with the resolution in which their ticks are counted."""
+    """Notes on the clipboard, with the number of ticks per quarter."""
 
     ticks_per_quarter: Annotated[int, msgspec.Meta(ge=TICKS_PER_QUARTER[0], le=TICKS_PER_QUARTER[1])]
     lines: tuple[CopiedLine, ...]
 
 
 def read_clip(data: bytes) -> ClipboardNotes | None:
-    """Notes from the clipboard; None where another program has put something else there under our name."""
+    """Decode notes from the clipboard; None if its data is not valid, although it has this program's format name."""
     try:
         return decode_json(data, ClipboardNotes, "")
     except FileError:
@@ -271,10 +271,10 @@ def copied(project: Project, note_ids: Collection[str]) -> ClipboardNotes:
 
 
 def paste(project: Project, part_id: str, clip: ClipboardNotes, at_tick: int) -> tuple[Project, tuple[str, ...]]:
-    """Put copied notes at a place; the ids of the new ones come with the project.
+    """Insert copied notes at a place; returns the project and the new ids.
 
-    Notes of one part go to ``part_id``, whatever they came from; those of several parts go back to their own, and to
-    ``part_id`` where there is none of that id.
+    Notes of a single part go to ``part_id``; notes of several parts go to their own parts, or to ``part_id`` if a part
+    no longer exists.
     """
     ids = new_note_ids(project)
     scale = Fraction(project.score.ticks_per_quarter, clip.ticks_per_quarter)
@@ -312,7 +312,7 @@ def _checked(note: Note) -> Note:
 
 
 def _notes_of(item: Correction) -> set[str]:
-    """Ids of the notes that a correction is about, including the note of an event, ``"breath:<note>"``."""
+    """Ids of the notes of a correction, including the note of an event, ``"breath:<note>"``."""
     return {item.anchor, EventId.parse(item.anchor).of, *notes_of(item)}
 
 
@@ -332,7 +332,7 @@ def _with_more(project: Project, beside: dict[str, Note]) -> Project:
 
 
 def _edited(project: Project, part_ids: Collection[str], edit: Callable[[tuple[Note, ...]], list[Note]]) -> Project:
-    """Return the project with these parts' notes edited and in order; `project` itself if nothing is different."""
+    """Return the project with the notes of these parts edited and sorted; `project` itself if nothing changes."""
     parts = []
     for part in project.score.parts:
         if part.id in part_ids:

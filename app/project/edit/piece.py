@@ -1,4 +1,4 @@
-"""The piece as a whole: started over, its title, picture rate, beat, acting, recording, and own expressions."""
+"""Edits of the piece as a whole: new piece, title, frame rate, felt beat, acting, recording, own expressions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from metadata.model import Expression
 def new_piece(
     title: str = "", bpm: float = 120.0, metre: tuple[int, int] = (4, 4), ticks_per_quarter: int = 480
 ) -> Project:
-    """A piece without players, to be filled by hand or by recording. Raises UsageError."""
+    """Create a piece without players, to be filled by hand or by recording. Raises UsageError for impossible values."""
     _check("ticks_per_quarter", ticks_per_quarter, limits.TICKS_PER_QUARTER)
     score = Score(clean_name(title)[: limits.MOST_NAME], ticks_per_quarter, TempoMap(ticks_per_quarter))
     project = set_metre(set_tempo(Project(score, ()), 0, bpm), 0, *metre)
@@ -37,7 +37,7 @@ def new_piece(
 
 
 def set_title(project: Project, title: str) -> Project:
-    """Call the piece something else; may be empty."""
+    """Set the title; may be empty."""
     cleaned = clean_name(title)[: limits.MOST_NAME]
     if project.score.title in (title, cleaned):
         return project
@@ -57,13 +57,13 @@ def set_preroll(project: Project, beats: float) -> Project:
 
 
 def set_section_intensity(project: Project, intensity: float) -> Project:
-    """Multiply what all players show of their acting."""
+    """Set the factor for the acting of all players."""
     _check("section_intensity", intensity, limits.SECTION_INTENSITY)
     return _with(project, section_intensity=float(intensity))
 
 
 def set_conductor(project: Project, place: ConductorPlace | None) -> Project:
-    """The conductor's place; None: there is none."""
+    """Set the conductor's place; None: no conductor."""
     if place is not None:
         _check("conductor.x_m", place.x_m, limits.STAGE_M)
         _check("conductor.z_m", place.z_m, limits.STAGE_M)
@@ -71,7 +71,7 @@ def set_conductor(project: Project, place: ConductorPlace | None) -> Project:
 
 
 def set_felt_beat(project: Project, quarters: float | None) -> Project:
-    """The beat that is felt, in quarters; None: metre and tempo say."""
+    """Set the felt beat in quarters; None: derived from metre and tempo."""
     if quarters is None:
         return _with(project, felt_beat_quarters=None)
     _check("felt_beat_quarters", quarters, limits.FELT_BEAT_QUARTERS)
@@ -79,13 +79,13 @@ def set_felt_beat(project: Project, quarters: float | None) -> Project:
 
 
 def set_seed(project: Project, seed: int) -> Project:
-    """Another seed is another performance of the same plan; the players' own seeds stay."""
+    """Set the seed of the performance; the players' own seeds stay."""
     _check("seed", seed, limits.SEED)
     return _with(project, seed=int(seed))
 
 
 class PieceSettings(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Settings of the piece as a whole; fields as in `Project`, and the title of its score."""
+    """Settings of the piece as a whole; fields as in `Project`, plus the title of its score."""
 
     title: str
     fps: Fraction
@@ -103,7 +103,7 @@ def piece_settings(project: Project) -> PieceSettings:
 
 
 def usual_settings(title: str, project: Project | None = None) -> PieceSettings:
-    """Default settings of a new piece of this title, by the tempo and the notes of ``project`` if that is given."""
+    """Default settings of a new piece of this title; the pre-roll follows the music of ``project`` if given."""
     usual = piece_settings(new_piece(title))
     if project is None:
         return usual
@@ -116,7 +116,7 @@ def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
     Raises
     ------
     UsageError
-        ``piece.value_outside`` of the first that is impossible.
+        A value is outside its range.
     """
     project = set_fps(set_title(project, settings.title), settings.fps)
     project = set_felt_beat(set_preroll(project, settings.preroll_beats), settings.felt_beat_quarters)
@@ -125,8 +125,9 @@ def set_piece_settings(project: Project, settings: PieceSettings) -> Project:
 
 
 def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
-    """Hear the piece with this recording, or with the built-in synthesiser (None). Another recording begins with the
-    offset of the one before, which is set again or estimated."""
+    """Set the recording to play with the piece; None: the built-in synthesiser. A new recording starts with the
+    previous one's offset.
+    """
     if path is None:
         return _with(project, audio=None)
     text, before = _path(path), project.audio
@@ -136,15 +137,16 @@ def set_audio(project: Project, path: str | os.PathLike[str] | None) -> Project:
 
 
 def set_offset(project: Project, offset_s: float, confidence: float | None = None) -> Project:
-    """Performance time at which the recording's first sample sounds; ``confidence`` 0..1 where it was estimated."""
+    """Set the performance time of the recording's first sample; ``confidence`` 0..1 if it was estimated."""
     if project.audio is None:
         raise UsageError("piece.no_recording")
     return _placed(project, project.audio.path, offset_s, confidence)
 
 
 def set_video(project: Project, path: str | os.PathLike[str] | None) -> Project:
-    """See this reference video with the performance, or none. Another one begins with the offset of the one before;
-    the first one that of the recording, where that is the video's own sound."""
+    """Set the reference video; None: none. A new one starts with the previous one's offset, the first one with the
+    recording's if that is the video's own sound.
+    """
     if path is None:
         return _with(project, video=None)
     text, before, audio = _path(path), project.video, project.audio
@@ -156,14 +158,14 @@ def set_video(project: Project, path: str | os.PathLike[str] | None) -> Project:
 
 
 def set_video_offset(project: Project, offset_s: float, confidence: float | None = None) -> Project:
-    """Performance time at which the reference video begins; ``confidence`` 0..1 where it was estimated."""
+    """Set the performance time at which the reference video begins; ``confidence`` 0..1 if it was estimated."""
     if project.video is None:
         raise UsageError("piece.no_video")
     return _placed(project, project.video.path, offset_s, confidence)
 
 
 def relocate(project: Project, before: str | os.PathLike[str], after: str | os.PathLike[str] | None) -> Project:
-    """The recording or reference video that was at a path lies at another, at the same time; None: it is removed."""
+    """Change the path of a recording or reference video, keeping its offset; None: remove it."""
     path, gone = None if after is None else _path(after), os.fspath(before)
     for name in ("audio", "video"):
         track = getattr(project, name)
@@ -180,7 +182,7 @@ def _path(path: str | os.PathLike[str]) -> str:
 
 
 def _placed(project: Project, path: str, offset_s: float, confidence: float | None) -> Project:
-    """Sound and picture of one file keep together."""
+    """Set the offset of a file, for both sound and picture if they are one file."""
     _check("offset_s", offset_s, limits.OFFSET_S)
     if confidence is not None:
         _check("confidence", confidence, (0.0, 1.0))
@@ -194,14 +196,14 @@ def _placed(project: Project, path: str, offset_s: float, confidence: float | No
 
 
 def put_expression(project: Project, expression: Expression, former_name: str | None = None) -> Project:
-    """Keep an expression of the animator's own in the project.
+    """Store an expression of the animator in the project.
 
     Parameters
     ----------
     expression : Expression
-        One of its name is replaced; one of a bundled name takes the bundled one's place in this project.
+        Replaces one of the same name; overrides a bundled expression of that name in this project.
     former_name : str, optional
-        What it was called before: the one of that name goes, and corrections that show it show the new name.
+        Previous name: the expression of that name is removed, and corrections that use it are renamed.
     """
     expression = msgspec.structs.replace(expression, name=_expression_name(expression.name))
     for place, detail in expression_faults(expression, ""):
@@ -224,8 +226,9 @@ def put_expression(project: Project, expression: Expression, former_name: str | 
 
 
 def remove_expression(project: Project, name: str) -> Project:
-    """Remove an expression of the user's from the piece. Corrections that show it stay, without effect until an
-    expression of that name exists again."""
+    """Remove a user's expression from the piece. Corrections that use it stay, without effect until an expression of
+    that name exists again.
+    """
     kept = tuple(item for item in project.expressions if item.name != name)
     if len(kept) == len(project.expressions):
         raise UsageError("expression.none_of_name", name=name)

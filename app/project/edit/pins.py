@@ -1,4 +1,4 @@
-"""Beats pinned to the recording by hand: the tempo moves so that they lie where they sound. Notes keep their ticks."""
+"""Pins beats to their time in the recording by adapting the tempo. Notes keep their ticks."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ _LEAST_S: Final = 0.02
 
 
 def recording_second(project: Project, tick: int) -> float:
-    """Return where in the recording a tick lies now. Raises UsageError without a recording."""
+    """Return the time in the recording at which a tick currently is. Raises UsageError without a recording."""
     return project.score.tempo_map.seconds(float(tick)) - _audio(project).offset_s
 
 
 def pin_beat(project: Project, tick: int, recording_s: float | None = None) -> Project:
-    """Let a beat lie where it sounds in the recording, and stay there.
+    """Move a beat to its time in the recording and keep it there.
 
-    The beats around it go along, the less the further away they are, up to the next pin or `_REACH_BEATS`; the
-    beginning of the piece stays unless it is what is pinned. A beat goes as far as its neighbours leave time for.
+    Beats around it move along, less with distance, up to the next pin or `_REACH_BEATS`; the start of the piece stays
+    unless it is pinned. The move is limited by the time that neighbouring beats need.
 
     Parameters
     ----------
     recording_s : float, optional
-        From the recording's first sample; where the beat lies now, if None.
+        Time from the recording's first sample; None: where the beat is now.
     """
     audio = _audio(project)
     if not 0 <= tick <= limits.LAST_TICK:
@@ -61,7 +61,7 @@ def pin_beat(project: Project, tick: int, recording_s: float | None = None) -> P
 
 
 def remove_pins(project: Project, ticks: Collection[int] | None = None) -> Project:
-    """Let following move these beats again (None: all); where they lie they stay until then."""
+    """Unpin beats (None: all), so that following may move them again; until then they stay where they are."""
     audio = _audio(project)
     kept = tuple(pin for pin in audio.pins if ticks is not None and pin.tick not in ticks)
     if len(kept) == len(audio.pins):
@@ -71,7 +71,7 @@ def remove_pins(project: Project, ticks: Collection[int] | None = None) -> Proje
 
 @dataclass(frozen=True)
 class _Room:
-    """The span in which beats move with a pin, in seconds of the score, and the limits of the beat itself."""
+    """Span in which beats move with a pin, in seconds of the score, and the limits of the pinned beat."""
 
     start_s: float
     end_s: float
@@ -99,8 +99,9 @@ def _room(project: Project, tick: int, shift_s: float) -> _Room:
 
 
 def _moved(project: Project, tick: int, shift_s: float, room: _Room) -> Project:
-    """The beats around a tick later by what a cosine has there. Tick 0 is second 0 always: instead of it the recording
-    goes the other way."""
+    """Shift the beats around a tick with a cosine weight. Tick 0 must stay at second 0, so for it the recording's
+    offset changes instead.
+    """
     clock, changes = project.score.tempo_map, project.score.tempo_map.changes
     first = max(round(clock.ticks(room.start_s)), 0)
     last = max(round(clock.ticks(room.end_s)), tick + 1)

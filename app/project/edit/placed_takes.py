@@ -1,4 +1,4 @@
-"""Places of a take's notes and curves in the score."""
+"""Maps a take's notes and curves to the score."""
 
 from __future__ import annotations
 
@@ -25,15 +25,14 @@ from app.score.take import Cleaning, Take
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """A take's notes in the piece, and where its onsets went: from ticks as played, ascending, to ticks as they are."""
+    """A take's notes in the piece, and the map of its onsets: ticks as played, ascending, to ticks in the score."""
 
     notes: tuple[Note, ...]
     played: FloatArray
     here: FloatArray
 
     def moved(self, ticks: FloatArray) -> FloatArray:
-        """Return where other moments of the take go: between two onsets in proportion, so that none overtakes
-        another."""
+        """Return the new place of other moments of the take: linear between two onsets, so that order is kept."""
         if not len(self.played):
             return ticks
         # An aligned note may pass another: a breath never runs backwards.
@@ -49,7 +48,7 @@ _CURVES: Final[IdentityCache[tuple[ControllerCurve, ...]]] = IdentityCache(64)
 
 
 def recorded_of(project: Project, player_id: str) -> PlayerTakes:
-    """Takes of a player; for a player without any, none, with the part as it is."""
+    """Takes of a player; for one without takes, an empty list with the part as it is."""
     recorded = project.takes.get(player_id)
     if recorded is not None:
         return recorded
@@ -58,21 +57,20 @@ def recorded_of(project: Project, player_id: str) -> PlayerTakes:
 
 
 def take_notes(project: Project, player_id: str, take_id: str) -> tuple[Note, ...]:
-    """A take's notes as the part would have them: cleaned, drawn to the score and the grid, in the piece's ticks.
+    """Notes of a take as they would be in the part: cleaned, aligned to score and grid, in the piece's ticks.
 
-    A note that is taken for one of the score's keeps that one's id, so that its corrections hold for it.
+    A note matched with one of the score keeps that note's id, so that its corrections apply.
     """
     return _placed(project, player_id, take_id).notes
 
 
 def take_cleaned(project: Project, player_id: str, take_id: str) -> Cleaned:
-    """Notes that the cleaning of a take leaves out, with reasons."""
+    """Notes removed by the cleaning of a take, with reasons."""
     return cleaned(recorded_with(project, player_id, take_id).take(take_id))
 
 
 def take_curves(project: Project, player_id: str, take_id: str) -> tuple[ControllerCurve, ...]:
-    """A take's breath, bite and other controllers, in the piece's ticks; they go where the notes go that are drawn to
-    the score or the grid."""
+    """Breath, bite and other controllers of a take, in the piece's ticks, moved with the notes."""
     take = recorded_with(project, player_id, take_id).take(take_id)
     placed = _placed(project, player_id, take_id)
     return _CURVES.step(_curves, take, placed)
@@ -86,7 +84,7 @@ def recorded_with(project: Project, player_id: str, take_id: str) -> PlayerTakes
 
 
 def source_of(project: Project, player_id: str, take_id: str) -> tuple[tuple[Note, ...], tuple[ControllerCurve, ...]]:
-    """Notes and curves of a take, or of the part before the first one."""
+    """Notes and curves of a take, or of the part before the first take."""
     if take_id == BEFORE:
         recorded = recorded_of(project, player_id)
         return recorded.before_notes, recorded.before_curves
@@ -101,7 +99,7 @@ def _placed(project: Project, player_id: str, take_id: str) -> _Placed:
 
 @lru_cache(maxsize=64)
 def _same(metre_map: MetreMap) -> MetreMap:
-    """One object for equal ones: the score has another one after every edit."""
+    """Return one shared object for equal metre maps, since every edit of the score makes a new one."""
     return metre_map
 
 
@@ -136,8 +134,9 @@ def _aligned(
     before: tuple[Note, ...],
     metre_map: MetreMap,
 ) -> tuple[FloatArray, FloatArray, list[str], list[int]]:
-    """Notes drawn to those of the score that they are taken for, which give them pitch and name; others move with
-    their neighbours, so that what was played between stays between."""
+    """Align notes with matched notes of the score, which provide pitch and id; other notes move with their neighbours,
+    so that order is kept.
+    """
     quarter = metre_map.ticks_per_quarter
     order = np.lexsort((np.array(pitches), onsets))
     played = AlignmentPart(
@@ -163,7 +162,7 @@ def _aligned(
 def _quantised(
     cleaning: Cleaning, onsets: FloatArray, ends: FloatArray, metre_map: MetreMap
 ) -> tuple[FloatArray, FloatArray]:
-    """Onsets drawn to the grid; where a legato note's successor goes its end goes with it."""
+    """Quantise onsets; the end of a legato note moves with the next onset."""
     grid = Grid(Fraction(cleaning.grid_quarters).limit_denominator(960))
     by = cleaning.quantise * np.array([grid.snap(metre_map, onset) - onset for onset in onsets.tolist()])
     if not len(onsets):

@@ -1,4 +1,4 @@
-"""Edits of players: adding and removing, their parts, parameters and places."""
+"""Edits of players: adding and removing, parts, parameters and places."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ HABIT_CHANCES: Final = (0.7, 0.3)
 
 
 def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap | None = None) -> PlayerParameters:
-    """The parameters a player has before any change; with an instrument, in a posture it is played in."""
+    """Initial parameters of a player; with an instrument, in a posture that it allows."""
     usual = usual_posture(len(project.bodies))
     return PlayerParameters(
         amplitude=amplitude(project.seed, player_id),
@@ -55,7 +55,7 @@ def cast_parameters(project: Project, player_id: str, instrument: InstrumentMap 
 
 
 def instrument_of(player: Player) -> InstrumentMap | None:
-    """The map of what a player plays; None where there is none that can be read."""
+    """Instrument map of a player; None if there is none or it cannot be read."""
     try:
         return find_map(player.instrument_id)
     except MapError:
@@ -63,13 +63,13 @@ def instrument_of(player: Player) -> InstrumentMap | None:
 
 
 def postures_of(player: Player) -> tuple[Posture, ...]:
-    """In what a player's instrument is played; both where it has no map."""
+    """Postures that a player's instrument allows; both if it has no map."""
     instrument = instrument_of(player)
     return ("standing", "seated") if instrument is None else instrument.hold.postures
 
 
 def posture_of(player: Player) -> Posture:
-    """Posture of a player: as set, or the only one that the instrument is played in."""
+    """Posture of a player: as set, or the only one that the instrument allows."""
     instrument = instrument_of(player)
     return player.parameters.posture if instrument is None else instrument.hold.possible(player.parameters.posture)
 
@@ -77,12 +77,12 @@ def posture_of(player: Player) -> Posture:
 def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
     """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names.
 
-    A character belongs to the musician.
+    The character is shared by all players of a musician.
 
     Raises
     ------
     AppError
-        ``doubling.posture``: one musician would play instruments that no posture fits.
+        A musician would have instruments that no posture fits.
     """
     if "character_id" in fields:
         player_ids = {*player_ids, *musicians_of(project, player_ids)}
@@ -91,7 +91,7 @@ def change(project: Project, player_ids: Collection[str], **fields: object) -> P
 
 
 def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
-    """The musicians of some players in a posture in which they can play everything they do."""
+    """Set the musicians of some players to a posture that all their instruments allow."""
     for musician_id in sorted(musicians_of(project, player_ids)):
         first, *others = project.played_by(project.player(musician_id))
         for other in others:
@@ -104,19 +104,18 @@ def _in_one_posture(project: Project, player_ids: Collection[str]) -> Project:
 
 
 def rename(project: Project, player_id: str, name: str) -> Project:
-    """Call a player something else; a name that another carries gets a number. Raises AppError ``player.no_name``."""
+    """Rename a player; a number is added if the name is taken. Raises AppError for an empty name."""
     return change(project, (player_id,), name=free_name(visible_name(name), project.performer_names(but=player_id)))
 
 
 def set_parameters(project: Project, player_ids: Collection[str], **values: Value) -> Project:
-    """Set parameters for several players, and so for their musicians; numbers are held within their
-    bounds."""
+    """Set parameters of several players' musicians; numbers are clipped to their bounds."""
     held = {name: PARAMETERS[name].held(value) for name, value in values.items()}
     return _each(project, musicians_of(project, player_ids), lambda player: _with_parameters(player, held))
 
 
 def reset_parameters(project: Project, player_ids: Collection[str], names: Collection[str] | None = None) -> Project:
-    """Return parameters to what each musician was cast with; all of them where no names are given."""
+    """Reset parameters to the musicians' initial ones; all parameters if no names are given."""
 
     def reset(player: Player) -> Player:
         cast = cast_parameters(project, player.id, instrument_of(player))
@@ -130,13 +129,13 @@ def reset_parameters(project: Project, player_ids: Collection[str], names: Colle
 
 
 def randomise(project: Project, player_ids: Collection[str], spread: float) -> Project:
-    """Make players differ: what has a spread by chance around what they have on average now, habits and a seed of
-    their own.
+    """Make players differ: parameters with a spread vary randomly around the current mean; each gets own habits and a
+    seed.
 
     Parameters
     ----------
     spread : float
-        0: everyone the same; 1: as far apart as is sensible.
+        0: all equal; 1: as different as is sensible.
     """
     player_ids = musicians_of(project, player_ids)
     chosen = [player for player in project.bodies if player.id in player_ids]
@@ -163,7 +162,7 @@ def randomise(project: Project, player_ids: Collection[str], spread: float) -> P
 
 
 def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
-    """Choose up to two of the habits by chance; the more players are to differ, the more of them get any."""
+    """Choose up to two habits at random; a larger spread gives habits to more players."""
     known = sorted(HABITS.now().items)
     found = [
         known[int(chance("habit", str(number), roll, player_id) * len(known))]
@@ -174,7 +173,7 @@ def _thrown_habits(player_id: str, roll: int, spread: float) -> str:
 
 
 def set_habit(project: Project, player_ids: Collection[str], habit: str, has: bool) -> Project:
-    """Let players have a habit or not; their other habits stay."""
+    """Give players a habit or remove it; other habits stay."""
 
     def changed(player: Player) -> Player:
         others = [name for name in names_in(player.parameters.habits) if name != habit]
@@ -184,7 +183,7 @@ def set_habit(project: Project, player_ids: Collection[str], habit: str, has: bo
 
 
 def show_layer(project: Project, player_ids: Collection[str], amount: str, shown: bool) -> Project:
-    """Show a layer of players, as much as its amount says, or not; their other layers stay."""
+    """Enable or disable a layer of players; its amount and other layers stay."""
 
     def changed(player: Player) -> Player:
         others = [name for name in names_in(player.parameters.layers_off) if name != amount]
@@ -194,7 +193,7 @@ def show_layer(project: Project, player_ids: Collection[str], amount: str, shown
 
 
 def place(project: Project, places: Mapping[str, StagePosition]) -> Project:
-    """Put players somewhere on the stage, and with them their musicians."""
+    """Set the stage places of players' musicians."""
     places = {project.musician(player).id: places[player.id] for player in project.players if player.id in places}
     return _each(project, places, lambda player: msgspec.structs.replace(player, stage=places[player.id]))
 
@@ -207,21 +206,21 @@ def arc_of(project: Project) -> tuple[StagePosition, ...]:
 
 
 def arrange(project: Project) -> Project:
-    """Put everyone in the usual seating: a few on an arc open to the audience, many in the rows of a band."""
+    """Place everyone in the usual seating: an arc for a few players, rows for many."""
     return place(project, {player.id: spot for player, spot in zip(project.players, arc_of(project), strict=True)})
 
 
 def add_player(
     project: Project, instrument: InstrumentMap, maps: Mapping[str, InstrumentMap], name: str
 ) -> tuple[Project, str]:
-    """Add a player with an empty part of their own; the player's id comes with the project.
+    """Add a player with a new empty part; returns the project and the player's id.
 
     Parameters
     ----------
     maps : mapping of str to InstrumentMap
-        By id: whatever the other players play.
+        Instrument maps of all players, by id.
     name : str
-        Gets a number where another carries it.
+        Name; a number is added if it is taken.
     """
     [player_id], [part_id] = fresh_player_ids(project), fresh_part_ids(project)
     called = free_name(clean_name(name) or instrument.name.en, project.performer_names())
@@ -244,8 +243,9 @@ def add_player(
 
 
 def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Project, tuple[str, ...]]:
-    """Let others play the same, from a copy of the part and with the same corrections but a seed of their own; their
-    ids come with the project. Each stands after the one they double."""
+    """Copy players with their part and corrections but new seeds; returns the project and the ids. Each copy stands
+    after its original.
+    """
     originals = [player for player in project.players if player.id in player_ids]
     new_ids = fresh_player_ids(project, len(originals))
     part_ids = fresh_part_ids(project, len(originals))
@@ -291,13 +291,13 @@ def duplicate_players(project: Project, player_ids: Sequence[str]) -> tuple[Proj
 def assign(
     project: Project, player_ids: Collection[str], part_id: str | None = None, instrument_id: str | None = None
 ) -> Project:
-    """Let players play another part, or what they play on another instrument. Corrections stay; those about notes of
-    the part before do nothing until the player has it again. An empty part that no one plays any more goes.
+    """Assign players another part or another instrument. Corrections stay; those about notes of the previous part have
+    no effect until it is assigned again. An empty part without a player is removed.
 
     Raises
     ------
     AppError
-        ``player.no_part`` (part): there is no such part; ``assign.instrument_unknown`` (instrument, possible).
+        There is no such part or instrument.
     """
     if part_id is not None and part_id not in {part.id for part in project.score.parts}:
         raise AppError("player.no_part", part=part_id)
@@ -316,8 +316,9 @@ def assign(
 def newcomer(
     project: Project, player_id: str, part: Part, name: str, playing: Sequence[InstrumentMap], doubles: str = ""
 ) -> Player:
-    """A player for a part, cast as a new piece's are; ``playing`` are the maps of everyone, the player's own last,
-    ``doubles`` whose body it has."""
+    """Create a player for a part with the casting of a new piece; ``playing`` has the maps of all players with the new
+    one last; ``doubles`` is the player whose body is shared.
+    """
     return Player(
         id=player_id,
         name=name,
@@ -331,9 +332,9 @@ def newcomer(
 
 
 def remove_players(project: Project, player_ids: Collection[str]) -> Project:
-    """Remove players, with their corrections. A file's part without a player stays in the score, so that it can be
-    assigned to another player; one that is empty or was made here is removed too. The next instrument of a musician
-    whose first one is removed becomes the first."""
+    """Remove players and their corrections. A file's part without a player stays in the score for reassignment; empty
+    parts and parts made here are removed. If a musician's first player is removed, the next one becomes the first.
+    """
     on_arc = _on_arc(project)
     kept = promote_remaining(player for player in project.players if player.id not in player_ids)
     played = {player.part_id for player in kept}
@@ -356,14 +357,14 @@ def remove_players(project: Project, player_ids: Collection[str]) -> Project:
 
 
 def move_players(project: Project, player_ids: Collection[str], before: int) -> Project:
-    """Put players, in their order, before the one who has the number ``before`` now; the arc follows the order."""
+    """Move players in the list, keeping their order, before index ``before``; the stage arc follows the new order."""
     on_arc = _on_arc(project)
     result = _with_players(project, moved_before(project.players, player_ids, before))
     return arrange(result) if on_arc and result is not project else result
 
 
 def order_players(project: Project, player_ids: Sequence[str]) -> Project:
-    """Put players into the places that they have among all, in this order; the arc follows the order."""
+    """Reorder some players among the list places they occupy; the stage arc follows the new order."""
     on_arc, own = _on_arc(project), iter(player_ids)
     players = (project.player(next(own)) if player.id in player_ids else player for player in project.players)
     result = _with_players(project, players)
@@ -376,7 +377,7 @@ def _with_players(project: Project, players: Iterable[Player]) -> Project:
 
 
 def _each(project: Project, player_ids: Container[str], edit: Callable[[Player], Player]) -> Project:
-    """The project with these players; an unchanged player stays the same object."""
+    """Apply an edit to these players; an unchanged player stays the same object."""
     edited = {player.id: edit(player) for player in project.players if player.id in player_ids}
     return _with_players(
         project,
@@ -389,14 +390,14 @@ def _with_parameters(player: Player, values: Mapping[str, Value]) -> Player:
 
 
 def moved_before(performers: Sequence[P], ids: Container[str], before: int) -> list[P]:
-    """Performers in another order: those of these ids, in their order, before the one who has a number now."""
+    """Performers reordered: those of these ids, in their order, are moved before index ``before``."""
     ahead = [one for one in performers[:before] if one.id not in ids]
     behind = [one for one in performers[before:] if one.id not in ids]
     return [*ahead, *(one for one in performers if one.id in ids), *behind]
 
 
 def visible_name(name: str) -> str:
-    """A name that can be given. Raises AppError ``player.no_name``."""
+    """Return a cleaned name. Raises AppError if it is empty."""
     requested = clean_name(name)[: limits.MOST_NAME]
     if not requested:
         raise AppError("player.no_name")
@@ -404,23 +405,23 @@ def visible_name(name: str) -> str:
 
 
 def musicians_of(project: Project, player_ids: Collection[str]) -> frozenset[str]:
-    """The musicians who play for these players, by id."""
+    """Ids of the musicians of these players."""
     return frozenset(project.musician(player).id for player in project.players if player.id in player_ids)
 
 
 def postures_of_musician(project: Project, player: Player) -> tuple[Posture, ...]:
-    """The postures in which a musician can play everything; where none fits all, those of the first instrument."""
+    """Postures in which a musician can play all instruments; if none fits all, those of the first instrument."""
     played = [postures_of(one) for one in project.played_by(player)]
     return tuple(one for one in played[0] if all(one in postures for postures in played)) or played[0]
 
 
 def join(project: Project, player_id: str, musician_id: str) -> Project:
-    """Let the body of another player play this instrument too, and whatever this player's own body plays besides.
+    """Make the body of another player also play this instrument, and everything this player's own body plays.
 
     Raises
     ------
     AppError
-        ``doubling.posture``, ``doubling.together`` (see `app.project.doubling`).
+        No posture fits all instruments, or they sound at the same time (see `app.project.doubling`).
     """
     joining, musician = project.player(player_id), project.musician(project.player(musician_id))
     coming = project.played_by(joining) if project.musician(joining) is joining else (joining,)
@@ -443,7 +444,7 @@ def join(project: Project, player_id: str, musician_id: str) -> Project:
 
 
 def separate(project: Project, player_ids: Collection[str]) -> Project:
-    """Give players who double a body and a place of their own; the character stays."""
+    """Give doubling players their own body and place; the character stays."""
     apart = [player for player in project.players if player.id in player_ids and player.doubles]
     on_arc, order = _on_arc(project), [player.id for player in project.players]
     alone = tuple(
@@ -460,8 +461,7 @@ def separate(project: Project, player_ids: Collection[str]) -> Project:
 
 
 def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
-    """The project with more players, of parts it has: on the arc if the others are, else each to the right of them and
-    of dancers beside them."""
+    """Add players for existing parts: on the arc if all others are, else to the right of all other performers."""
     if len(project.players) + len(newcomers) > limits.MOST_PLAYERS:
         raise AppError("player.too_many", most=limits.MOST_PLAYERS)
     on_arc = _on_arc(project)
@@ -480,12 +480,12 @@ def with_newcomers(project: Project, newcomers: tuple[Player, ...]) -> Project:
 
 
 def _on_arc(project: Project) -> bool:
-    """Return whether no one was moved by hand."""
+    """Return whether all players are at their usual places."""
     return tuple(player.stage for player in project.players) == arc_of(project)
 
 
 def free_name(requested: str, taken: Iterable[str]) -> str:
-    """The name itself, or with the first free number, counted on where it ends in one."""
+    """The name itself, or with the next free number added if it is taken."""
     keys = {name.casefold() for name in taken}
     if requested.casefold() not in keys:
         return requested
@@ -498,6 +498,6 @@ def free_name(requested: str, taken: Iterable[str]) -> str:
 
 
 def free_channel(parts: Sequence[Part]) -> int:
-    """A channel no part uses, not the percussion's; the first again where all are taken."""
+    """A channel that no part uses, except the percussion channel; 0 if all are taken."""
     used = {part.channel for part in parts}
     return next((channel for channel in range(16) if channel != DRUM_CHANNEL and channel not in used), 0)

@@ -1,8 +1,8 @@
-"""Takes: recorded, cleaned, and put together into the part (the comp).
+"""Edits of takes: adding, cleaning, and combining them into the part (the comp).
 
-A take is kept as it was played. What of it a part has is said by the comp: spans of the part and the takes they came
-from. Only what is swiped over is changed, so that whatever was corrected by hand elsewhere stays; a note of a take has
-the same id whenever it is brought in, so that corrections about it wait for it.
+Takes are stored as played. The comp is the list of spans of the part with the take each came from. Comping changes only
+its span, so corrections elsewhere stay; a note of a take has the same id each time it is inserted, so that its
+corrections apply again.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ _STEPS: Final[IdentityCache[tuple[IntArray, FloatArray]]] = IdentityCache(16)
 
 
 def add_takes(project: Project, player_id: str, takes: Sequence[Take]) -> tuple[Project, tuple[str, ...]]:
-    """Add what was recorded; ids are given here, and come with the project.
+    """Add recorded takes; returns the project and the new ids.
 
     Raises
     ------
     AppError
-        ``take.too_many``; ``take.invalid``: no project could hold it.
+        There are too many takes, or one is invalid.
     """
     count = sum(len(recorded.takes) for recorded in project.takes.values()) + len(takes)
     if count > limits.MOST_TAKES:
@@ -54,18 +54,18 @@ def add_takes(project: Project, player_id: str, takes: Sequence[Take]) -> tuple[
 
 
 def rename_take(project: Project, player_id: str, take_id: str, name: str) -> Project:
-    """Call a take something else; a name without a sign that can be seen changes nothing."""
+    """Rename a take; a name without visible characters changes nothing."""
     requested = clean_name(name)[: limits.MOST_NAME]
     return _changed(project, player_id, take_id, name=requested) if requested else project
 
 
 def colour_take(project: Project, player_id: str, take_id: str, colour: str) -> Project:
-    """Show a take in a colour, ``"#rrggbb"``; empty: the player's."""
+    """Set the display colour of a take, ``"#rrggbb"``; empty: the player's."""
     return _changed(project, player_id, take_id, colour=colour)
 
 
 def remove_take(project: Project, player_id: str, take_id: str) -> Project:
-    """Throw a take away; what the part has of it stays in the part, as notes of its own."""
+    """Delete a take; notes of it in the part stay, as ordinary notes."""
     recorded = recorded_with(project, player_id, take_id)
     takes = tuple(take for take in recorded.takes if take.id != take_id)
     comp = tuple(span for span in recorded.comp if span.take_id != take_id)
@@ -73,7 +73,7 @@ def remove_take(project: Project, player_id: str, take_id: str) -> Project:
 
 
 def move_take(project: Project, player_id: str, take_id: str, before: int) -> Project:
-    """Put a take's lane before the one that has the number ``before`` now."""
+    """Move a take's lane before index ``before``."""
     recorded = recorded_with(project, player_id, take_id)
     take = recorded.take(take_id)
     first = [one for one in recorded.takes[:before] if one is not take]
@@ -85,15 +85,15 @@ def move_take(project: Project, player_id: str, take_id: str, before: int) -> Pr
 
 
 def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_tick: int) -> Project:
-    """Let the part have what a take has in a span; `BEFORE` is what the part was before the first take.
+    """Use a take in a span of the part; `BEFORE` is the part's content before the first take.
 
-    Notes go by their onsets. A note of the part that sounds into the span is cut where the first new one begins, and a
-    new one where the part goes on.
+    Notes are selected by their onsets. A note of the part that reaches into the span is cut at the first new note, and
+    a new one where the part continues.
 
     Raises
     ------
     AppError
-        ``take.none``.
+        There is no such take.
     """
     start_tick, end_tick = max(start_tick, 0), min(end_tick, LAST_TICK)
     if start_tick >= end_tick:
@@ -107,7 +107,7 @@ def comp(project: Project, player_id: str, take_id: str, start_tick: int, end_ti
 
 
 def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
-    """Let the part have all of a take, from where it begins to where it ends."""
+    """Use a whole take in the part."""
     if take_id == BEFORE:
         return comp(project, player_id, take_id, 0, LAST_TICK)
     take = recorded_with(project, player_id, take_id).take(take_id)
@@ -118,7 +118,7 @@ def comp_whole(project: Project, player_id: str, take_id: str) -> Project:
 
 
 def comp_with(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_id: str) -> tuple[CompSpan, ...]:
-    """The comp with a span laid over it; neighbours of one take are one."""
+    """The comp with another span added on top; adjacent spans of one take are merged."""
     result = []
     for span in spans:
         if span.start_tick < start_tick:
@@ -137,7 +137,7 @@ def comp_with(spans: tuple[CompSpan, ...], start_tick: int, end_tick: int, take_
 
 
 def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Cleaning) -> Project:
-    """Clean a take otherwise; what the part has of it follows, but for notes that were changed in the part by hand."""
+    """Change the cleaning of a take; its notes in the part are updated, except those changed by hand."""
     recorded = recorded_with(project, player_id, take_id)
     if recorded.take(take_id).cleaning == cleaning:
         return project
@@ -154,12 +154,13 @@ def set_cleaning(project: Project, player_id: str, take_id: str, cleaning: Clean
 
 
 def beats_of(project: Project, player_id: str, take_id: str) -> FloatArray:
-    """Return when the beats of a take that was played freely are, seconds. Slow at first: its library compiles.
+    """Return the beats in seconds of a take played without a metronome. The first call is slow, since its library
+    compiles.
 
     Raises
     ------
     AppError
-        ``take.not_free``: others play too; ``take.too_few_notes``, ``take.no_beats``.
+        Other parts have notes, or too few notes or no beats were found.
     """
     _require_free(project, player_id)
     clean = cleaned(recorded_with(project, player_id, take_id).take(take_id))
@@ -168,8 +169,9 @@ def beats_of(project: Project, player_id: str, take_id: str) -> FloatArray:
 
 
 def follow_beats(project: Project, player_id: str, take_id: str, beats_s: FloatArray) -> Project:
-    """Let the piece have the tempo of a take that was played freely: its first beat begins the piece, and its notes
-    lie on beats as they were meant. Raises AppError ``take.not_free``."""
+    """Set the tempo of the piece from a freely played take: its first beat begins the piece. Raises AppError if other
+    parts have notes.
+    """
     _require_free(project, player_id)
     recorded = recorded_with(project, player_id, take_id)
     take = recorded.take(take_id)
@@ -189,7 +191,7 @@ def follow_beats(project: Project, player_id: str, take_id: str, beats_s: FloatA
 
 
 def _require_free(project: Project, player_id: str) -> None:
-    """Refuse to set the tempo by a take where others play."""
+    """Raise AppError if parts other than the player's have notes."""
     for part in project.score.parts:
         if part.notes and part.id != project.player(player_id).part_id:
             raise AppError("take.not_free", part=part.name)
@@ -218,7 +220,7 @@ def _replaced(
     start_tick: int,
     end_tick: int,
 ) -> Project:
-    """The part with other notes and curves in a span."""
+    """Replace the notes and curves of the part in a span."""
     part = project.part(project.player(player_id))
     outside = [note for note in part.notes if not start_tick <= note.onset_tick < end_tick]
     # A note that was moved out of the span by hand is there already.
@@ -230,12 +232,12 @@ def _replaced(
 
 
 def _others(project: Project, part_id: str) -> set[str]:
-    """Ids of the notes of other parts; a duplicate of the player may have some that a take would bring."""
+    """Ids of the notes of other parts; a copied player may share ids with a take."""
     return {note.id for part in project.score.parts if part.id != part_id for note in part.notes}
 
 
 def _fitted(before: list[Note], after: list[Note]) -> list[Note]:
-    """Notes one after the other; what sounds beyond the first of those that follow is cut there."""
+    """Concatenate notes; those that overlap the first of the following ones are cut there."""
     if not after:
         return before
     first = min(note.onset_tick for note in after)
@@ -261,7 +263,7 @@ def _with_part(project: Project, part_id: str, notes: Iterable[Note], curves: tu
 def _spliced(
     before: Sequence[ControllerCurve], given: Sequence[ControllerCurve], start_tick: int, end_tick: int
 ) -> tuple[ControllerCurve, ...]:
-    """Curves with others in a span: where it ends, what was there before goes on."""
+    """Insert curves into a span; after its end the previous values continue."""
     old, new = {curve.kind: curve for curve in before}, {curve.kind: curve for curve in given}
     result = []
     for kind in (*old, *(kind for kind in new if kind not in old)):
@@ -302,7 +304,7 @@ def _arrays(curve: ControllerCurve) -> tuple[IntArray, FloatArray]:
 
 
 def _held(ticks: IntArray, values: FloatArray, tick: int) -> float:
-    """Value that holds at a tick; 0 before the first."""
+    """Value in force at a tick; 0 before the first one."""
     index = int(np.searchsorted(ticks, tick, side="right")) - 1
     return float(values[index]) if index >= 0 else 0.0
 
@@ -310,7 +312,7 @@ def _held(ticks: IntArray, values: FloatArray, tick: int) -> float:
 def _recleaned(
     project: Project, player_id: str, before: dict[str, Note], after: tuple[Note, ...], span: CompSpan
 ) -> Project:
-    """The part with a take's notes as they are now instead of as they were; what was changed by hand stays."""
+    """Update a take's notes in the part after a change of cleaning; notes changed by hand stay."""
     part = project.part(project.player(player_id))
     here = {note.id: note for note in part.notes}
     now = {note.id: note for note in after if span.start_tick <= note.onset_tick < span.end_tick}
@@ -330,7 +332,7 @@ def _recleaned(
 
 
 def _is_as_given(here: Note, given: Note) -> bool:
-    """Return whether a note of the part is as the take gave it; it may have been cut where another take goes on."""
+    """Return whether a note of the part is unchanged since it came from the take, except that it may have been cut."""
     return here == given or (
         here.duration_tick < given.duration_tick
         and here == msgspec.structs.replace(given, duration_tick=here.duration_tick)

@@ -1,4 +1,4 @@
-"""Tempo, metre and pickup. Notes keep their ticks; what changes is when they sound and where the bar lines stand."""
+"""Edits of tempo, metre and pickup. Notes keep their ticks; their times and the bar lines change."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from app.score.tempo import TempoChange, TempoMap
 
 
 def set_tempo(project: Project, tick: int, bpm: float) -> Project:
-    """Set the tempo from a tick on, in quarters per minute; a change that stands there is replaced."""
+    """Set the tempo from a tick on, in quarters per minute, replacing a change at that tick."""
     if not limits.BPM[0] <= bpm <= limits.BPM[1]:
         raise UsageError("tempo.outside", low=limits.BPM[0], high=limits.BPM[1])
     _check_place(tick)
@@ -28,7 +28,7 @@ def set_tempo(project: Project, tick: int, bpm: float) -> Project:
 
 
 def move_tempo(project: Project, tick: int, to_tick: int) -> Project:
-    """Let a tempo begin elsewhere; one that stands there gives way."""
+    """Move a tempo change to another tick, replacing one there."""
     changes = {change.tick: change for change in project.score.tempo_map.changes}
     moved = changes.get(tick)
     if moved is None:
@@ -44,7 +44,7 @@ def move_tempo(project: Project, tick: int, to_tick: int) -> Project:
 
 
 def remove_tempo(project: Project, tick: int) -> Project:
-    """Let the tempo before go on."""
+    """Remove a tempo change, so that the previous tempo continues."""
     if tick == 0:
         raise UsageError("tempo.first_stays")
     changes = project.score.tempo_map.changes
@@ -55,9 +55,9 @@ def remove_tempo(project: Project, tick: int) -> Project:
 
 
 def scale_tempo(project: Project, ratio: float) -> Project:
-    """Play everything this much faster (1.02: two percent), as a recording does whose tempo is slightly another.
+    """Scale all tempi (1.02: two percent faster), to match a recording.
 
-    The recording's offset stays: scaling to a recording sets both.
+    The recording's offset is not changed.
     """
     low, high = limits.TEMPO_RATIO
     changes = tuple(
@@ -72,7 +72,7 @@ def scale_tempo(project: Project, ratio: float) -> Project:
 
 
 def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project:
-    """Let beats lie these seconds from one another; between them the tempo is constant, and after the last it goes on.
+    """Set the times of beats: the tempo is constant between them, and the last one continues.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project
     Raises
     ------
     UsageError
-        ``tempo.outside``: a beat would be impossibly long or short.
+        A beat would be impossibly long or short.
     """
     quarters = np.diff(ticks) / project.score.ticks_per_quarter
     lengths_us = 1e6 * np.diff(seconds) / quarters
@@ -96,8 +96,9 @@ def set_beats(project: Project, ticks: IntArray, seconds: FloatArray) -> Project
 
 
 def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> Project:
-    """Set the metre from a tick on, at which a bar begins; a bar before it may be cut short by it. A pickup and the bar
-    after it are changed together if they are of one metre."""
+    """Set the metre from a tick on, where a bar begins; the bar before may be cut short. A pickup and the bar after it
+    change together if they have one metre.
+    """
     _check_metre(numerator, denominator)
     _check_place(tick)
     score = project.score
@@ -114,8 +115,7 @@ def set_metre(project: Project, tick: int, numerator: int, denominator: int) -> 
 
 
 def move_metre(project: Project, tick: int, to_tick: int) -> Project:
-    """Let a metre begin elsewhere; one that stands there gives way. That of the beginning, and the one after a pickup,
-    stay."""
+    """Move a metre to another tick, replacing one there. The first metre and the one after a pickup cannot be moved."""
     score = project.score
     metre = next((metre for metre in score.metres if metre.tick == tick), None)
     if metre is None:
@@ -128,7 +128,9 @@ def move_metre(project: Project, tick: int, to_tick: int) -> Project:
 
 
 def remove_metre(project: Project, tick: int) -> Project:
-    """Let the metre before go on. The one after a pickup goes with the pickup: see `set_pickup`."""
+    """Remove a metre, so that the previous one continues. The one after a pickup is removed with the pickup: see
+    `set_pickup`.
+    """
     if tick == 0:
         raise UsageError("tempo.first_stays")
     score = project.score
@@ -141,7 +143,7 @@ def remove_metre(project: Project, tick: int) -> Project:
 
 
 def set_pickup(project: Project, ticks: int) -> Project:
-    """Begin with an incomplete bar of this length, 0 for none: the first whole bar begins after it."""
+    """Set the length in ticks of an incomplete first bar; 0: none."""
     score = project.score
     if ticks == score.pickup_ticks:
         return project
@@ -177,7 +179,7 @@ def _is_same(one: Metre, other: Metre) -> bool:
 
 
 def replace_tempi(project: Project, changes: Iterable[TempoChange]) -> Project:
-    """Set the tempi of the piece, in any order, one of them at tick 0; returns the same project if nothing changes."""
+    """Set all tempi of the piece, in any order, one of them at tick 0; returns the same project if nothing changes."""
     before = project.score.tempo_map
     ordered = tuple(sorted(changes, key=lambda change: change.tick))
     if ordered == before.changes:
