@@ -63,7 +63,7 @@ def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, repor
     motion = dancing.motion(span.fps, span.first, span.count)
     reported(0.3)
     scenes: dict[bool, Scene] = {}
-    options = write_options(request, dancing.character, cast.target)
+    options = write_options(request, cast.character, cast.target)
     for row in rows:
         if row.humanoid not in scenes:
             scenes[row.humanoid] = dancer_scene(request, cast, motion, row)

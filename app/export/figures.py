@@ -63,7 +63,7 @@ def held_scene(request: ExportRequest, musician: CastMusician, performer: Perfor
 
 def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind: FileFormat | None = None) -> Scene:
     """The scene of a dancer's character; `kind` as of a musician."""
-    name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.dancing.character
+    name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.character
     if kind is not None and kind.humanoid:
         return _animation_scene(request, character, motion, name, cast.target_in(kind))
     scene = character_scene(character, motion, name, request.creator, cast.target, face_parts=request.face.parts)

@@ -150,7 +150,7 @@ class PlayerJudge:
         if player_scene.clip is None or instrument_scene.clip is None:
             raise ValueError("a file without a clip cannot be measured")
         instrument, body = self.performer.instrument, self.performer.body
-        character = with_lip_landmarks(self.performer.character, instrument, body)
+        character = with_lip_landmarks(self.performer.dressed, instrument, body)
         player = ScenePlayback(player_scene, player_scene.clip)
         held = ScenePlayback(instrument_scene, instrument_scene.clip)
         times_s = first_frame_s + np.arange(player.clip.frames) / float(player.clip.fps)

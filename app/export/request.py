@@ -17,6 +17,7 @@ from app.export.target import SkeletonChoice, TargetSkeleton
 from app.export.targets import CheckedTarget, checked_targets, spoilt
 from app.formats.images import USUAL_TEXTURE_PX
 from app.formats.keys import KeyChoice
+from app.performance.bodies import dressed_character
 from app.performance.cast import LeftOut, Performer, dancings_of, performers_of, require_players
 from app.performance.dances import Dancing
 from app.performance.ensemble import Performance
@@ -120,8 +121,8 @@ class CastMusician:
 
     @property
     def character(self) -> Character:
-        """The musician's body."""
-        return self.performers[0].character
+        """The musician's body, dressed."""
+        return self.performers[0].dressed
 
     @property
     def target(self) -> TargetSkeleton:
@@ -147,13 +148,18 @@ class CastDancing:
     checked: CheckedTarget
 
     @property
+    def character(self) -> Character:
+        """The dancer's body, dressed."""
+        return dressed_character(self.dancer)
+
+    @property
     def target(self) -> TargetSkeleton:
         """The skeleton that the character is written on."""
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
         """The skeleton that the character is written on in files of a kind."""
-        return humanoid_target(self.dancing.character, self.target.place) if kind.humanoid else self.target
+        return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
 
 
 @dataclass(frozen=True, eq=False)

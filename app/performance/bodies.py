@@ -11,8 +11,8 @@ from app.arrays import FloatArray
 from app.errors import FileError, MapError, Progress, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.contacts.ready_player import put_aside_transform
-from app.project.performers import Player
-from app.rig.characters.character_library import character_named, character_revision, our_characters
+from app.project.performers import Dancer, Player
+from app.rig.characters.character_library import character_in, character_named, character_revision, our_characters
 from app.rig.grip.body_size import leg_size, sized_body, sized_model
 from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
@@ -38,6 +38,14 @@ _SUITED: IdentityCache[FittedInstrument] = IdentityCache(256)
 def character_of(player: Player) -> Character:
     """The character that plays. Raises UsageError where there is none of its id."""
     return character_named(player.character_id)
+
+
+def dressed_character(performer: Player | Dancer) -> Character:
+    """Return the character of a player or dancer in the outfit; nothing but its meshes differs from who plays.
+
+    Raises UsageError where there is none of its id.
+    """
+    return character_in(performer.character_id, performer.outfit)
 
 
 def body_of(player: Player) -> Body:

@@ -6,12 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, TypeVar
 
 import msgspec
 
 from app.errors import AppError, Cancelled, FileError, Message, StopRequested, raise_if_stopped
-from app.performance.bodies import body_of, character_of, hold_of, model_of
+from app.performance.bodies import body_of, character_of, dressed_character, hold_of, model_of
 from app.performance.dances import Dancing, dancing_of
 from app.performance.ensemble import Performance
 from app.project.performers import Dancer, Player
@@ -68,6 +69,11 @@ class Performer:
     instrument: InstrumentMap
     model: InstrumentModel
     grip: GripPose
+
+    @cached_property
+    def dressed(self) -> Character:
+        """The character in the player's outfit, as it is seen; motion is the same in any."""
+        return dressed_character(self.player)
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRequested = lambda: False) -> Attempt[T]:

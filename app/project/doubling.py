@@ -25,8 +25,8 @@ written early. More makes two musicians."""
 
 
 def embodied(players: tuple[Player, ...]) -> tuple[Player, ...]:
-    """The players, with doubling ones given the character, parameters and place of their musician; the same tuple if
-    nothing changes.
+    """The players, with doubling ones given the character, parameters, place and outfit of their musician; the same
+    tuple if nothing changes.
     """
     if not any(player.doubles for player in players):
         return players
@@ -38,16 +38,10 @@ def embodied(players: tuple[Player, ...]) -> tuple[Player, ...]:
 def _of_musician(player: Player, musician: Player | None) -> Player:
     if musician is None:
         return player
-    same = (player.character_id, player.parameters, player.stage) == (
-        musician.character_id,
-        musician.parameters,
-        musician.stage,
-    )
-    if same:
+    shared = {name: getattr(musician, name) for name in ("character_id", "parameters", "stage", "outfit")}
+    if all(getattr(player, name) == value for name, value in shared.items()):
         return player
-    return msgspec.structs.replace(
-        player, character_id=musician.character_id, parameters=musician.parameters, stage=musician.stage
-    )
+    return msgspec.structs.replace(player, **shared)
 
 
 def promote_remaining(players: Iterable[Player]) -> tuple[Player, ...]:

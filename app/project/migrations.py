@@ -89,6 +89,15 @@ def _with_stopped(raw: Raw) -> Raw:
     return {**raw, "score": {**raw["score"], "parts": parts}, "imported": imported}
 
 
+def _with_outfits(raw: Raw) -> Raw:
+    """16 to 17: players and dancers may be given an outfit; before, everyone wore clothes of their own."""
+    return {
+        **raw,
+        "players": [{**player, "outfit": {}} for player in raw["players"]],
+        "dancers": [{**dancer, "outfit": {}} for dancer in raw["dancers"]],
+    }
+
+
 STRUCTURE: Final[Mapping[int, Migration]] = {
     # What the MIDI file held is kept; of an older file it is unknown.
     2: lambda raw: {**raw, "edited_notes": {}},
@@ -108,6 +117,7 @@ STRUCTURE: Final[Mapping[int, Migration]] = {
     # derived from its parts when it is read again.
     14: lambda raw: {**raw, "imported": None, "edited_curves": {}, "read_timing": None},
     15: _with_stopped,
+    17: _with_outfits,
 }
 """By the version that they lead to. New parameters say themselves since which version they are there."""
 

@@ -9,6 +9,7 @@ import msgspec
 from app.plan.parameters import SEED, Parameter, PlayerParameters
 from app.project import limits
 from app.project.casting import StagePosition
+from app.rig.people.wardrobe import NO_CHOICE, OutfitChoice
 
 
 class Player(msgspec.Struct, frozen=True):
@@ -26,7 +27,9 @@ class Player(msgspec.Struct, frozen=True):
         Whether the player sounds; a muted player is still shown and exported.
     doubles : str
         Id of the player whose body plays this instrument too, as a flutist's plays the piccolo; empty: a body of its
-        own. The character, parameters and place of the musician are stored with that player.
+        own. The character, parameters, place and outfit of the musician are stored with that player.
+    outfit : OutfitChoice
+        What the body wears.
     """
 
     id: str
@@ -40,6 +43,7 @@ class Player(msgspec.Struct, frozen=True):
     muted: bool = False
     soloed: bool = False
     doubles: str = ""
+    outfit: OutfitChoice = NO_CHOICE
 
 
 class Dancer(msgspec.Struct, frozen=True):
@@ -70,6 +74,8 @@ class Dancer(msgspec.Struct, frozen=True):
         0..1: how much melody, bass and accents count beside percussion; a piece without percussion is danced by them.
     colour : str
         ``"#rrggbb"``; empty: the theme's.
+    outfit : OutfitChoice
+        What the body wears.
     """
 
     id: str
@@ -89,3 +95,4 @@ class Dancer(msgspec.Struct, frozen=True):
     melody: Annotated[float, Parameter(section="dancer", bounds=(0.0, 1.0), since=16)] = 0.5
     # fmt: on
     colour: str = ""
+    outfit: OutfitChoice = NO_CHOICE

@@ -30,6 +30,7 @@ from app.project.migrations import CURRENT, VERSION_KEY, migrated
 from app.project.model import Project
 from app.project.stored_content import Content, content_of, project_of
 from app.rig.characters.character_library import characters
+from app.rig.people.wardrobe import wardrobe
 from instrument_maps.library import all_maps
 
 SUFFIX: Final = ".suisou"
@@ -238,6 +239,7 @@ def missing(project: Project) -> tuple[Message, ...]:
     it is there.
 
     Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id),
+    ``project.outfit_missing`` (player, id),
     ``project.choreography_missing`` (dancer, name, known), ``project.choreography_file_missing`` (dancer, file),
     ``project.choreography_elsewhere`` (dancer, file, host).
     """
@@ -254,6 +256,9 @@ def missing(project: Project) -> tuple[Message, ...]:
         if dancer.character_id not in bodies:
             found.append(Message("project.character_missing", {"player": dancer.name, "id": dancer.character_id}))
         found += choreography_missing(dancer.name, dancer.choreography)
+    for one in project.performers:
+        if one.outfit.id and one.outfit.id not in wardrobe():
+            found.append(Message("project.outfit_missing", {"player": one.name, "id": one.outfit.id}))
     return tuple(found)
 
 

@@ -12,6 +12,7 @@ from app.errors import shortened
 from app.plan.parameters import Bounds
 from app.project import limits
 from app.project.performers import Dancer, Player
+from app.rig.people.wardrobe import TINTS
 
 Fault: TypeAlias = tuple[str, str]
 """The key path, and what is wrong there."""
@@ -100,9 +101,13 @@ def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
 
 
 def look_faults(performer: Player | Dancer, place: str) -> Iterator[Fault]:
-    """Faults of a performer's place on the stage and colour."""
-    if performer.colour and not COLOUR.fullmatch(performer.colour):
-        yield f"{place}.colour", 'must be empty or like "#3366cc"'
+    """Faults of a performer's place on the stage, colour and clothes."""
+    outfit = performer.outfit
+    yield from id_faults(f"{place}.outfit.id", outfit.id, least=0)
+    colours = {"colour": performer.colour, **{f"outfit.{tint}": outfit.colour(tint) for tint in TINTS}}
+    for name, colour in colours.items():
+        if colour and not COLOUR.fullmatch(colour):
+            yield f"{place}.{name}", 'must be empty or like "#3366cc"'
     yield from faults_of_bounds(f"{place}.stage.x_m", performer.stage.x_m, limits.STAGE_M)
     yield from faults_of_bounds(f"{place}.stage.z_m", performer.stage.z_m, limits.STAGE_M)
     yield from faults_of_bounds(f"{place}.stage.turn_rad", performer.stage.turn_rad, limits.TURN_RAD)

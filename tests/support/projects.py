@@ -22,6 +22,7 @@ from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack
 from app.project.video import VideoTrack
+from app.rig.people.wardrobe import OutfitChoice
 from app.score.limits import too_long
 from app.score.marks import MARK_KINDS
 from app.score.metre_map import Metre
@@ -110,6 +111,8 @@ def curves(draw: st.DrawFn) -> ControllerCurve:
     return ControllerCurve(kind, at, tuple(draw(st.floats(low, 1.0)) for _ in at))
 
 
+colours = st.sampled_from(["", "#0A1b2C"])
+outfits = st.builds(OutfitChoice, st.sampled_from(["", "concert_black", "elsewhere"]), colours, colours, colours)
 stages = st.builds(StagePosition, within(limits.STAGE_M), within(limits.STAGE_M), st.floats(-7.0, 7.0))
 
 
@@ -126,7 +129,8 @@ def dancers(draw: st.DrawFn, id: str, name: str, folder: str) -> Dancer:
         stage=draw(stages),
         mirrored=draw(st.booleans()),
         **{name: draw(values(parameter)) for name, parameter in DANCER_PARAMETERS.items()},
-        colour=draw(st.sampled_from(["", "#0A1b2C"])),
+        colour=draw(colours),
+        outfit=draw(outfits),
     )
 
 
@@ -150,7 +154,8 @@ def players(draw: st.DrawFn, id: str, name: str, part_ids: list[str]) -> Player:
         character_id=draw(ids),
         parameters=PlayerParameters(**{name: draw(values(parameter)) for name, parameter in PARAMETERS.items()}),
         stage=draw(stages),
-        colour=draw(st.sampled_from(["", "#0A1b2C"])),
+        colour=draw(colours),
+        outfit=draw(outfits),
         muted=draw(st.booleans()),
         soloed=draw(st.booleans()),
     )

@@ -14,12 +14,12 @@ import numpy as np
 
 from app.arrays import FloatArray, IndexArray
 from app.errors import AppError
-from app.performance.bodies import body_of, character_of, lies_at, model_of, suited_to
+from app.performance.bodies import body_of, dressed_character, lies_at, model_of, suited_to
 from app.performance.chunks import Pose
 from app.project.casting import StagePosition
 from app.project.performers import Dancer, Player
 from app.rig import quaternion
-from app.rig.characters.character_library import character_library, character_named
+from app.rig.characters.character_library import character_library
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
 from instrument_maps.library import find_map
@@ -92,14 +92,14 @@ class Member:
 def kit_of(player: Player) -> RenderAssets:
     """Load what a player is drawn from. Raises AppError where something is missing or damaged."""
     instrument_map = suited_to(player, find_map(player.instrument_id)).instrument
-    return RenderAssets(character_of(player), (model_of(instrument_map), instrument_map))
+    return RenderAssets(dressed_character(player), (model_of(instrument_map), instrument_map))
 
 
 def dancer_kit(dancer: Dancer) -> RenderAssets:
     """Load what a dancer is drawn from. Raises AppError where the character is missing or damaged."""
     if dancer.character_id not in character_library().sources:
         raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
-    return RenderAssets(character_named(dancer.character_id), None)
+    return RenderAssets(dressed_character(dancer), None)
 
 
 def dancing_member(dancer: Dancer, assets: RenderAssets) -> Member:

@@ -9,7 +9,7 @@ from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Project
 from app.project.performers import Dancer, Player
-from app.rig.characters.character_library import character_revision
+from app.rig.characters.character_library import character_revision, dressed_as
 from instrument_maps.library import library
 from widgets.viewport.cast import (
     Member,
@@ -49,7 +49,7 @@ def cast_key(project: Project) -> CastKey:
         (
             player.id,
             project.musician(player).id,
-            player.character_id,
+            dressed_as(player.character_id, player.outfit),
             player.instrument_id,
             player.parameters.posture,
             instruments.revisions.get(player.instrument_id, 0),
@@ -63,7 +63,16 @@ def cast_key(project: Project) -> CastKey:
         for player in project.players
     ) + tuple(
         (
-            *(dancer.id, dancer.id, dancer.character_id, "", "", 0, character_revision(dancer.character_id), False),
+            *(
+                dancer.id,
+                dancer.id,
+                dressed_as(dancer.character_id, dancer.outfit),
+                "",
+                "",
+                0,
+                character_revision(dancer.character_id),
+                False,
+            ),
             *(dancer.stage.x_m, dancer.stage.z_m, dancer.stage.turn_rad, True),
         )
         for dancer in project.dancers
@@ -102,7 +111,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         raise_if_stopped(stop_requested)
         progress(0.5 * done / len(project.players))
         done += 1
-        pair = (player.character_id, player.instrument_id)
+        pair = (dressed_as(player.character_id, player.outfit), player.instrument_id)
         if pair not in assets:
             assets[pair] = kit_of(player)
         # Where what the musician plays first cannot be seen, the next has the body.
@@ -113,7 +122,7 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
 
     def make_dancer(dancer: Dancer) -> Member:
         raise_if_stopped(stop_requested)
-        pair = (dancer.character_id, "")
+        pair = (dressed_as(dancer.character_id, dancer.outfit), "")
         if pair not in assets:
             assets[pair] = dancer_kit(dancer)
         return dancing_member(dancer, assets[pair])

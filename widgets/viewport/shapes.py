@@ -35,11 +35,14 @@ class Shapes:
 
 def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
     """Make what a stage is drawn from; what ``before`` has is taken from there."""
-    characters = dict(before.characters) if before is not None else {}
+    # What no one wears any more is not kept: every colour that was tried would be.
+    known = {} if before is None else before.characters
+    characters: dict[str, tuple[Geometry, ...]] = {}
     for member in stage.members:
         character = member.assets.character
         if character.id not in characters:
-            characters[character.id] = character_levels(character)
+            found = known.get(character.id)
+            characters[character.id] = character_levels(character) if found is None else found
     # The instruments' nodes and the seat follow the joints: their numbers depend on who else is there.
     instruments = {}
     height_m = 0.42

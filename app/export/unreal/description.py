@@ -303,7 +303,7 @@ def _cast_dancer(cast: CastDancing, layout: Layout, contents: Mapping[str, FileC
 def _character(
     one: Player | Dancer, target: TargetSkeleton, layout: Layout, contents: Mapping[str, FileContents]
 ) -> UnrealFigure:
-    mesh, skeleton = layout.body(one.character_id, socket_names(target))
+    mesh, skeleton = layout.body(one, socket_names(target))
     return _figure(replace(layout.characters[one.id], mesh=mesh, skeleton=skeleton), contents)
 
 

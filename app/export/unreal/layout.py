@@ -13,6 +13,7 @@ from app.export.unreal.names import asset_name
 from app.formats.unique_names import numbered
 from app.project.model import Project
 from app.project.performers import Dancer, Player
+from app.rig.characters.character_library import dressed_as
 
 SOURCES: Final = "SuisouSource"
 """Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""
@@ -61,7 +62,7 @@ class Layout:
     doubles : mapping of str to tuple of str
         Ids of a musician's other players, by the id of the musician.
     bodies : mapping of str to str
-        Names of the bodies, by the character's id.
+        Names of the bodies, by the id of the dressed character (`dressed_as`).
     """
 
     piece: str
@@ -73,9 +74,10 @@ class Layout:
     doubles: dict[str, tuple[str, ...]]
     bodies: dict[str, str]
 
-    def body(self, character_id: str, added: Sequence[str]) -> tuple[str, str]:
-        """Paths of the mesh and the skeleton of all who share a body and the bones that were added to it."""
-        name = "_".join((self.bodies[character_id], *(asset_name(bone, "Bone") for bone in added)))
+    def body(self, one: Player | Dancer, added: Sequence[str]) -> tuple[str, str]:
+        """Paths of the mesh and the skeleton of all who share a body, its clothes and the bones added to it."""
+        worn = dressed_as(one.character_id, one.outfit)
+        name = "_".join((self.bodies[worn], *(asset_name(bone, "Bone") for bone in added)))
         return f"{self.content}/Bodies/{name}/SK_{name}", f"{self.content}/Bodies/{name}/SKEL_{name}"
 
     @property
@@ -129,7 +131,7 @@ def layout_of(project: Project, piece: str) -> Layout:
     # Dancers come last, so that a new player does not rename theirs.
     names = numbered([*own, *held, *(asset_name(dancer.name, "Dancer") for dancer in dancers)])
     content = f"{CONTENT}/{piece}"
-    characters = sorted({player.character_id for player in players} | {dancer.character_id for dancer in dancers})
+    characters = sorted({dressed_as(one.character_id, one.outfit) for one in project.performers})
     doubling = {player.id for player in players} - {musician.id for musician in project.bodies}
 
     def places(

@@ -367,7 +367,7 @@ def _figures_written(
             parts = tuple(bone.name for bone in instrument_bones(one.instrument, one.model))
             yield player.name, layout.instruments[one.player.id], parts, one.model.meshes
     for dancer in cast.dancers:
-        meshes = written_meshes(dancer.dancing.character, dancer.target)
+        meshes = written_meshes(dancer.character, dancer.target)
         yield dancer.dancer.name, layout.characters[dancer.dancer.id], tuple(dancer.target.names), meshes
 
 

@@ -77,14 +77,14 @@ def posture_of(player: Player) -> Posture:
 def change(project: Project, player_ids: Collection[str], **fields: object) -> Project:
     """Set fields of `Player` (``instrument_id``, ``muted`` ...) for several players; see `rename` for names.
 
-    The character is shared by all players of a musician.
+    Character and outfit are shared by all players of a musician.
 
     Raises
     ------
     AppError
         A musician would have instruments that no posture fits.
     """
-    if "character_id" in fields:
+    if {"character_id", "outfit"} & fields.keys():
         player_ids = {*player_ids, *musicians_of(project, player_ids)}
     result = _each(project, player_ids, lambda player: msgspec.structs.replace(player, **fields))
     return _in_one_posture(result, player_ids) if "instrument_id" in fields else result

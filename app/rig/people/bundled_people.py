@@ -57,30 +57,31 @@ def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Cha
     named : callable
         Gives a finished body by its id.
     """
-    worn = {mesh: _original(named(owner), owner) for mesh, owner in person.worn.items()}
+    worn = {mesh: finished_body(named(owner), owner) for mesh, owner in person.worn.items()}
     if person.hair:
         worn["hair"] = _style(person.hair)
-    original = _original(named(person.original), person.original)
+    original = finished_body(named(person.original), person.original)
     skin = _skin(person.skin) if person.skin else None
-    return person_character(id, original, body_shapes(), _whole(person), person.colors, worn, skin)
+    return person_character(id, original, body_shapes(), whole_phenotype(person), person.colors, worn, skin)
 
 
 def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
     """Return the length of a person's arm, upper and lower, before the person is made."""
     shapes = body_shapes()
-    bodies = (body_m(shapes, one) for one in (_whole(person), phenotypes()[person.original]))
+    bodies = (body_m(shapes, one) for one in (whole_phenotype(person), phenotypes()[person.original]))
     after, before = (body[len(shapes.vertices) :] for body in bodies)
     return arm_after_m(named(person.original), dict(zip(shapes.joints, after - before, strict=True)))
 
 
-def _whole(person: Person) -> Phenotype:
-    """The phenotype of a person, who has the local changes of the finished body where there are no others."""
+def whole_phenotype(person: Person) -> Phenotype:
+    """Return the phenotype of a person, who has the local changes of the finished body where there are no others."""
     local = {**phenotypes()[person.original].local, **person.phenotype.local}
     return msgspec.structs.replace(person.phenotype, local=local)
 
 
 @lru_cache(maxsize=4)
-def _original(character: Character, id: str) -> Original:
+def finished_body(character: Character, id: str) -> Original:
+    """Prepare a finished body for making people from it; done once."""
     return original_of(character, body_shapes(), phenotypes()[id])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -80,6 +81,10 @@ class FaceChange:
         return turns
 
 
+NO_CHANGE: Final = FaceChange(np.zeros((1, 3)), np.eye(3)[None])
+"""Change of a face that stays as it is."""
+
+
 def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChange:
     """Find how the face of a body was changed, by its skin.
 
@@ -97,7 +102,7 @@ def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChang
         np.maximum.at(moving, morph.vertices, np.abs(morph.deltas_m).max(axis=1))
     lively = own[moving[own] > 0.002]
     if not len(lively):
-        return FaceChange(np.zeros((1, 3)), np.eye(3)[None])
+        return NO_CHANGE
     positions = mesh.positions_m.astype(np.float64)
     anchors = positions[_spread(positions, lively)]
     turns = [_turn(positions[own], after_m[own], anchor) for anchor in anchors]

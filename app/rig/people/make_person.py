@@ -19,7 +19,7 @@ from app.formats.textures import Texture
 from app.rig.mesh import Mesh, Morph
 from app.rig.model import Character, Skeleton
 from app.rig.people.body_shapes import BodyShapes, Phenotype, body_m
-from app.rig.people.displacement import Binding, FaceChange, bound, face_change, normals_of, places_of
+from app.rig.people.displacement import NO_CHANGE, Binding, FaceChange, bound, face_change, normals_of, places_of
 from app.rig.people.moved_joints import SIDES, MovedJoints, moved_joints, t_positions
 from app.rig.people.person import Color
 from app.rig.skeleton import ancestors
@@ -136,6 +136,13 @@ def person_character(
         own = joints if owner is original else _joints(owner, shapes, body)
         meshes.append(_recolored(_changed(owner, mesh, body, own, face), colors or {}, skin_colors))
     return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=before), joints)
+
+
+def carried(original: Original, shapes: BodyShapes, phenotype: Phenotype) -> tuple[Mesh, ...]:
+    """Carry the meshes of a file, garments without a face, onto the body of a phenotype."""
+    body = body_m(shapes, phenotype)
+    joints = _joints(original, shapes, body)
+    return tuple(_changed(original, mesh, body, joints, NO_CHANGE) for mesh in original.character.meshes)
 
 
 def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh, Original]]:

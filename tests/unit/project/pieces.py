@@ -31,6 +31,7 @@ from app.project.model import CompSpan, PlayerTakes, Project
 from app.project.performers import Dancer, Player
 from app.project.recording import AudioTrack, BeatPin, Doubt
 from app.project.video import VideoTrack
+from app.rig.people.wardrobe import OutfitChoice
 from app.score.marks import Mark
 from app.score.metre_map import Metre
 from app.score.model import ControllerCurve, Marker, Note, Part, PercussionHit, Score, UnplayedPart
@@ -148,7 +149,15 @@ def full_project(folder: str = "/music") -> Project:
         score=full_score,
         players=(
             Player(
-                "1.1.1", "Trompete: 1/2", "1.1.1", "trumpet_Bb", "woman_adult", parameters, stage_arc(2)[0], "#AABBCC"
+                "1.1.1",
+                "Trompete: 1/2",
+                "1.1.1",
+                "trumpet_Bb",
+                "woman_adult",
+                parameters,
+                stage_arc(2)[0],
+                "#AABBCC",
+                outfit=OutfitChoice("elsewhere", "#102030", "#F0f0f0", "#884422"),
             ),
             Player("x", "con", "2.1.1", "not_installed", "nobody", parameters, stage_arc(2)[1], "", True, True),
         ),
@@ -224,6 +233,7 @@ def full_project(folder: str = "/music") -> Project:
                 0.5,
                 0.25,
                 "#00ff7f",
+                OutfitChoice("elsewhere", accent="#010203"),
             ),
             Dancer("dancer:2", "Dancer 2", "not_bundled", "nobody", StagePosition(-0.5, 2.25, 0.0)),
         ),

@@ -95,7 +95,7 @@ def test_dancers_rename_no_player(tmp_path: Path) -> None:
     assert len({place.animation.casefold() for place in places}) == len(places) == 10
     # Body and bones alike, or they are another's.
     assert after.bodies == {id: id for id in (player.character_id for player in quartet().players)}
-    meshes = {after.body(id, added) for id in after.bodies for added in ((), ("hand_l_socket",))}
+    meshes = {after.body(one, added) for one in quartet().players for added in ((), ("hand_l_socket",))}
     assert len(meshes) == 2 * len(after.bodies)
 
 

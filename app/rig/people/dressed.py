@@ -1,0 +1,111 @@
+"""People in outfits: the garments of a file carried onto a body, in place of what it wears itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from app.arrays import BoolArray
+from app.formats.scene import Material
+from app.rig.characters.load_character import load_character
+from app.rig.mesh import Mesh
+from app.rig.model import Character, Landmark
+from app.rig.people.body_shapes import body_shapes
+from app.rig.people.bundled_people import finished_body, whole_phenotype
+from app.rig.people.make_person import SKIN, SKIN_MATERIAL, Original, carried, original_of
+from app.rig.people.person import Person, phenotypes
+from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, wardrobe
+
+
+def dressed_id(id: str, person: Person, choice: OutfitChoice) -> str:
+    """Return an id of a character in its clothes: its own without an outfit."""
+    outfit = wardrobe().get(choice.id)
+    if outfit is None or person.original not in outfit.files:
+        return id
+    colours = (f"{tint}_{choice.colour(tint)[1:]}" for tint in outfit.tints if choice.colour(tint))
+    return "-".join((id, choice.id, *colours))
+
+
+def dressed(character: Character, person: Person, choice: OutfitChoice) -> Character:
+    """Dress a person; body, face and hair are shared with the one in the clothes of their own.
+
+    Parameters
+    ----------
+    character : Character
+        Made from ``person``.
+    choice : OutfitChoice
+        One that there is not leaves the person as they are.
+    """
+    outfit = wardrobe().get(choice.id)
+    if outfit is None or person.original not in outfit.files:
+        return character
+    path, facts = outfit.files[person.original]
+    worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person))
+    skin = next(mesh for mesh in character.meshes if mesh.name == SKIN)
+    finished = character if character.hands_of is None else character.hands_of
+    own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]
+    garments = [_coloured(mesh, facts, choice, skin) for mesh in worn]
+    landmarks = {
+        name: _on(garments, character, mark) if mark.mesh in facts.hides else mark
+        for name, mark in character.landmarks.items()
+    }
+    id, meshes = dressed_id(character.id, person, choice), (*own, *garments)
+    return replace(character, id=id, meshes=meshes, landmarks=landmarks)
+
+
+def _on(garments: Sequence[Mesh], character: Character, mark: Landmark) -> Landmark:
+    """A landmark of what is left out, as of the sole of a shoe: where garments are nearest to it."""
+    before = next(mesh for mesh in character.meshes if mesh.name == mark.mesh)
+    place_m = before.positions_m[mark.vertices].mean(axis=0)
+    far_m = [np.linalg.norm(mesh.positions_m - place_m, axis=1) for mesh in garments]
+    garment = min(range(len(garments)), key=lambda index: float(far_m[index].min()))
+    nearest = np.argsort(far_m[garment], kind="stable")[: len(mark.vertices)]
+    return Landmark(garments[garment].name, nearest.astype(np.int32))
+
+
+@lru_cache(maxsize=48)
+def _garments(path: Path, body: str) -> Original:
+    """The garments of a file on the finished body that they are fitted to."""
+    return original_of(load_character(path), body_shapes(), phenotypes()[body])
+
+
+def _uncovered(mesh: Mesh, facts: OutfitFacts, finished: Character) -> Mesh:
+    """A mesh of a person's own without the skin that clothes cover; its vertices stay, which landmarks count."""
+    if mesh.name != SKIN or not facts.hides_skin:
+        return mesh
+    seen = _seen_triangles(finished, tuple(facts.hides_skin))
+    return replace(mesh, triangles=mesh.triangles[seen], triangle_materials=mesh.triangle_materials[seen])
+
+
+@lru_cache(maxsize=32)
+def _seen_triangles(finished: Character, hidden: tuple[int, ...]) -> BoolArray:
+    """By triangle of a finished body's skin whether it is seen."""
+    made, shapes = finished_body(finished, finished.id), body_shapes()
+    covered = np.isin(shapes.vertices[made.bindings[SKIN].corners[:, 0]], hidden)
+    skin = next(mesh for mesh in finished.meshes if mesh.name == SKIN)
+    return np.asarray(~covered[skin.triangles].all(axis=1))
+
+
+def _coloured(mesh: Mesh, facts: OutfitFacts, choice: OutfitChoice, skin: Mesh) -> Mesh:
+    """A garment in the colours of a choice; skin that it shows is the person's."""
+    return replace(mesh, materials=_materials(mesh.materials, facts, choice, skin))
+
+
+def _materials(
+    materials: Sequence[Material], facts: OutfitFacts, choice: OutfitChoice, skin: Mesh
+) -> tuple[Material, ...]:
+    made = []
+    for material in materials:
+        tint = facts.tints.get(material.name)
+        if material.name == SKIN_MATERIAL:
+            material = next(one for one in skin.materials if one.name == SKIN_MATERIAL)
+        elif tint is not None and choice.colour(tint):
+            mean = facts.means.get(material.name, 1.0)
+            red, green, blue = (min(1.0, part / mean) for part in linear_colour(choice.colour(tint)))
+            material = replace(material, base_color=(red, green, blue, material.base_color[3]))
+        made.append(material)
+    return tuple(made)

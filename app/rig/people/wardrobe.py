@@ -1,0 +1,150 @@
+"""The wardrobe: outfits that come with the program, and what their files say of themselves.
+
+A file has the garments alone, skinned to the joints of a finished body that they are fitted to. It is made for everyone
+(``<outfit>.glb``), or for the people of one finished body (``<outfit>_man.glb``, ``<outfit>_woman.glb``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Final, Literal
+
+import msgspec
+
+from app.errors import FileError
+from app.formats.files import open_file
+from app.formats.gltf.container import field, split
+from app.rig.people.person import PersonName, phenotypes
+
+Tint = Literal["main", "second", "accent"]
+TINTS: Final[tuple[Tint, ...]] = ("main", "second", "accent")
+"""Colours of an outfit that can be chosen."""
+OWN_CLOTHES: Final = ""
+"""Id of what a person wears without an outfit."""
+_HEADER: Final = 20
+"""Bytes of a glTF binary before its document."""
+
+
+class OutfitChoice(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """Clothes that someone was given.
+
+    Attributes
+    ----------
+    id : str
+        Of the outfit; empty: the person's own clothes.
+    main, second, accent : str
+        ``#rrggbb``; empty: as the outfit has it.
+    """
+
+    id: str = OWN_CLOTHES
+    main: str = ""
+    second: str = ""
+    accent: str = ""
+
+    def colour(self, tint: Tint) -> str:
+        """The colour chosen for a part of the outfit; empty where none was."""
+        chosen: str = getattr(self, tint)
+        return chosen
+
+
+NO_CHOICE: Final = OutfitChoice()
+
+
+class OutfitFacts(msgspec.Struct, frozen=True):
+    """Facts of a file of garments, under ``suisou.outfit`` in the extras of its scene.
+
+    Attributes
+    ----------
+    body : str
+        Finished body that they are fitted to; empty: by the file's name.
+    parts : dict of str to str
+        By mesh: the place where it is worn.
+    hides : list of str
+        Meshes of the person that are left out.
+    hides_skin : list of int
+        Vertices of the base mesh; faces of the skin between them are left out.
+    tints : dict of str to str
+        By material: the colour of the choice that it takes.
+    means : dict of str to float
+        By material: the mean of its neutral texture, by which a colour is divided; 1 without a texture.
+    """
+
+    id: str
+    title: PersonName
+    parts: dict[str, str]
+    body: str = ""
+    hides: list[str] = []
+    hides_skin: list[int] = []
+    tints: dict[str, Tint] = {}
+    means: dict[str, float] = {}
+
+
+@dataclass(frozen=True)
+class Outfit:
+    """An outfit of the wardrobe.
+
+    Attributes
+    ----------
+    files : mapping of str to (Path, OutfitFacts)
+        By the finished body whose people wear them.
+    tints : tuple of str
+        Colours that can be chosen of it.
+    """
+
+    id: str
+    title: PersonName
+    files: Mapping[str, tuple[Path, OutfitFacts]]
+    tints: tuple[Tint, ...]
+
+
+@cache
+def wardrobe() -> Mapping[str, Outfit]:
+    """Return the outfits by id, in their order. Looked up once. Raises FileError."""
+    found: dict[str, dict[str, tuple[Path, OutfitFacts]]] = {}
+    for path in sorted(_folder().glob("*.glb")):
+        facts = _facts(path)
+        ending = path.stem.rpartition("_")[2]
+        named = [id for id in phenotypes() if id.partition("_")[0] == ending]
+        body = facts.body or (named or list(phenotypes()))[0]
+        whole = msgspec.structs.replace(facts, body=body)
+        for id in named or phenotypes():
+            found.setdefault(facts.id, {})[id] = (path, whole)
+    return MappingProxyType({id: _outfit(id, found[id]) for id in sorted(found)})
+
+
+def _folder() -> Path:
+    return Path(str(files("resources"))) / "characters" / "wardrobe"
+
+
+def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]]) -> Outfit:
+    tinted = {tint for _, facts in made.values() for tint in facts.tints.values()}
+    title = next(iter(made.values()))[1].title
+    return Outfit(id, title, MappingProxyType(dict(made)), tuple(tint for tint in TINTS if tint in tinted))
+
+
+def _facts(path: Path) -> OutfitFacts:
+    """Facts of a file, of which only the document is read. Raises FileError."""
+    with open_file(path) as stream:
+        head = stream.read(_HEADER)
+        document, _ = split(head + stream.read(int.from_bytes(head[12:16], "little")), str(path))
+    scenes: list[Any] = field(document, "scenes") or [None]
+    told = field(field(field(scenes[0], "extras"), "suisou"), "outfit")
+    try:
+        return msgspec.convert(told, OutfitFacts)
+    except msgspec.ValidationError as error:
+        raise FileError("model.invalid", file=str(path), detail=f"damaged: {error}") from error
+
+
+def linear_colour(colour: str) -> tuple[float, float, float]:
+    """Linear values of ``#rrggbb`` (IEC 61966-2-1)."""
+    red, green, blue = (int(colour[place : place + 2], 16) / 255.0 for place in (1, 3, 5))
+    return _linear(red), _linear(green), _linear(blue)
+
+
+def _linear(value: float) -> float:
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
