@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 from collections.abc import Iterator, Sequence
@@ -11,6 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from msgspec import structs
 
 from app.cli.bars import add_bar_options, add_lead_in_option, requested_span
 from app.cli.commands import add_language_option, fill_help
@@ -38,7 +41,6 @@ if TYPE_CHECKING:
     from app.export.pictures import PictureWriter
     from app.performance.ensemble import Performance
     from app.performance.span import FrameSpan
-    from app.project.model import Project
 
 LEAST_PX: Final = (64, 64)
 FILM_PX, SHEET_PX = (1280, 720), (320, 180)
@@ -131,7 +133,7 @@ def film(arguments: argparse.Namespace) -> int:
     view, player_ids = parsed_view(arguments, project)
     seen = view if arguments.camera is None else kept_camera(project, arguments.camera)
     performance = Performance(project)
-    span = requested_span(performance, arguments, _rate(arguments, project, kind))
+    span = shown_span(performance, arguments, kind)
     size = arguments.size or (SHEET_PX if kind == "sheet" else FILM_PX)
     columns = _columns_of_sheet(arguments, span)
     requested = _Film(arguments, kind, performance, seen, player_ids, span, size, columns)
@@ -216,10 +218,20 @@ def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
         raise UsageError("picture.odd_size", width=arguments.size[0], height=arguments.size[1])
 
 
-def _rate(arguments: argparse.Namespace, project: Project, kind: Kind) -> Fraction:
-    if kind == "sheet":
-        return 1 / (arguments.every or USUAL_EVERY_S)
-    return arguments.rate or min(project.fps, USUAL_FILM_RATE)
+def shown_span(performance: Performance, arguments: argparse.Namespace, kind: Kind) -> FrameSpan:
+    """The frames of a film, or the pictures of a sheet: the first is where the bars begin, however far apart they are.
+
+    Raises
+    ------
+    UsageError
+        As `app.cli.bars.requested_bars`; ``bars.lead_in``: there is no bar to lead into.
+    """
+    fps = performance.project.fps
+    if kind != "sheet":
+        return requested_span(performance, arguments, arguments.rate or min(fps, USUAL_FILM_RATE))
+    span, every_s = requested_span(performance, arguments, fps), arguments.every or USUAL_EVERY_S
+    count = math.ceil(span.count / (fps * every_s))
+    return structs.replace(span, fps=1 / every_s, first=0, count=count)
 
 
 def _columns_of_sheet(arguments: argparse.Namespace, span: FrameSpan) -> int:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from app.cli import main
-from app.cli.film import caption_texts
+from app.cli.film import Kind, caption_texts, shown_span
 from app.performance.ensemble import Performance
 from tests.unit.cli.test_main import QUARTET
 from tests.unit.viewport.poses import quartet
@@ -83,3 +85,15 @@ def test_a_caption_has_time_exported_frame_and_position() -> None:
         ("3.46 s · frame 392", "2.2.480"),
     ]
     assert caption_texts(performance, [0.0], "ja") == [("0.00 秒 · フレーム 185", "1.1.000")]
+
+
+@pytest.mark.parametrize(("kind", "every"), [("sheet", "2.2"), ("sheet", "1/2"), ("mp4", None)])
+def test_bars_begin_with_their_first_frame_however_far_apart_pictures_are(kind: Kind, every: str | None) -> None:
+    performance = Performance(quartet())
+    bar_s = 3 * 60.0 / 78.0
+    every_s = None if every is None else Fraction(every)
+    chosen = Namespace(from_bar=2, to_bar=3, lead_in=None, rate=None, every=every_s)
+    span = shown_span(performance, chosen, kind)
+    assert span.first_frame_s == pytest.approx(bar_s, abs=1 / 60)
+    times_s = [span.first_frame_s + index / float(span.fps) for index in range(span.count)]
+    assert times_s[-1] < 3 * bar_s <= times_s[-1] + 1 / float(span.fps) + 1 / 60
