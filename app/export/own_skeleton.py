@@ -53,6 +53,9 @@ def own_target(character: Character) -> TargetSkeleton:
         if bone >= 0:
             joint_of_bone[bone] = joint
             joint_from_bone[bone] = own.joint_from_bone[joint]
+    for bone, joint in own.beside.items():
+        joint_of_bone[bone] = joint
+        joint_from_bone[bone] = t_turned[bone]
     twists = _twists(own, character.skeleton, joint_of_bone)
     for bone in twists:
         joint_from_bone[bone] = t_turned[bone]

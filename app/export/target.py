@@ -73,7 +73,7 @@ class TargetSkeleton:
     t_pose : (B, 4) float64
         ``parent_from_bone`` where all joints are unturned: what a bone that nothing moves keeps.
     joint_of_bone : tuple of int
-        -1: no joint.
+        -1: no joint. A hand may be several bones at one place.
     joint_from_bone : (B, 4) float64
         Of the bones that are joints; of a twist bone: from its base.
     twists : mapping of int to Twist
@@ -121,13 +121,14 @@ class TargetSkeleton:
 
     @cached_property
     def bone_of_joint(self) -> Mapping[int, int]:
-        """The bone of each joint that has one."""
-        return {joint: bone for bone, joint in enumerate(self.joint_of_bone) if joint >= 0}
+        """The bone of each joint that has one; of several at one place the first."""
+        return {joint: bone for bone, joint in reversed([*enumerate(self.joint_of_bone)]) if joint >= 0}
 
     @cached_property
     def moved(self) -> frozenset[int]:
         """Bones that a motion turns or moves."""
-        return frozenset({*self.bone_of_joint.values(), *self.twists, *self.tied, *self.sockets})
+        joints = (bone for bone, joint in enumerate(self.joint_of_bone) if joint >= 0)
+        return frozenset({*joints, *self.twists, *self.tied, *self.sockets})
 
     @property
     def normalised(self) -> bool:

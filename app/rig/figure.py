@@ -100,6 +100,9 @@ class OwnSkeleton:
         ``parent_from_bone`` of the figure's bones in the T-pose; bones that are no joint keep their rest rotation.
     morphs : mapping of str to mapping of str to float
         By ARKit name: weights of the figure's morphs that make it.
+    beside : mapping of int to int
+        Joint by bone: further bones of a joint that has several, as a hand of which each finger has a bone from the
+        wrist on.
     """
 
     figure: Figure
@@ -107,3 +110,4 @@ class OwnSkeleton:
     joint_from_bone: FloatArray
     t_pose: FloatArray
     morphs: Mapping[str, Mapping[str, float]]
+    beside: Mapping[int, int] = field(default_factory=dict)

@@ -23,8 +23,10 @@ MOST_BONES: Final = 5000
 MOST_VERTICES: Final = 3_000_000
 PLAUSIBLE_M: Final = (0.3, 4.0)
 """Heights of figures, from a doll to a giant, that are taken as they are."""
+TALLEST_M: Final = 2.5
+"""No person with a hat is taller: a taller figure is taken as it is, and that is said."""
 ODD_HEIGHT: Final = "figure.odd_height"
-"""Message about a figure beyond these heights that no unit explains."""
+"""Message about a figure that is taller, or smaller than a doll, and that no unit explains."""
 PERSON_M: Final = (0.9, 2.3)
 GROWN_M: Final = (1.4, 2.1)
 """Heights that a corrected unit must lead to: powers of ten, and inches, which must explain it better."""
@@ -291,9 +293,9 @@ def _in_metres(figure: Figure) -> Figure:
     height_m = figure_height(figure)
     if height_m is None:
         return figure
-    if PLAUSIBLE_M[0] <= height_m <= PLAUSIBLE_M[1]:
+    if PLAUSIBLE_M[0] <= height_m <= TALLEST_M:
         return figure
-    factor = unit_factor(height_m)
+    factor = unit_factor(height_m) if height_m > PLAUSIBLE_M[1] or height_m < PLAUSIBLE_M[0] else None
     if factor is None:
         note = Message(ODD_HEIGHT, {"file": figure.file, "height_m": round(height_m, 4)})
         return replace(figure, notes=(*figure.notes, note))
@@ -310,7 +312,7 @@ def figure_height(figure: Figure) -> float | None:
 
 
 def has_odd_height(figure: Figure) -> bool:
-    """Return whether a figure is smaller than a doll or taller than a giant, and no unit explains it."""
+    """Return whether a figure is smaller than a doll or taller than any person, and no unit explains it."""
     return any(note.id == ODD_HEIGHT for note in figure.notes)
 
 

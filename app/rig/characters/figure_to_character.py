@@ -35,6 +35,8 @@ OPTIONAL: Final = frozenset({"jaw"})
 """Joints that are not supplied: nothing is the worse for their lack."""
 EYES: Final = ("leftEye", "rightEye")
 TRUNK: Final = ("hips", "spine", "chest", "upperChest")
+AT_ONE_PLACE: Final = 0.01
+"""Bones that are nearer to one another than this part of the forearm begin at one place."""
 
 
 def figure_character(
@@ -66,7 +68,8 @@ def figure_character(
     figure = at_height(upright(figure, bones), height_m)
     rest = rest_of(figure)
     fit = _fitted(figure, rest, bones)
-    joint_of_bone = _joints_of_bones(figure, rest, fit)
+    beside = _bones_beside_hands(figure, rest, fit)
+    joint_of_bone = _joints_of_bones(figure, rest, fit, beside)
     eyes = [fit.names.index(name) for name in EYES if name in fit.names]
     meshes = tuple(_without_turned_balls(_mesh(mesh, joint_of_bone, morphs), eyes) for mesh in figure.meshes)
     fit = supplied_ends(fit, meshes)
@@ -81,7 +84,7 @@ def figure_character(
         joint_from_mesh=joint_from_mesh,
         meshes=meshes,
         landmarks=found_landmarks(skeleton, joint_from_mesh, meshes),
-        own=_own(figure, rest, fit, morphs),
+        own=_own(figure, rest, fit, morphs, beside),
     )
 
 
@@ -139,11 +142,26 @@ def _attributed(
     return own, lies_on
 
 
-def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit) -> npt.NDArray[np.int32]:
+def _bones_beside_hands(figure: Figure, rest: Rest, fit: Fit) -> dict[int, int]:
+    """The hand's joint of each bone that begins where the hand's own does and hangs from the same: of a hand that is
+    made of a bone for each finger."""
+    mapped, found = set(fit.bones), {}
+    for side in ("left", "right"):
+        joint, arm = (fit.names.index(side + name) for name in ("Hand", "LowerArm"))
+        hand, above = fit.bones[joint], fit.bones[arm]
+        near = AT_ONE_PLACE * float(np.linalg.norm(rest.positions_m[hand] - rest.positions_m[above]))
+        for bone, parent in enumerate(figure.parents):
+            away = np.linalg.norm(rest.positions_m[bone] - rest.positions_m[hand])
+            if parent == figure.parents[hand] and bone not in mapped and away < near and bone in figure.parents:
+                found[bone] = joint
+    return found
+
+
+def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit, beside: Mapping[int, int]) -> npt.NDArray[np.int32]:
     """The joint that carries each bone's skin: its own, the nearest above, the hips for what those hang from, the
     nearest one in space for what hangs from no joint."""
     hips = fit.names.index("hips")
-    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0}
+    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0} | dict(beside)
     carried = np.full(len(figure.parents), -1, dtype=np.int32)
     for bone, parent in enumerate(figure.parents):
         carried[bone] = joint_of.get(bone, carried[parent] if parent >= 0 else -1)
@@ -163,10 +181,16 @@ def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit) -> npt.NDArray[np.int
     return carried
 
 
-def _own(figure: Figure, rest: Rest, fit: Fit, morphs: Mapping[str, Mapping[str, float]]) -> OwnSkeleton:
+def _own(
+    figure: Figure,
+    rest: Rest,
+    fit: Fit,
+    morphs: Mapping[str, Mapping[str, float]],
+    beside: Mapping[int, int],
+) -> OwnSkeleton:
     joint_from_bone = np.tile(quaternion.IDENTITY, (len(fit.names), 1))
     world = rest.rotations.copy()
-    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0}
+    joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0} | dict(beside)
     t_pose = figure.rotations.copy()
     for bone, parent in enumerate(figure.parents):
         joint = joint_of.get(bone)
@@ -176,8 +200,9 @@ def _own(figure: Figure, rest: Rest, fit: Fit, morphs: Mapping[str, Mapping[str,
             continue
         world[bone] = quaternion.multiply(fit.turns[joint], rest.rotations[bone])
         t_pose[bone] = quaternion.multiply(quaternion.conjugate(above), world[bone])
-        joint_from_bone[joint] = world[bone]
-    return OwnSkeleton(figure, tuple(fit.bones), joint_from_bone, t_pose, morphs)
+        if bone not in beside:
+            joint_from_bone[joint] = world[bone]
+    return OwnSkeleton(figure, tuple(fit.bones), joint_from_bone, t_pose, morphs, beside)
 
 
 # --------------------------------------------------------------------------------------------------------------- skin

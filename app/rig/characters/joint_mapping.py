@@ -18,7 +18,14 @@ import numpy as np
 
 from app.errors import FileError
 from app.rig.characters.bone_placements import world_placements
-from app.rig.characters.joints_by_shape import Tree, joints_by_shape, spread_spine, tree_of, trunk_by_limbs
+from app.rig.characters.joints_by_shape import (
+    Tree,
+    hand_of_palms,
+    joints_by_shape,
+    spread_spine,
+    tree_of,
+    trunk_by_limbs,
+)
 from app.rig.figure import MOST_LISTED, Figure
 from metadata.known_names import bone_key
 from metadata.load import load_bone_names, load_skeleton
@@ -241,6 +248,10 @@ def _completed(tree: Tree, found: _Found, fixed: Set[str]) -> dict[str, int]:
     """
     shape = joints_by_shape(tree)
     bones = dict(found.bones)
+    for side in SIDES:
+        upper, forearm = bones.get(side + "UpperArm"), bones.get(side + "LowerArm")
+        if side + "Hand" not in bones and upper is not None and forearm is not None:
+            bones |= hand_of_palms(tree, side, upper, forearm)
     for part in (LEGS, ARMS):
         _replace_part(bones, shape, part, fixed)
     if not _lacks(bones, LIMBS):

@@ -32,6 +32,10 @@ ARM_LENGTH: Final = 0.30
 """Shoulder to wrist."""
 HAND_AWAY: Final = 0.15
 """No hand is nearer to where the arm begins."""
+PALM_AWAY: Final = 0.5
+"""Chains of fingers begin farther from a forearm than this, of the length of the bone before it; from a hand nearer."""
+AT_ONE_PLACE: Final = 0.02
+"""Bones begin at one place that are nearer to one another than this, of that distance."""
 UPWARDS: Final = 0.3
 """A neck leads up by more than this part of its length; a jaw leads ahead."""
 HEAD_TOP: Final = 0.1
@@ -337,6 +341,9 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
             return {}
         hand = min(ends, key=lambda bone: _off(tree, path[: path.index(bone)], bone, ARM_LENGTH * height))
     upper = path[: path.index(hand)]
+    palm = hand_of_palms(tree, side, upper[-1], hand) if upper else {}
+    if palm:
+        upper, hand = [*upper, hand], palm[f"{side}Hand"]
     if len(upper) < 2:
         return {}
     start, elbow = _two(tree, upper, hand, ARM_LENGTH * height)
@@ -344,17 +351,43 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     before = path[: path.index(start)]
     if before:
         found[f"{side}Shoulder"] = before[0]
-    return found | fingers(tree, side, hand)
+    return found | (palm or fingers(tree, side, hand))
 
 
 def _hand_of_fingers(halves: _Halves, path: list[int]) -> int | None:
     """The bone along an arm that three or more chains hang from, where there is one."""
-    tree, used = halves.tree, frozenset(halves.used)
+    tree = halves.tree
     for bone in path:
-        chains = sum(not used.isdisjoint(tree.children[child]) for child in tree.children[bone])
-        if chains >= 3 and tree.distance(path[0], bone) > HAND_AWAY * halves.height:
+        if len(_chains(tree, bone)) >= 3 and tree.distance(path[0], bone) > HAND_AWAY * halves.height:
             return bone
     return None
+
+
+def _chains(tree: Tree, bone: int) -> list[int]:
+    """The first bones of the chains of two and more that hang from a bone."""
+    used = tree.skinned.union(*(tree.above[skin] for skin in tree.skinned))
+    return [child for child in tree.children[bone] if not used.isdisjoint(tree.children[child])]
+
+
+def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, int]:
+    """The hand and the fingers of a forearm from which a bone for each finger leads on from the wrist; empty where one
+    bone is the hand.
+
+    Of these bones the middle finger's stands for the hand.
+    """
+    far = PALM_AWAY * tree.distance(upper, forearm)
+    away = [bone for bone in _chains(tree, forearm) if tree.distance(forearm, bone) > far]
+    near = [
+        [other for other in away if tree.distance(bone, other) < AT_ONE_PLACE * tree.distance(forearm, bone)]
+        for bone in away
+    ]
+    palms = max(near, key=len, default=[])
+    if len(palms) < 2:
+        return {}
+    digits = fingers(tree, side, forearm, palms)
+    middle = digits.get(f"{side}MiddleProximal", digits.get(f"{side}IndexProximal"))
+    hand = next((palm for palm in palms if middle is not None and palm in tree.above[middle]), palms[0])
+    return {f"{side}Hand": hand} | digits
 
 
 def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
@@ -382,8 +415,16 @@ def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
     return float(min(ratios))
 
 
-def fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
-    """Chains from the hand: the one that leads away most is the thumb, the others follow by their distance from it."""
+def fingers(tree: Tree, side: str, hand: int, palms: Sequence[int] = ()) -> dict[str, int]:
+    """Chains from the hand: the one that leads away most is the thumb, the others follow by their distance from it.
+
+    Parameters
+    ----------
+    hand : int
+        The bone they hang from.
+    palms : sequence of int
+        Bones at the wrist that belong to no finger but the thumb.
+    """
     tips = [bone for bone, above in enumerate(tree.above) if hand in above and not tree.children[bone]]
     paths = [tree.path(hand, tip) for tip in tips]
     shared = Counter(bone for path in paths for bone in path)
@@ -398,10 +439,12 @@ def fingers(tree: Tree, side: str, hand: int) -> dict[str, int]:
             chains.append(chain)
     if len(chains) < 2:
         return {}
-    ways = np.array([tree.positions_m[chain[-1]] - tree.positions_m[hand] for chain in chains])
+    wrist = palms[0] if palms else hand
+    ways = np.array([tree.positions_m[chain[-1]] - tree.positions_m[wrist] for chain in chains])
     ways /= np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-9)
     thumb = int(np.argmin((ways @ ways.T).sum(axis=1)))
     others = [chain for index, chain in enumerate(chains) if index != thumb]
+    others = [[bone for bone in chain if bone not in palms] for chain in others]
     others.sort(key=lambda chain: tree.distance(chain[0], chains[thumb][-1]))
     found = dict(zip((side + part for part in THUMB), chains[thumb], strict=False))
     for finger, chain in zip(FINGERS, others, strict=False):

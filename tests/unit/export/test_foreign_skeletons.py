@@ -27,6 +27,7 @@ from app.rig.characters.joint_mapping import map_joints
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import read_figure
 from app.rig.characters.t_pose import rest_of
+from app.rig.figure import Figure
 from app.rig.model import Character
 from app.rig.skeleton import forward
 
@@ -123,6 +124,62 @@ def test_feet_that_hang_from_the_root_stay_at_their_legs(tmp_path: Path) -> None
     world_m = playback.playback.world(0, FRAMES)[:, :, :3, 3]
     lengths_m = np.linalg.norm(world_m - world_m[:, [max(parent, 0) for parent in playback.playback.parents]], axis=-1)
     assert np.ptp(lengths_m[:, playback.rigid], axis=0).max() < 0.01 * MM
+
+
+def handless(figure: Figure) -> Figure:
+    """A figure whose forearms carry a bone for each finger, all from the wrist on, instead of a hand (robots and
+    astronauts of Quaternius)."""
+    fingers = ("index", "middle", "ring", "pinky", "thumb")
+    names, copies = list(figure.bone_names), []
+    for name in names:
+        side = name[-2:] if name.startswith("hand_") else ""
+        copies.append([f"palm_{finger}{side}" for finger in fingers] if side else [name])
+    order = [(name, bone) for bone, own in enumerate(copies) for name in own]
+    place = {name: at for at, (name, _) in enumerate(order)}
+
+    def above(name: str, bone: int) -> int:
+        parent = figure.parents[bone]
+        finger = name.split("_")[0] + name[-2:]
+        own = "" if parent < 0 else names[parent]
+        return -1 if parent < 0 else place.get(f"palm_{finger[:-2]}{finger[-2:]}" if own[:5] == "hand_" else own, -1)
+
+    of = [bone for _, bone in order]
+    first = [place[own[0]] for own in copies]
+    meshes = []
+    for mesh in figure.meshes:
+        joints, weights = np.array(first, np.int32)[mesh.joints], mesh.weights
+        for side in ("_l", "_r"):
+            own = np.where(joints == place[f"palm_index{side}"], weights, 0.0).sum(axis=1, keepdims=True) / 2.0
+            weights = np.where(joints == place[f"palm_index{side}"], weights / 2.0, weights)
+            joints = np.concatenate([joints, np.full((len(joints), 1), place[f"palm_ring{side}"], np.int32)], axis=1)
+            weights = np.concatenate([weights, own], axis=1)
+        meshes.append(replace(mesh, joints=joints, weights=weights.astype(np.float32)))
+    return replace(
+        figure,
+        bone_names=tuple(name for name, _ in order),
+        parents=tuple(above(name, bone) for name, bone in order),
+        translations_m=figure.translations_m[of],
+        rotations=figure.rotations[of],
+        meshes=tuple(meshes),
+    )
+
+
+def test_a_hand_of_several_bones_moves_as_one(tmp_path: Path) -> None:
+    """Forearms that carry a bone for each finger: these are the hand, and the forearm stays the forearm."""
+    whole = read_figure(FOLDER / "woman_game_engine.glb")
+    figure = handless(whole)
+    mapping, before = map_joints(figure), map_joints(whole)
+    found = {joint: figure.bone_names[bone] for joint, bone in mapping.bones.items()}
+    expected = {joint: whole.bone_names[bone] for joint, bone in before.bones.items()}
+    expected |= {"leftHand": "palm_middle_l", "rightHand": "palm_middle_r"}
+    assert found == expected
+    character = figure_character(figure, "handless", mapping.bones, {})
+    target = own_target(character)
+    hand = character.skeleton.index("leftHand")
+    palms = [target.names[bone] for bone, joint in enumerate(target.joint_of_bone) if joint == hand]
+    assert palms == [f"palm_{finger}_l" for finger in ("index", "middle", "ring", "pinky", "thumb")]
+    test_joints_are_where_they_should_be(character, tmp_path)
+    test_skin_and_morphs_are_where_they_are_on_the_character(character, tmp_path)
 
 
 def test_skin_and_morphs_are_where_they_are_on_the_character(character: Character, tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from app.formats.textures import NO_TEXTURES
 from app.rig import quaternion
 from app.rig.characters import figure_build
 from app.rig.characters.character_library import character_named
-from app.rig.characters.figure_build import unit_factor
+from app.rig.characters.figure_build import at_height, figure_height, has_odd_height, unit_factor
 from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.landmarks import found_landmarks
 from app.rig.characters.load_character import load_character, read_character
@@ -431,6 +431,22 @@ def test_a_figure_of_a_wrong_unit_is_reported_and_corrected(ours: Character, tmp
     again = made_again(figure, made)
     order = [ours.skeleton.index(name) for name in again.skeleton.names]
     np.testing.assert_allclose(rest_positions(again.skeleton), rest_positions(ours.skeleton)[order], atol=CLOSE_M)
+
+
+@pytest.mark.parametrize(("times", "odd"), [(0.5, False), (1.3, False), (1.8, True), (2.8, True)])
+def test_a_figure_taller_than_any_person_is_taken_as_it_is_and_that_is_said(
+    ours: Character, tmp_path: Path, times: float, odd: bool
+) -> None:
+    made = foreign(ours)
+    world = made.world.copy()
+    world[:, :3, 3] *= times
+    meshes = [replace(mesh, positions_m=mesh.positions_m * np.float32(times)) for mesh in made.meshes]
+    figure = read_figure(write_glb(tmp_path / "x.glb", replace(made, world=world, meshes=meshes)))
+    heights = np.concatenate([mesh.positions_m[:, 1] for mesh in made.meshes])
+    assert figure_height(figure) == pytest.approx(times * np.ptp(heights), rel=1e-3)
+    assert has_odd_height(figure) is odd
+    assert figure.notes == () or odd
+    assert not has_odd_height(at_height(figure, 1.7))
 
 
 @pytest.mark.parametrize("kind", ["glb", "fbx"])
