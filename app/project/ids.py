@@ -1,12 +1,11 @@
-"""Ids of what is made here: notes, parts and players that no file brought.
+"""Ids of notes, parts, players, dancers and takes that do not come from a file.
 
-Ids from a MIDI file are ``"track:number"`` (notes) and ``"track.channel.voice"`` (parts, and the players cast for
-them), all digits. Other ids begin with a word, so that they can never be taken for something of a file: notes drawn
-here are ``"n:1"`` and so on, their parts ``"part:1"``; what a file brought when it was read again ``"f:1"`` and
-``"file:1"``. Each follows every number that the project knows, also from corrections that have lost their note, so
-that such a correction can never come to mean another note. The notes of a take are ``"t:1000001"`` and so on: the
-number of the take, and of the note among those that were played (`take_note_id`); they are the same whenever the take
-is cut or cleaned again.
+Ids from a MIDI file are ``"track:number"`` (notes) and ``"track.channel.voice"`` (parts and their players), all digits.
+Other ids begin with a word, so that they never coincide with those: notes added in the editor are ``"n:1"`` and so on,
+their parts ``"part:1"``; additions of a re-read file are ``"f:1"`` and ``"file:1"``. Each new number is above all
+numbers in the project, including corrections without a note, so that such a correction can never apply to another note.
+Notes of a take are ``"t:1000001"`` and so on, made of the numbers of the take and of the played note (`take_note_id`);
+they stay the same when the take is cut or cleaned again.
 """
 
 from __future__ import annotations
@@ -33,12 +32,12 @@ _NUMBERED = re.compile(r"(?:^|:)([nft]:)(\d+)$", re.ASCII)
 
 
 def fresh_note_ids(project: Project, number: int, prefix: str = DRAWN_NOTE) -> tuple[str, ...]:
-    """Ids for new notes, ``"n:1"``, ``"n:2"`` and so on; the same project gives the same ids."""
+    """Ids for new notes, ``"n:1"``, ``"n:2"`` and so on; equal projects give equal ids."""
     return tuple(islice(new_note_ids(project, prefix), number))
 
 
 def new_note_ids(project: Project, prefix: str = DRAWN_NOTE) -> Iterator[str]:
-    """Ids for as many new notes as are requested: no one has them, and no correction waits for them."""
+    """Yield ids for new notes without end; no note has them and no correction refers to them."""
     last = max(
         (
             *(_number(note.id, prefix) for part in project.score.parts for note in part.notes),
@@ -67,13 +66,13 @@ def fresh_dancer_ids(project: Project, count: int = 1) -> tuple[str, ...]:
 
 
 def _performers(project: Project) -> Iterator[str]:
-    """Ids of players and dancers: no two have one."""
+    """Ids of players and dancers, unique among both."""
     yield from (player.id for player in project.players)
     yield from (dancer.id for dancer in project.dancers)
 
 
 def fresh_take_ids(project: Project, count: int = 1) -> tuple[str, ...]:
-    """Ids for new takes; a number is not given again as long as anything still names a note of its take."""
+    """Ids for new takes; a number is not reused while anything refers to a note of its take."""
     takes = (take.number for recorded in project.takes.values() for take in recorded.takes)
     (following,) = fresh_note_ids(project, 1, TAKE_NOTE)
     last = max((*takes, _number(following, TAKE_NOTE) // MOST_TAKE_NOTES), default=0)
@@ -81,12 +80,12 @@ def fresh_take_ids(project: Project, count: int = 1) -> tuple[str, ...]:
 
 
 def take_note_id(take_number: int, index: int) -> str:
-    """The id of a take's note, by its place among the notes that were played."""
+    """The id of a take's note, by its index among the played notes."""
     return f"{TAKE_NOTE}{take_number * MOST_TAKE_NOTES + index + 1}"
 
 
 def is_made_here(note_id: str) -> bool:
-    """Return whether a note was drawn or recorded here, not read from a file."""
+    """Return whether a note was added or recorded in the editor instead of read from a file."""
     return note_id.startswith((DRAWN_NOTE, TAKE_NOTE))
 
 
@@ -101,7 +100,7 @@ def _number(id: str, prefix: str) -> int:
 
 
 def _named(correction: Correction, prefix: str) -> int:
-    """The highest number of a note made here that a correction names, in whatever field."""
+    """The highest number of an added note that occurs in any field of a correction."""
     found = (
         _NUMBERED.search(value)
         for value in (getattr(correction, field) for field in correction.__struct_fields__)

@@ -1,4 +1,4 @@
-"""Problems that the user has seen and lets be: kept with the project, recognised again in every later plan."""
+"""Problems ignored by the user: stored with the project and recognised in every later plan."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ _Id = Annotated[str, msgspec.Meta(max_length=200)]
 
 
 class IgnoredProblem(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A problem by what it is about, not by what was measured: that changes whenever the player is planned again.
+    """Identification of an ignored problem, without measured values, which differ in every plan.
 
     Attributes
     ----------
     message_id, note_id : str
-        ``note_id`` is empty where the problem names no note.
+        Message id and note id; ``note_id`` is empty if the problem has no note.
     body_part : str
-        The side or touch that its message names.
+        Side or touch in the message's arguments.
     tick : int
-        Begin of a problem without a note; 0 for others.
+        Start of a problem without a note; 0 for others.
     """
 
     message_id: _Id
@@ -35,7 +35,7 @@ class IgnoredProblem(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
-    """The problem in the form in which a project stores that it is ignored."""
+    """The stored form of a problem to be ignored."""
     named = [str(problem.message.arguments[name]) for name in PARTS if name in problem.message.arguments]
     tick = 0 if problem.note_id is not None else round(clock.ticks(problem.start_s))
     body_part = " ".join(named)[:200]
@@ -43,12 +43,14 @@ def ignored_problem(problem: Problem, clock: TempoMap) -> IgnoredProblem:
 
 
 def moved_ignored(ignored: IgnoredProblem, place: Callable[[int], int]) -> IgnoredProblem:
-    """An ignored problem after its music was moved: ``place`` maps former ticks to ticks."""
+    """An ignored problem after its music was moved; ``place`` maps old ticks to new ones."""
     return ignored if ignored.note_id else msgspec.structs.replace(ignored, tick=place(ignored.tick))
 
 
 def is_ignored(problem: Problem, ignored: Iterable[IgnoredProblem], clock: TempoMap) -> bool:
-    """Return whether a problem is one of these; without a note it may begin up to a quarter earlier or later."""
+    """Return whether a problem is among the ignored ones; one without a note may begin up to a quarter earlier or
+    later.
+    """
     own = ignored_problem(problem, clock)
     return any(
         (own.message_id, own.note_id, own.body_part) == (item.message_id, item.note_id, item.body_part)
@@ -60,7 +62,7 @@ def is_ignored(problem: Problem, ignored: Iterable[IgnoredProblem], clock: Tempo
 def split_by_ignored(
     problems: tuple[Problem, ...], ignored: tuple[IgnoredProblem, ...], clock: TempoMap
 ) -> tuple[tuple[Problem, ...], tuple[Problem, ...]]:
-    """Problems that count, and those that are ignored; in their order."""
+    """Split problems into active and ignored ones, keeping their order."""
     if not ignored:
         return problems, ()
     by_kind: dict[tuple[str, str], list[IgnoredProblem]] = {}

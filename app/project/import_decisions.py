@@ -1,7 +1,7 @@
-"""Decisions made at the import of a MIDI file, kept with the project so that every later reading of it takes them.
+"""Decisions made at the import of a MIDI file, stored with the project and applied whenever the file is read again.
 
-Tracks are kept as marks, by which they are recognised in another version of the file
-(`app.project.rereading`)."""
+Tracks are stored as marks that identify them in another version of the file (`app.project.rereading`).
+"""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ MOST_ROWS: Final = 2 * MOST_STREAMS
 
 
 class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """One channel of a track, so that it is recognised in another version of the file.
+    """Identification of one channel of a track in another version of the file.
 
     Attributes
     ----------
     track, channel, change : int
         As in `TrackChannel`, when the file was read last.
     name, instrument_name, program, reported
-        What the instrument was chosen by.
+        Data from which the instrument was chosen.
     called : str
         The track's name when the file was read last.
     melody : tuple of int
-        Sketch of its notes (`app.project.melody_likeness.sketch`).
+        Sketch of its melody (`app.project.melody_likeness.sketch`).
     """
 
     track: int
@@ -50,25 +50,25 @@ class TrackMark(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def place(self) -> Place:
-        """That of the stream it was."""
+        """Track, channel and instrument index of the channel."""
         return self.track, self.channel, self.change
 
 
 class RowDecision(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Decision about some tracks: who plays them.
+    """Decision about the player of some tracks.
 
     Attributes
     ----------
     tracks : tuple of TrackMark
-        Several are merged into one part; the first one leads.
+        Several tracks are merged into one part; the first one leads.
     requested : bool
         False: the tracks are left out.
     map_id, name, split, written
         As in `app.score.parts.PartAssignment`.
     character_id : str or None
-        None: chosen automatically.
+        Id of the character; None: chosen automatically.
     solos : bool
-        As in `PartAssignment`; imports of earlier versions did not follow such words, and do not when read again.
+        As in `PartAssignment`; False for imports of earlier versions, which ignored such words.
     clean : bool
         As in `PartAssignment`; imports of earlier versions cleaned nothing, and do not when read again.
     voice_maps : tuple of (str or None)
@@ -93,7 +93,7 @@ class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     encoding : str or None
-        Of the file's texts; None: guessed text by text.
+        Encoding of the file's texts; None: guessed for each text.
     rows : tuple of RowDecision
         In the order of the parts.
     """
@@ -103,7 +103,7 @@ class ImportDecisions(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ReadTiming(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Tempo and metres as a MIDI file has them; see `app.score.model.Score`."""
+    """Tempo and metres in a MIDI file; see `app.score.model.Score`."""
 
     tempo_map: TempoMap
     metres: tuple[Metre, ...]
@@ -111,14 +111,14 @@ class ReadTiming(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def mark_of(channel: TrackChannel, quarter: int, decided: TrackMark | None = None) -> TrackMark:
-    """The mark of a stream.
+    """Mark that identifies a channel.
 
     Parameters
     ----------
     quarter : int
         Ticks per quarter.
     decided : TrackMark, optional
-        The instrument was chosen by what this one says.
+        Earlier mark, with the data from which the instrument was chosen.
     """
     source = channel if decided is None else decided
     return TrackMark(

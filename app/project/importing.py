@@ -1,4 +1,4 @@
-"""Makes a project of the tracks of a MIDI file, as the user assigns them: to players, instruments and characters."""
+"""Creates a project from the tracks of a MIDI file, with the user's choice of players, instruments and characters."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class ImportRow(msgspec.Struct, frozen=True):
     requested : bool
         False: the tracks are left out.
     character_id : str or None
-        None: chosen automatically.
+        Id of the character; None: chosen automatically.
     """
 
     assignment: PartAssignment
@@ -41,11 +41,11 @@ class ImportRequest(msgspec.Struct, frozen=True):
     Attributes
     ----------
     dances : bool
-        Whether a dancer is to move to its percussion.
+        Whether to add a dancer for its percussion.
     contents : PieceContents or None
-        Those that the rows are of, where its texts were read in another encoding; None: as it was read first.
+        Contents that the rows belong to, if texts were decoded again; None: as first read.
     encoding : str or None
-        Of its texts; None: guessed.
+        Encoding of the texts; None: guessed.
     """
 
     rows: tuple[ImportRow, ...]
@@ -55,7 +55,7 @@ class ImportRequest(msgspec.Struct, frozen=True):
 
 
 def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
-    """The rows of an import by default: one for every track, or for each region of one."""
+    """Default rows of an import: one for every track, or for each instrument of a track."""
     found = suggestions(contents.channels, map_choices(maps.values()))
     rows = []
     for one in found:
@@ -66,14 +66,14 @@ def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tu
 
 
 def cleaning(rows: Sequence[ImportRow], clean: bool) -> tuple[ImportRow, ...]:
-    """The rows with all tracks cleaned as takes, or none."""
+    """The rows with cleaning as takes switched on or off for all."""
     return tuple(
         msgspec.structs.replace(row, assignment=msgspec.structs.replace(row.assignment, clean=clean)) for row in rows
     )
 
 
 def merged(rows: Sequence[ImportRow], places: Sequence[int]) -> tuple[ImportRow, ...]:
-    """The rows with those at some places made into one, where the first of them stood."""
+    """The rows with those at some indices merged at the first of them."""
     first, *others = sorted(places)
     channels = tuple(channel for place in (first, *others) for channel in rows[place].assignment.channels)
     together = msgspec.structs.replace(
@@ -92,13 +92,12 @@ def carried_over(
     again: PieceContents,
     usual_again: Sequence[ImportRow],
 ) -> tuple[ImportRow, ...]:
-    """The rows of a file whose texts were read again in another encoding: those that were changed stay, the others are
-    as its names say now.
+    """Rows after the texts of a file were decoded again: changed rows stay, the others get the new defaults.
 
     Parameters
     ----------
     usual, usual_again : sequence of ImportRow
-        Rows by default of ``contents`` and of ``again``.
+        Default rows of ``contents`` and of ``again``.
     """
     now = {channel.place: index for index, channel in enumerate(again.channels)}
     by_default = {row.assignment.channels: row for row in usual}
@@ -116,7 +115,7 @@ def carried_over(
 
 
 def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
-    """The rows with the one at a place taken apart into its tracks."""
+    """The rows with one row split into its tracks."""
     row = rows[place]
     alone = tuple(
         msgspec.structs.replace(
@@ -128,14 +127,14 @@ def separated(rows: Sequence[ImportRow], place: int) -> tuple[ImportRow, ...]:
 
 
 class ImportPreview(msgspec.Struct, frozen=True):
-    """Result that an import of some rows would have.
+    """Preview of an import.
 
     Attributes
     ----------
     players : int
-        Musicians: one who plays several instruments counts once.
+        Number of musicians; one with several instruments counts once.
     instruments : dict of PartAssignment to tuple of str
-        Wishes without a name, and the ids of the maps that would play them.
+        Ids of the instrument maps for each assignment (without its name).
     """
 
     players: int
@@ -144,7 +143,7 @@ class ImportPreview(msgspec.Struct, frozen=True):
     instruments: dict[PartAssignment, tuple[str, ...]]
 
     def instruments_of(self, assignment: PartAssignment) -> tuple[str, ...]:
-        """The ids of the maps that would play a row if it were imported; empty where that is not known yet."""
+        """Ids of the instrument maps of an assignment; empty if not known yet."""
         return self.instruments.get(_unnamed(assignment), ())
 
 
@@ -160,9 +159,9 @@ def outcome_of(
     Parameters
     ----------
     before : ImportPreview, optional
-        Of the same file: rows that are the same are not looked at again.
+        Previous preview of the same file, whose unchanged rows are reused.
     stop_requested : callable
-        Raises Cancelled when it says so.
+        Raises Cancelled once it returns True.
     """
     score = score_of_rows(contents, rows, maps, stop_requested)
     known = {} if before is None else before.instruments
@@ -178,7 +177,7 @@ def outcome_of(
 
 
 def automatic(assignment: PartAssignment) -> PartAssignment:
-    """The assignment without instruments of its own: names, programs and ranges say which."""
+    """The assignment without chosen instruments, so that names, programs and ranges decide."""
     return msgspec.structs.replace(assignment, map_id=None, voice_maps=())
 
 
@@ -207,7 +206,7 @@ def score_of_rows(
     maps: Mapping[str, InstrumentMap],
     stop_requested: StopRequested = lambda: False,
 ) -> Score:
-    """The score with the parts of the selected rows. Raises Cancelled when ``stop_requested`` says so."""
+    """The score with the parts of the selected rows. Raises Cancelled once ``stop_requested`` returns True."""
     return assigned_score(
         contents,
         [row.assignment for row in rows if row.requested or row.assignment.map_id == PERCUSSION],
@@ -226,16 +225,16 @@ def import_project(
     encoding: str | None = None,
     seed: int = 0,
 ) -> Project:
-    """A project in which the requested rows are played, which keeps them for later readings of the file.
+    """Create a project that plays the selected rows and stores them for later readings of the file.
 
     Parameters
     ----------
     source : str
         Absolute path of the MIDI file.
     stop_requested : callable
-        Raises Cancelled when it says so.
+        Raises Cancelled once it returns True.
     encoding : str, optional
-        By which the contents were read.
+        Encoding with which the contents were read.
     """
     project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps, seed=seed)
     characters = {}
@@ -265,7 +264,7 @@ def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: s
 
 
 def decision_of(row: ImportRow, marks: Iterable[TrackMark]) -> RowDecision:
-    """A row of the import in the form in which the project stores it, with the marks of its channels."""
+    """The stored form of an import row, with the marks of its channels."""
     chosen = row.assignment
     return RowDecision(
         tuple(marks),

@@ -1,5 +1,6 @@
-"""Folders of running takes' journals: beside the project's file; without a file, beside its unsaved work. A journal
-whose disk is full goes on in a second place."""
+"""Paths of recording journals: next to the project's file or, without one, next to its autosave; a second place is used
+if that disk is full.
+"""
 
 from __future__ import annotations
 
@@ -20,19 +21,19 @@ SUFFIX: Final = ".take-journal"
 
 
 def journal_path(document: Path | None, *stems: Path) -> Path:
-    """A name for a new journal.
+    """A path for a new journal.
 
     Parameters
     ----------
     document : Path or None
         The project's file.
     *stems : Path
-        What the unsaved work of a project without a file is called, without a suffix; the first is this editor's.
+        Paths of autosaves of a project without a file, without suffix; the first is this editor's.
 
     Raises
     ------
     AppError
-        ``record.no_place``: the project has no file, and nowhere to keep unsaved work either.
+        The project has no file, and there is no folder for unsaved work either.
     """
     if document is None and not stems:
         raise AppError("record.no_place")
@@ -42,14 +43,14 @@ def journal_path(document: Path | None, *stems: Path) -> Path:
 
 
 def second_path(first: Path, *stems: Path) -> Path:
-    """Return where a journal goes on whose own disk takes nothing more.
+    """Return the path at which a journal continues when its disk is full.
 
     Parameters
     ----------
     first : Path
-        As `journal_path` gave it.
+        Path of the journal, from `journal_path`.
     *stems : Path
-        As there: of a project with a file the second place is where unsaved work is kept.
+        As in `journal_path`; for a project with a file the second place is the folder of unsaved work.
     """
     name, moment, _ = first.name.rsplit(".", 2)
     stem = stems[0].name if stems else name
@@ -58,8 +59,9 @@ def second_path(first: Path, *stems: Path) -> Path:
 
 
 def second_folder(first: Path, *folders: Path) -> Path:
-    """The first of some folders, and of the system's for temporary files, that is on another disk than ``first``, or
-    else is another one; those that cannot be made are left out."""
+    """The first of some folders and the system's temporary folder that is on another disk than ``first``, or else a
+    different folder; folders that cannot be created are skipped.
+    """
     temporary = Path(tempfile.gettempdir())
     found: list[tuple[bool, bool, int, Path]] = []
     for number, folder in enumerate((*folders, temporary)):
@@ -70,7 +72,7 @@ def second_folder(first: Path, *folders: Path) -> Path:
 
 
 def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
-    """The journals that belong to a project by their names and that no one writes any more, the oldest first."""
+    """Journals of a project, by name, that no process is writing, oldest first."""
     besides = (*stems, *((document,) if document is not None else ()))
     return tuple(
         path
@@ -81,8 +83,7 @@ def journals_of(document: Path | None, *stems: Path) -> tuple[Path, ...]:
 
 
 def in_second_places(*stems: Path) -> tuple[Path, ...]:
-    """Journals of any project that no one writes any more, in the folders where one of a project with a file may have
-    gone on."""
+    """Journals of any project that no process is writing, in the folders used as second place."""
     folders = dict.fromkeys((*(stem.parent for stem in stems), Path(tempfile.gettempdir())))
     return tuple(path for folder in folders for path in _left_in(folder))
 
@@ -99,7 +100,7 @@ def _left_in(folder: Path) -> Iterator[Path]:
 
 
 def _is_left(path: Path) -> bool:
-    """Return whether it is a file that no one writes any more. A link is none of ours; where it leads is not opened."""
+    """Return whether a path is a regular file that no process is writing. Links are never followed."""
     return os.path.isfile(path) and not os.path.islink(path) and not is_locked(path)
 
 

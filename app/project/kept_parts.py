@@ -1,4 +1,4 @@
-"""Parts that stay as they are here while a file that is read again takes the place of the others."""
+"""Keeps chosen parts unchanged while a re-read file replaces the others."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from app.score.model import ControllerCurve, Note, Part
 
 
 def keeping(found: FoundParts, project: Project, ids: Collection[str], scale: Fraction) -> FoundParts:
-    """Keep parts as the project has them, where they are; a new part among them is left out.
+    """Keep parts as they are in the project, at their places; new parts among them are left out.
 
-    What the file held of them stays as it was known, so that the next reading offers the same changes again.
+    The stored file version of these parts stays too, so that the next reading offers the same changes again.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def keeping(found: FoundParts, project: Project, ids: Collection[str], scale: Fr
 
 
 def read_curves_of(project: Project, found: FoundParts, scale: Fraction) -> dict[str, tuple[ControllerCurve, ...]]:
-    """The controllers that the file holds, by part id; of parts kept, those that it held."""
+    """Controllers in the file, by part id; for kept parts, those of the previous reading."""
     place = place_map((), scale)
     result = {part.id: part.curves for part in found.parts if part.id not in found.kept}
     for id in found.kept & project.read_curves.keys():
@@ -69,7 +69,7 @@ def read_curves_of(project: Project, found: FoundParts, scale: Fraction) -> dict
 
 
 def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction) -> Part:
-    """The project's part, moved to where its music is in the file."""
+    """The project's part, moved to the place of its music in the file."""
     notes = [_scaled(note, place, scale) for note in part.notes]
     ordered = tuple(sorted(notes, key=lambda note: (note.onset_tick, note.pitch)))
     curves = tuple(moved_curve(curve, place) for curve in part.curves)
@@ -85,7 +85,7 @@ def moved_part(part: Part, id: str, place: Callable[[int], int], scale: Fraction
 
 
 def _as_here(former: Part, part: Part, place: Callable[[int], int], scale: Fraction) -> Part:
-    """A part of the project with its ticks mapped to where the file has it now."""
+    """A part of the project with its ticks mapped to those of the file."""
     here = moved_part(former, former.id, place, scale)
     return msgspec.structs.replace(here, track=part.track, channel=part.channel, voice=part.voice)
 

@@ -1,7 +1,7 @@
-"""Limits of a project's numbers, for edits and for files.
+"""Limits of a project's numbers, for edits and files.
 
-How long a piece may be is in `app.score.limits`. The bounds lie far beyond music, and near enough that no hostile file
-can make the program run for hours or out of memory.
+The length of a piece is limited in `app.score.limits`. The limits are far above any real music, and low enough that no
+hostile file makes the program run for hours or out of memory.
 """
 
 from __future__ import annotations

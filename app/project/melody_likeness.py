@@ -1,5 +1,4 @@
-"""Likeness of melodies, wherever they stand and in whatever key: by it parts and tracks are recognised in another
-version of a file."""
+"""Similarity of melodies regardless of place and key, to recognise parts and tracks in another version of a file."""
 
 from __future__ import annotations
 
@@ -21,8 +20,8 @@ _MIX: Final = np.uint64(0x9E3779B97F4A7C15)
 
 
 def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> FloatArray:
-    """The steps of a melody from each note over the next ones, as one number each, sorted; independent of its key, its
-    place and the file's resolution.
+    """Hashes of the intervals between each note and the following ones, sorted; independent of key, place and the
+    file's resolution.
 
     Parameters
     ----------
@@ -44,8 +43,9 @@ def turns(onset_ticks: Sequence[int], pitches: Sequence[int], quarter: int) -> F
 
 
 def shares(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> FloatArray:
-    """The share of turns that two melodies both have, 0..1, (old, new): turn by turn, for of many melodies most pairs
-    have nothing in common."""
+    """Share of common turns for each pair of melodies, 0..1, shape (old, new); computed turn by turn, since most pairs
+    share none.
+    """
     both: FloatArray = np.zeros((len(old), len(new)))
     here, there = _owners(old), _owners(new)
     for turn, (melodies, counts) in here.items():
@@ -57,7 +57,7 @@ def shares(old: Sequence[FloatArray], new: Sequence[FloatArray]) -> FloatArray:
 
 
 def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list[int]]]:
-    """The melodies that have each turn, and how often."""
+    """Melodies that contain each turn, with counts."""
     owners: dict[float, tuple[list[int], list[int]]] = {}
     for index, found in enumerate(melodies):
         values, counts = np.unique(found, return_counts=True)
@@ -69,8 +69,9 @@ def _owners(melodies: Sequence[FloatArray]) -> dict[float, tuple[list[int], list
 
 
 def sketch(found: FloatArray) -> tuple[int, ...]:
-    """A few turns that stand for all of them: those of the smallest hashes (bottom-k sketch; Cohen and Kaplan, 2007).
-    Two sketches measure how much their melodies have in common."""
+    """The turns with the smallest hashes, representing all of them (bottom-k sketch; Cohen and Kaplan, 2007). Two
+    sketches estimate the similarity of their melodies.
+    """
     mixed = (found.astype(np.int64).astype(np.uint64) * _MIX) >> np.uint64(64 - SKETCH_BITS)
     return tuple(np.unique(mixed)[:SKETCH].tolist())
 
@@ -90,8 +91,9 @@ def sketched_shares(old: Sequence[Sequence[int]], new: Sequence[Sequence[int]]) 
 
 
 def sketched_share(one: Sequence[int], other: Sequence[int]) -> float:
-    """The share of distinct turns that two sketched melodies both have, 0..1, as `shares` counts it: of the smallest
-    hashes of both together, those in both."""
+    """Share of distinct turns common to two sketched melodies, 0..1: among the smallest hashes of both together, those
+    in both.
+    """
     mine, others = set(one), set(other)
     together = sorted(mine | others)[:SKETCH]
     if not together:

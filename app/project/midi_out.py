@@ -1,4 +1,4 @@
-"""A project's piece as a MIDI file: what its players play, under their names."""
+"""Exports a project's piece as a MIDI file with the players' parts and names."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from instrument_maps.model import InstrumentMap
 
 
 def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap]) -> tuple[Message, ...]:
-    """Write the piece with everything drawn and recorded; what the file could not hold is returned.
+    """Write the piece including all edits and recordings; returns warnings about content that the file cannot hold.
 
     Parameters
     ----------
     maps : mapping of str to InstrumentMap
-        By id. Of a player whose instrument is not there, the part says what it is for.
+        Maps by id. If a player's map is missing, the part's own instrument is written.
 
     Raises
     ------
     AppError
-        Those of `app.score.write`, and ``midi.onto_source``.
+        As in `app.score.write`, and if the file would overwrite the project's source.
     """
     _keep_source(project, path)
     performers: dict[str, PartPlayer] = {}
@@ -35,7 +35,7 @@ def export_midi(project: Project, path: Path, maps: Mapping[str, InstrumentMap])
 
 
 def _keep_source(project: Project, path: Path) -> None:
-    """A file that holds more than the project is not replaced by less."""
+    """Raise AppError if the path is the project's source file, which holds more than the project."""
     if not project.score.unplayed or not project.source:
         return
     if not may_touch(project.source):

@@ -1,8 +1,8 @@
-"""Project files of older versions, brought up to the present one, one version at a time.
+"""Migrates project files of older versions to the current one, version by version.
 
-A migration is a pure function on the file's decoded JSON; the first takes version 1 to 2, the next 2 to 3 and so on.
-To change what a file holds, add one to `STRUCTURE`, and a sample to ``tests/data/projects``; a new parameter only
-says of itself which version is the first that has it.
+A migration is a pure function on the decoded JSON; the first one converts version 1 to 2. To change the format, add a
+migration to `STRUCTURE` and a sample file to ``tests/data/projects``; a new parameter only needs its first version in
+its declaration.
 """
 
 from __future__ import annotations
@@ -21,26 +21,24 @@ VERSION_KEY: Final = "schema_version"
 
 
 def _with_transpositions(raw: Raw) -> Raw:
-    """2 to 3: how a part that the file has in written pitches was transposed; it could not be set before."""
+    """2 to 3: parts have the transposition applied when the file had written pitches; 0 for older files."""
     parts = [{**part, "transposed_semitones": 0} for part in raw["score"]["parts"]]
     return {**raw, "score": {**raw["score"], "parts": parts}}
 
 
 def _with_unplayed_sounding(raw: Raw) -> Raw:
-    """5 to 6: where unplayed parts sound is kept; a piece that was read before has it when it is read again."""
+    """5 to 6: unplayed parts have the spans in which they sound; empty until the file is read again."""
     unplayed = [{**part, "sounding": []} for part in raw["score"]["unplayed"]]
     return {**raw, "score": {**raw["score"], "unplayed": unplayed}}
 
 
 def _with_dancers(raw: Raw) -> Raw:
-    """6 to 7: there are dancers. What percussion strikes is kept; a piece that was read before has it when it is read
-    again."""
+    """6 to 7: there are dancers, and percussion hits; the latter are empty until the file is read again."""
     return {**raw, "dancers": [], "dance_corrections": {}, "score": {**raw["score"], "percussion": []}}
 
 
 def _with_section_intensity(raw: Raw) -> Raw:
-    """9 to 10: what all players show of their acting has an amount; before, everything was shown. Added gestures may
-    be those of a table."""
+    """9 to 10: there is a factor for everyone's acting, 1 for older files. Added gestures may be named ones."""
     corrections = {
         player: [{**item, "gesture": ""} if item["correction"] == "add_gesture" else item for item in items]
         for player, items in raw["corrections"].items()
@@ -49,8 +47,9 @@ def _with_section_intensity(raw: Raw) -> Raw:
 
 
 def _with_takers(raw: Raw) -> Raw:
-    """10 to 11: a cue may say whom it brings in; before, it was who comes in there. There may be regions of a style.
-    There may be a conductor; before, players gave all entries."""
+    """10 to 11: a cue may list the players it brings in; older ones bring in all who enter. There may be style spans,
+    and a conductor; in older files players give all entries.
+    """
     corrections = {
         player: [{**item, "takers": None} if item["correction"] == "set_cue" else item for item in items]
         for player, items in raw["corrections"].items()
@@ -59,14 +58,13 @@ def _with_takers(raw: Raw) -> Raw:
 
 
 def _with_video_and_pins(raw: Raw) -> Raw:
-    """11 to 12: there may be a reference video; beats may be pinned to the recording, and bars that following it was
-    not sure of are kept."""
+    """11 to 12: there may be a reference video; the recording may have pinned beats and doubtful bars."""
     audio = raw["audio"]
     return {**raw, "video": None, "audio": None if audio is None else {**audio, "pins": [], "doubts": []}}
 
 
 def _with_parameters(raw: Raw, version: int) -> Raw:
-    """Add parameters of players and dancers that did not exist before this version."""
+    """Add parameters of players and dancers introduced in a version."""
     of_players, of_dancers = (
         {name: parameter.in_older_files for name, parameter in table.items() if parameter.since == version}
         for table in (PARAMETERS, DANCER_PARAMETERS)
@@ -78,9 +76,9 @@ def _with_parameters(raw: Raw, version: int) -> Raw:
 
 
 def _with_stopped(raw: Raw) -> Raw:
-    """14 to 15: where the hand stops the bell is kept, and what is written over the notes; a piece that was read before
-    has both when it is read again. There may be marks by hand among the corrections.
-    Rows of earlier imports do not follow words about who of several players plays, and clean no takes."""
+    """14 to 15: parts have hand-stopped spans and marks, both empty until the file is read again. Corrections may set
+    marks. Older imports do not follow words about the playing player, and clean no takes.
+    """
     parts = [{**part, "stopped": [], "marks": [], "source": "sound"} for part in raw["score"]["parts"]]
     imported = raw["imported"]
     if imported is not None:
@@ -138,17 +136,17 @@ MIGRATIONS: Final = {version: _migration(version) for version in range(2, CURREN
 
 
 def migrated(raw: Raw, version: int, migrations: Mapping[int, Migration] = MIGRATIONS) -> Raw:
-    """The file's content as the present version has it; what is given stays as it is.
+    """Return the content migrated to the current version; the argument is not modified.
 
     Parameters
     ----------
     version : int
-        Of ``raw``, from 1 to the last that the migrations lead to.
+        Version of ``raw``, from 1 to the last one the migrations support.
 
     Raises
     ------
     KeyError, TypeError, ValueError, IndexError, AttributeError
-        The content is not what its version says.
+        The content does not match its version.
     """
     for number in range(version + 1, max(migrations) + 1):
         raw = {**migrations[number](raw), VERSION_KEY: number}

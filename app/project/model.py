@@ -1,4 +1,4 @@
-"""The project: a score, who plays it and how, and what the animator corrected by hand. One immutable value."""
+"""The project: a score, its performers and all corrections, as one immutable value."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ DANCER_PARAMETERS: Final[Mapping[str, Parameter]] = declared(Dancer, "dancer_par
 
 
 class CompSpan(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A stretch of a part that a take gave.
+    """A span of a part that came from a take.
 
     Attributes
     ----------
     start_tick, end_tick : int
-        Half-open: the notes that begin in it.
+        Half-open span; selects notes by onset.
     """
 
     start_tick: int
@@ -71,9 +71,9 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     takes : tuple of Take
         In the order of their lanes.
     comp : tuple of CompSpan
-        Which take the part has where, in order and apart; elsewhere it is what was there before.
+        The take used in each span, in order without overlap; elsewhere the previous content.
     before_notes, before_curves : tuple
-        The part when the first take came: it can be gone back to, like to a take.
+        Content of the part before the first take, which can be restored like a take.
     """
 
     takes: tuple[Take, ...]
@@ -82,7 +82,7 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     before_curves: tuple[ControllerCurve, ...] = ()
 
     def take(self, take_id: str) -> Take:
-        """The take of this id; KeyError where there is none."""
+        """The take of this id; KeyError if it does not exist."""
         for take in self.takes:
             if take.id == take_id:
                 return take
@@ -91,50 +91,51 @@ class PlayerTakes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Project:
-    """Everything a performance is made from.
+    """Everything needed to make a performance.
 
     Attributes
     ----------
     players : tuple of Player
-        In the order of the score. Players of one musician have the same character, parameters and place.
+        Players in the order of the score. Players of one musician have equal character, parameters and place.
     corrections : mapping of str to tuple of Correction
-        By player id.
+        Corrections by player id.
     seed : int
-        Another seed is another performance of the same plan.
+        Random seed; another seed gives another performance of the same plan.
     preroll_beats : float
         Before the first note, in felt beats.
     section_intensity : float
-        Multiplies what all players show of their acting; 1: as their styles and parameters have it.
+        Factor of the acting of all players; 1: unchanged.
     conductor : ConductorPlace or None
-        A conductor's place; where no one stands there, or None, the players give the entries themselves.
+        Place of a conductor; if it is None or empty, players give the entries.
     felt_beat_quarters : float or None
-        The beat that is felt throughout, in quarters: 1.5 where a fast 6/8 is felt in two. None: metre and tempo say.
+        Felt beat of the whole piece in quarters, for example 1.5 for a fast 6/8 in two. None: derived from metre and
+        tempo.
     fps : Fraction
-        Frames per second of the picture: what the ruler counts, a step is, and an export starts from.
+        Frames per second, for the ruler, for frame steps and as default of an export.
     audio : AudioTrack or None
-        None: the built-in synthesiser plays the score.
+        Recording to play with the piece; None: the built-in synthesiser plays the score.
     video : VideoTrack or None
     expressions : tuple of Expression
-        The animator's own, by name beside the bundled ones.
+        Expressions added by the animator, by name, in addition to bundled ones.
     source : str
-        Absolute path of the MIDI file that the score came from; empty for a piece begun here.
+        Absolute path of the MIDI file that the score came from; empty for a piece created in the editor.
     read_notes : mapping of str to mapping of str to Note
-        By part and note id: what the MIDI file held when it was last read, whatever was done to the notes since. A
-        part that is not there was not read from a file, or by a program that did not keep it.
+        Notes of the MIDI file when it was last read, by part and note id, without later edits. Parts are missing if
+        they were not read from a file, or by a version that did not store this.
     read_curves : mapping of str to tuple of ControllerCurve
-        By the ids of the same parts: their controllers in the file.
+        Controllers in the file, by ids of the same parts.
     read_timing : ReadTiming or None
-        Tempo and metres of the file; None: there is none, or a program read it that did not keep them.
+        Tempo and metres in the file; None if there is no file, or if they were not stored.
     imported : ImportDecisions or None
-        What was decided when the MIDI file was imported; None: it is not known, or there is no file.
+        Decisions at the import of the MIDI file; None if unknown or without a file.
     takes : mapping of str to PlayerTakes
-        By player id; players without takes are absent.
+        Takes by player id; players without takes are missing.
     dancers : tuple of Dancer
-        In the order in which they are listed.
+        Dancers in list order.
     dance_corrections : mapping of str to tuple of DanceCorrection
-        By dancer id.
+        Corrections of dances by dancer id.
     ignored_problems : mapping of str to tuple of IgnoredProblem
-        By player or dancer id: what the user has seen and lets be.
+        Problems ignored by the user, by player or dancer id.
     cameras : tuple of CameraBookmark
         The viewport's bookmarks, in the order of their menu.
     """
@@ -169,15 +170,15 @@ class Project:
 
     @cached_property
     def bodies(self) -> tuple[Player, ...]:
-        """The players who have a body, in order: one for each musician."""
+        """The players who have a body: the first player of each musician."""
         return tuple(player for player in self.players if self.musician(player) is player)
 
     def musician(self, player: Player) -> Player:
-        """The player whose body plays; of who doubles no one, the player."""
+        """The player whose body plays a part: the player itself unless it doubles another."""
         return self._players.get(player.doubles, player) if player.doubles else player
 
     def played_by(self, player: Player) -> tuple[Player, ...]:
-        """Everything that a player's musician plays: first the one who has the body, then what doubles it, in order."""
+        """All players of a player's musician: first the one with the body, then doubling ones, in order."""
         return self._musicians[self.musician(player).id]
 
     @cached_property
@@ -191,7 +192,7 @@ class Project:
 
     @cached_property
     def metre_map(self) -> MetreMap:
-        """The score's, with the beat that is felt."""
+        """Metre map of the score, with the felt beat."""
         score = self.score
         if self.felt_beat_quarters is None:
             return score.felt_metre_map
@@ -203,30 +204,30 @@ class Project:
         return self._parts[player.part_id]
 
     def player(self, player_id: str) -> Player:
-        """The player of this id; KeyError where there is none."""
+        """The player of this id; KeyError if it does not exist."""
         return self._players[player_id]
 
     def dancer(self, dancer_id: str) -> Dancer:
-        """The dancer of this id; KeyError where there is none."""
+        """The dancer of this id; KeyError if it does not exist."""
         return self._dancers[dancer_id]
 
     @property
     def conducting(self) -> ConductorPlace | None:
-        """Return where a conductor stands who gives the entries; None: there is none, or the place is empty."""
+        """Return the place of a conductor who gives the entries; None if there is none or the place is empty."""
         return self.conductor if self.conductor is not None and self.conductor.on_stage else None
 
     def performer_names(self, but: str = "") -> list[str]:
-        """Names of players and dancers, except the one of the id ``but``: no two share a name, ignoring case."""
+        """Names of players and dancers, except of id ``but``; unique ignoring case."""
         return [performer.name for performer in self.performers if performer.id != but]
 
     @cached_property
     def performers(self) -> tuple[Player | Dancer, ...]:
-        """Players, then dancers."""
+        """All players, then all dancers."""
         return (*self.players, *self.dancers)
 
     @cached_property
     def seen(self) -> tuple[Player | Dancer, ...]:
-        """Everybody who has a body: players, then dancers."""
+        """All performers with a body: players, then dancers."""
         return (*self.bodies, *self.dancers)
 
     @property
@@ -248,13 +249,13 @@ class Project:
 
 
 def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed: int = 0) -> Project:
-    """Cast a score: a player for every part, with a name, a character, a place and a size of motion of their own, which
-    the parts of one musician share.
+    """Cast a score: a player for every part, with name, character, place and amplitude; parts of one musician share
+    them.
 
     Parameters
     ----------
     maps : mapping of str to InstrumentMap
-        By id; every part names one of them.
+        Maps by id, including the map of every part.
     """
     parts = score.parts
     instruments = [maps[part.map_id] for part in parts]
@@ -303,7 +304,7 @@ def project_from_score(score: Score, maps: Mapping[str, InstrumentMap], *, seed:
 
 
 def preroll_of_new(project: Project) -> float:
-    """The pre-roll of a new piece, felt beats, by the tempo at its first note."""
+    """The pre-roll of a new piece in felt beats, by the tempo at its first note."""
     clock = project.score.tempo_map
     first = min((part.notes[0].onset_tick for part in project.score.parts if part.notes), default=0)
     beat = project.metre_map.felt_ticks_at(first)
@@ -311,7 +312,7 @@ def preroll_of_new(project: Project) -> float:
 
 
 def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
-    """Facts about the maps in the form that the score's reader takes."""
+    """Facts about instrument maps in the form used by the score's reader."""
     return tuple(
         MapChoice(
             map_id=instrument.id,
@@ -327,14 +328,12 @@ def map_choices(maps: Iterable[InstrumentMap]) -> tuple[MapChoice, ...]:
 
 
 def with_settings(project: Project, settings: Sequence[ParameterSetting], maps: Mapping[str, InstrumentMap]) -> Project:
-    """The project with what the user set for its players; ``None`` as instrument or character keeps the automatic
-    choice.
+    """Apply the user's settings to players; ``None`` as instrument or character keeps the automatic choice.
 
     Raises
     ------
     UsageError
-        ``set.posture_impossible`` (player, instrument, value, possible): an instrument is not played standing, or not
-        seated.
+        An instrument cannot be played in the requested posture.
     """
     players = list(project.players)
     places = {player.id: index for index, player in enumerate(players)}
@@ -375,7 +374,7 @@ def _require_posture(player: Player, instrument: InstrumentMap) -> None:
 
 
 def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
-    """A character for each instrument, by the reach it asks for."""
+    """Choose a character for each instrument, by the reach it requires."""
     travels_m = [_hand_travel_m(instrument) for instrument in instruments]
     # To find out how long an arm is takes a moment, and few instruments ask for it.
     asked = any(travel_m > FAR_REACH_M for travel_m in travels_m)
@@ -386,7 +385,7 @@ def characters_for(instruments: Sequence[InstrumentMap]) -> tuple[str, ...]:
 
 
 def _hand_travel_m(instrument: InstrumentMap) -> float:
-    """Return how far an instrument asks a hand to travel."""
+    """Return the longest distance in metres that a hand travels on an instrument."""
     return max((control.travel_m for control in instrument.controls if _by_hand(control)), default=0.0)
 
 

@@ -1,4 +1,4 @@
-"""Places of the old score in one that was read again, by the notes that were found again."""
+"""Maps ticks of the old score to a re-read one by matched notes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from app.project.limits import LAST_TICK
 
 
 def place_map(pairs: Iterable[tuple[int, int]], scale: Fraction) -> Callable[[int], int]:
-    """Return where a tick of the old score is in the new one: as far from the last note before it that was found again
-    as it was, but not beyond the next; before the first one it moves with that."""
+    """Return a function from old to new ticks: the distance from the last matched note before is kept, but not beyond
+    the next one; ticks before the first matched note move with it.
+    """
     by_tick: dict[int, int] = {}
     for before, after in sorted(pairs):
         by_tick[before] = max(by_tick.get(before, after), after)

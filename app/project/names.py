@@ -1,7 +1,7 @@
-"""Names of players and of their files.
+"""Names of performers, and file names made from them.
 
-A name from a MIDI file is only ever a text: it is shown as it stands, and a file is named after a cleaned form of it,
-so that it can never become a path, a device or a hidden file on any system.
+A name from a MIDI file is only displayed; file names use a cleaned form, so that a name can never become a path, a
+device or a hidden file on any system.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _LONGEST_NAME_BYTES = 80
 
 
 def clean_name(text: str) -> str:
-    """The text on one line, composed (NFC), without control characters; may be empty."""
+    """Return the text on one line, composed (NFC), without control characters; may be empty."""
     kept = (" " if character.isspace() else character for character in unicodedata.normalize("NFC", text))
     visible = "".join(
         character for character in kept if unicodedata.category(character) not in ("Cc", "Cs", "Cn", "Co")
@@ -31,10 +31,9 @@ def clean_name(text: str) -> str:
 
 
 def unique_names(names: Iterable[str]) -> tuple[str, ...]:
-    """Names that differ from one another even where case does not count.
+    """Make names unique, ignoring case.
 
-    A name that stands alone is kept; one that is shared is numbered in order ("trumpet 1", "trumpet 2"), passing over
-    numbers that another name already carries.
+    Single names stay; equal ones are numbered in order ("trumpet 1", "trumpet 2"), skipping numbers in use.
     """
     requested = [clean_name(name) for name in names]
     counts = Counter(name.casefold() for name in requested)
@@ -54,7 +53,7 @@ def unique_names(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def file_stem(name: str) -> str:
-    """A file name without ending that every common system accepts; never empty, a path, a device or hidden."""
+    """A file name without extension that every common system accepts; never empty, a path, a device or hidden."""
     text = "".join(
         character
         for character in clean_name(name)
@@ -73,7 +72,7 @@ def file_stem(name: str) -> str:
 
 
 def file_stems(names: Sequence[str]) -> tuple[str, ...]:
-    """One file stem per name, unique where case does not count."""
+    """One file stem per name, unique ignoring case."""
     taken: set[str] = set()
     stems = []
     for name in names:
@@ -88,5 +87,5 @@ def file_stems(names: Sequence[str]) -> tuple[str, ...]:
 
 
 def _key(text: str) -> str:
-    """Two names with one key may be the same file (case-insensitive, and macOS decomposes)."""
+    """Key for comparing names; equal keys may be the same file (case-insensitive and decomposing file systems)."""
     return unicodedata.normalize("NFKD", text.casefold())

@@ -1,4 +1,4 @@
-"""Corrections whose note is gone: they stay and do nothing until they get another note or are taken back."""
+"""Corrections whose note no longer exists: they are kept without effect until attached to another note or removed."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from app.project.model import Project
 
 @dataclass(frozen=True)
 class Orphan:
-    """A correction whose note is gone."""
+    """A correction whose note no longer exists."""
 
     player_id: str
     correction: Correction
 
 
 def orphaned(project: Project) -> tuple[Orphan, ...]:
-    """Every correction about a note that its player does not play (any more)."""
+    """Every correction about a note that its player does not have."""
     found = []
     for player in project.players:
         corrections = project.corrections.get(player.id, ())
@@ -34,8 +34,9 @@ def orphaned(project: Project) -> tuple[Orphan, ...]:
 
 
 def reattached(project: Project, player_id: str, correction: Correction, note_id: str) -> Project:
-    """Let a correction be about another note of its player; lengths relative to the note stay. It takes the place of
-    one that is about the same there. Of a slur the end that is gone goes to the note, the first one if both are."""
+    """Attach a correction to another note of its player, keeping lengths relative to the note; it replaces one with the
+    same place. For a slur, the missing end is attached; if both are missing, the first one.
+    """
     anchors = notes_of(correction)
     if not anchors:
         raise UsageError("reimport.no_note", kind=correction.tag)

@@ -1,4 +1,4 @@
-"""`PLAYER.parameter=value`: what the user sets for one player or for several, checked before anything is made."""
+"""Parses and checks ``PLAYER.parameter=value`` settings for one or several players."""
 
 from __future__ import annotations
 
@@ -25,8 +25,7 @@ _STYLE, _HABITS = "style", "habits"
 
 
 class ParameterSetting(msgspec.Struct, frozen=True):
-    """Value of one parameter of one player. ``player`` is the index of the player, ``value`` is already of the right
-    type."""
+    """A parameter value for one player. ``player`` is the player's index; ``value`` has the parameter's type."""
 
     player: int
     parameter: str
@@ -34,14 +33,14 @@ class ParameterSetting(msgspec.Struct, frozen=True):
 
 
 def parameter_names() -> tuple[str, ...]:
-    """Every name that can be set, in a fixed order."""
+    """All names that can be set, in a fixed order."""
     return (*PARAMETERS, *_CASTING)
 
 
 def matching_players(requested: str, names: Sequence[str]) -> tuple[int, ...]:
-    """Indices of the players that a name or a pattern (``*``, ``?``, ``[...]``) means; case does not count.
+    """Indices of the players that match a name or pattern (``*``, ``?``, ``[...]``), ignoring case.
 
-    A name that fits exactly is that player, whatever pattern it might be.
+    An exact name matches only that player, even if it is also a pattern.
     """
     key = requested.strip().casefold()
     exact = tuple(index for index, name in enumerate(names) if name.casefold() == key)
@@ -51,12 +50,12 @@ def matching_players(requested: str, names: Sequence[str]) -> tuple[int, ...]:
 
 
 def select_players(requested: Iterable[str], names: Sequence[str]) -> tuple[int, ...]:
-    """Indices of the players named, in the order of the score; all of them where nothing is requested.
+    """Indices of the named players in score order; all players if none are named.
 
     Raises
     ------
     UsageError
-        ``player.unknown`` where a name or pattern means no one.
+        A name or pattern matches no player.
     """
     chosen: set[int] = set()
     asked = False
@@ -72,21 +71,21 @@ def select_players(requested: Iterable[str], names: Sequence[str]) -> tuple[int,
 def parse_settings(
     texts: Iterable[str], names: Sequence[str], instruments: Iterable[str], characters: Iterable[str]
 ) -> tuple[ParameterSetting, ...]:
-    """Read ``PLAYER.parameter=value`` texts; a later one wins over an earlier one.
+    """Parse ``PLAYER.parameter=value`` texts; of equal settings the last one counts.
 
     Parameters
     ----------
     texts : iterable of str
-        As given by the user. A player may be a pattern: ``*.amplitude=0``.
+        Texts from the user. The player may be a pattern: ``*.amplitude=0``.
     names : sequence of str
-        The players' names. They may hold dots and equals signs; the reading that names a player is taken.
+        Names of the players, which may contain dots and equals signs; the interpretation that matches a player is used.
     instruments, characters : iterable of str
-        The ids that ``instrument`` and ``character`` may have.
+        Allowed ids for ``instrument`` and ``character``.
 
     Raises
     ------
     UsageError
-        See the module's docstring.
+        A text is malformed, or its player, parameter or value is unknown.
     """
     choices = {"instrument": tuple(instruments), "character": tuple(characters)}
     settings: dict[tuple[int, str], ParameterSetting] = {}
@@ -99,7 +98,7 @@ def parse_settings(
 
 
 def is_possible(parameter: str, value: object) -> bool:
-    """Return whether a player's parameter may have this value."""
+    """Return whether a value is allowed for a player's parameter."""
     if parameter == _DANCED and isinstance(value, str) and value:
         return is_choreography(value) and len(value) <= limits.MOST_TEXT
     if parameter in (_STYLE, _HABITS):
@@ -109,13 +108,13 @@ def is_possible(parameter: str, value: object) -> bool:
 
 
 def with_settings(parameters: PlayerParameters, settings: Iterable[ParameterSetting]) -> PlayerParameters:
-    """The parameters with the settings that name fields of them applied."""
+    """Apply the settings that are fields of the parameters."""
     changes = {setting.parameter: setting.value for setting in settings if setting.parameter in PARAMETERS}
     return msgspec.structs.replace(parameters, **changes)
 
 
 def _split(text: str, names: Sequence[str]) -> tuple[tuple[int, ...], str, str]:
-    """Players, parameter and value; every place where ``.word=`` stands may be the seam."""
+    """Split a setting into players, parameter and value, trying every place of ``.word=``."""
     readings = [
         (text[: seam.start()], seam.group(1).strip(), text[seam.end() :])
         for seam in re.finditer(r"\.\s*(\w+)\s*=", text)
@@ -151,7 +150,7 @@ def _value(parameter: str, text: str, choices: Mapping[str, tuple[str, ...]]) ->
 
 
 def _choreography(text: str) -> str:
-    """A bundled choreography by its name, any other by the path of its file."""
+    """Parse a choreography: a bundled name, or else a path."""
     if text.casefold() in ("", _GENERATED, AUTOMATIC):
         return ""
     known = bundled_choreographies()
@@ -164,7 +163,7 @@ def _choreography(text: str) -> str:
 
 
 def _known(parameter: str, text: str) -> str:
-    """A style, or habits with commas between them, of those that there are."""
+    """Check a style, or comma-separated habits, against the available ones."""
     if parameter == _HABITS and text.casefold() in (_GENERATED, AUTOMATIC):
         return ""
     known = STYLES.now().items if parameter == _STYLE else HABITS.now().items

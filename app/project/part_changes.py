@@ -1,4 +1,4 @@
-"""Changes between two versions of a part, in the order of the music: what a reader checks before the newer is taken."""
+"""Changes between two versions of a part, in order, for review before the newer version is used."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ KINDS: tuple[ChangeKind, ...] = ("added", "removed", "moved", "changed", "marks"
 
 @dataclass(frozen=True)
 class PartChange:
-    """A change of a note, of a mark, of the controllers, or of a run of notes that moved by the same distance.
+    """A changed note, mark or controller, or a run of notes moved by the same distance.
 
     Attributes
     ----------
     tick, tick_now : int
-        Its place in the former and in the present version.
+        Place in the previous and in the new version.
     before, now : Note, Mark or None
-        None: there is none in this version. Of a run, its first note.
+        The item in each version; None: missing there. For a run, its first note.
     count : int
-        Notes that moved.
+        Number of moved notes.
     """
 
     kind: ChangeKind
@@ -46,22 +46,22 @@ PartChanges: TypeAlias = Mapping[str, tuple[PartChange, ...]]
 
 
 def changes_by_part(before: Score, now: Score) -> PartChanges:
-    """The changes of every part of a newer version of a score, by its id."""
+    """Changes of every part of a newer score, by part id."""
     scale = Fraction(now.ticks_per_quarter, before.ticks_per_quarter)
     former = {part.id: part for part in before.parts}
     return {part.id: part_changes(former.get(part.id), part, scale) for part in now.parts}
 
 
 def part_changes(before: Part | None, now: Part | None, scale: Fraction) -> tuple[PartChange, ...]:
-    """The changes between two versions of a part.
+    """Changes between two versions of a part.
 
-    Notes are the same by their ids. Neighbours that moved by the same distance are one change, so that bars inserted
-    before a thousand notes are one row, not a thousand.
+    Notes are matched by id. Neighbours moved by the same distance form one change, so that bars inserted before a
+    thousand notes give one row.
 
     Parameters
     ----------
     before, now : Part or None
-        None: there is no such version, and all notes are new, or gone.
+        None: the version is missing, so all notes are added or removed.
     scale : Fraction
         Present ticks per former tick.
     """
@@ -97,7 +97,7 @@ def _scaled(ticks: int, scale: Fraction) -> int:
 
 
 def _moves(stayed: Sequence[tuple[Note, Note]], scale: Fraction) -> Iterator[PartChange]:
-    """Runs of notes that moved by the same distance."""
+    """Yield runs of notes moved by the same distance."""
     distances = groupby(stayed, lambda pair: pair[1].onset_tick - _scaled(pair[0].onset_tick, scale))
     for distance, run in distances:
         if distance:
@@ -106,12 +106,12 @@ def _moves(stayed: Sequence[tuple[Note, Note]], scale: Fraction) -> Iterator[Par
 
 
 def _marks(before: Part, moved: Part, now: Part) -> Iterator[PartChange]:
-    """Marks that came, went or read otherwise.
+    """Yield added, removed and changed marks.
 
     Parameters
     ----------
     moved : Part
-        The former version with its marks where their music is now.
+        The previous version with marks at the new places of their music.
     """
     onsets = {note.id: note.onset_tick for note in before.notes}
     onsets_now = {note.id: note.onset_tick for note in now.notes}

@@ -1,4 +1,4 @@
-"""Matching of the parts of a score with those of a newer version."""
+"""Matches the parts of a score with those of a newer version."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _NAMED = 0.4
 
 
 def matched_parts(old: Score, new: Score, hints: Sequence[Place | None]) -> list[tuple[int, int]]:
-    """The parts that are one, as indices of both: as much as possible in common, all in all.
+    """Return matching parts as pairs of indices, with the greatest total similarity.
 
     Parameters
     ----------
     hints : sequence of Place or None
-        Where the track of each old part is now; None: not known.
+        Current place of each old part's track; None: not known.
     """
     if not old.parts or not new.parts:
         return []
@@ -50,7 +50,7 @@ def turns_of(part: Part, quarter: int) -> FloatArray:
 
 
 def _kinship(one: Part, other: Part) -> float:
-    """Return what speaks for two parts being one beside what they play: decides between parts that play the same."""
+    """Return the similarity of two parts other than their notes: decides between parts with equal music."""
     return (
         0.25 * (one.name.casefold() == other.name.casefold())
         + 0.15 * (one.map_id == other.map_id and one.instrument == other.instrument)

@@ -1,7 +1,7 @@
-"""Acting of a piece apart from its notes: saved, loaded into it again, and compared.
+"""Acting of a piece, separate from its notes: saved to a file, loaded into a piece, and compared.
 
-A TOML file: the section's intensity, of each player by name style, habits, amounts and layers that are off, and what
-was corrected of gestures, expressions and poses, anchored in ticks; and the piece's own expressions.
+A TOML file with the section's intensity; for each player, by name, the style, habits, amounts and disabled layers, and
+corrections of gestures, expressions and poses anchored in ticks; and the piece's own expressions.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _NOT_ACTING: Final = frozenset({*BREATH_KINDS, "cue", "fingering", "embouchure",
 
 
 class PlayerMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Parameters and corrections of a player, as a metadata file of the piece has them."""
+    """Parameters and corrections of a player in a metadata file."""
 
     parameters: dict[str, Any] = {}
     corrections: tuple[Correction, ...] = ()
@@ -52,9 +52,9 @@ class PieceMetadata(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     ticks_per_quarter : int
-        What the ticks of the corrections count in.
+        Resolution of the corrections' ticks.
     players : dict of str to PlayerMetadata
-        By name.
+        Data of players by name.
     """
 
     version: int
@@ -72,7 +72,7 @@ class LoadedPiece(NamedTuple):
 
 
 class MetadataDifference(NamedTuple):
-    """A place where two metadata differ; a side without an entry has an empty text."""
+    """A difference between two metadata; the text of a side without the entry is empty."""
 
     place: str
     one: str
@@ -85,8 +85,7 @@ def is_acting(correction: Correction) -> bool:
 
 
 def metadata_of(project: Project) -> PieceMetadata:
-    """The metadata of a piece in its present state. What a musician with several instruments does is given once, for
-    the player with the body."""
+    """The current metadata of a piece. A musician with several instruments occurs once, as the player with the body."""
     players = {}
     for player in project.players:
         parameters = {}
@@ -99,13 +98,12 @@ def metadata_of(project: Project) -> PieceMetadata:
 
 
 def with_metadata(project: Project, metadata: PieceMetadata) -> LoadedPiece:
-    """The piece with these metadata in place of its own; players that are not named keep theirs.
+    """Replace the metadata of a piece; players that are not named keep theirs.
 
     Raises
     ------
     UsageError
-        ``project.not_storable``: this piece cannot take them, e.g. a place lies too far behind when it is counted in
-        the piece's ticks.
+        The result could not be saved, for example because a tick is too large in the piece's resolution.
     """
     before = project
     by_name = {player.name.casefold(): player for player in project.players}
@@ -139,7 +137,7 @@ def _merged(before: tuple[Correction, ...], said: tuple[Correction, ...], scale:
 
 
 def _with_distinct_keys(curve: AdditiveCurve) -> AdditiveCurve:
-    """The curve with the last of the keys that coarser ticks put at one tick."""
+    """The curve with only the last of several keys that coarser ticks put at one tick."""
     keys = {key.tick: key for key in curve.keys}
     return curve if len(keys) == len(curve.keys) else msgspec.structs.replace(curve, keys=tuple(keys.values()))
 
@@ -188,7 +186,9 @@ def save_metadata(metadata: PieceMetadata, path: Path) -> None:
 
 
 def _text(table: dict[str, Any]) -> str:
-    """The file: every correction and every expression is a table of its own, so that other programs compare them."""
+    """Text of the file: every correction and expression is a separate table, so that diff programs compare them
+    well.
+    """
     text = toml({key: value for key, value in table.items() if key not in ("players", "expressions")})
     for name, player in table["players"].items():
         above = ("players", name)
@@ -206,7 +206,7 @@ def _table(metadata: PieceMetadata) -> dict[str, Any]:
 
 
 def _without_none(value: Any) -> Any:
-    """Return the value without Nones, for which TOML has no word."""
+    """Remove Nones, which TOML cannot express."""
     if isinstance(value, Mapping):
         return {key: _without_none(item) for key, item in value.items() if item is not None}
     return [_without_none(item) for item in value] if isinstance(value, list | tuple) else value
@@ -230,7 +230,7 @@ def load_metadata(path: Path) -> PieceMetadata:
 
 
 def _player(name: str, table: object, file: str) -> PlayerMetadata:
-    """A player's part, whose faults name the player."""
+    """Parse a player's data; errors name the player."""
     try:
         return shaped(table, PlayerMetadata, file)
     except MapError as error:

@@ -1,4 +1,4 @@
-"""Sections of the players: those whose instruments are of one family."""
+"""Groups players into sections by family of instrument."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class PlayerSection(NamedTuple):
     Attributes
     ----------
     family : str
-        Family of the vocabulary; empty: instruments of no known family.
+        Family id of the vocabulary; empty: unknown families.
     player_ids : tuple of str
         In the order of the project.
     """
@@ -31,7 +31,7 @@ class PlayerSection(NamedTuple):
 
     @property
     def fold_name(self) -> str:
-        """Name under which an editor remembers that it is folded."""
+        """Key under which the editor stores whether the section is folded."""
         return f"players_section_{self.family or 'others'}"
 
 
@@ -54,12 +54,12 @@ def _sections(players: tuple[Player, ...], known: Library) -> tuple[PlayerSectio
 
 
 def are_worth_grouping(project: Project) -> bool:
-    """Return whether a list of the players is clearer by sections: some of them have several players."""
+    """Return whether a list of players should be grouped: there are enough of them, and some sections have several."""
     return len(project.players) >= GROUPED_FROM and 1 < len(sections(project)) < len(project.players)
 
 
 def in_sections_of(project: Project, player_ids: Collection[str]) -> tuple[str, ...]:
-    """All players of the sections that these players are of, in the order of the project."""
+    """All players in the sections of these players, in project order."""
     chosen = {
         id
         for section in sections(project)

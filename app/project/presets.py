@@ -1,8 +1,7 @@
-"""Presets of the user for other projects: a player's parameters, and expressions.
+"""Presets shared between projects: a player's parameters, and expressions.
 
-Each is a small TOML file in a folder of the user's; its name stands in it, and the file is called by a cleaned form of
-that, so that a name can be anything and never becomes a path. A project holds a copy of the expressions it uses and
-does not need these files.
+Each is a small TOML file in a user folder; it contains its name, and its file name is a cleaned form of that. A project
+stores copies of the expressions it uses and does not need these files.
 """
 
 from __future__ import annotations
@@ -45,24 +44,24 @@ class Preset(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class PresetFolder(Generic[T]):
-    """Contents of a folder: valid items by name, and the problems of the others."""
+    """Contents of a folder: valid items by name, and messages about invalid files."""
 
     items: Mapping[str, T]
     problems: tuple[Message, ...] = ()
 
 
 def preset_folder() -> Path:
-    """Return where the user's presets are."""
+    """Return the folder of the user's presets."""
     return platformdirs.user_config_path("suisou", appauthor=False) / "presets"
 
 
 def expression_folder() -> Path:
-    """Return where the user's expressions are."""
+    """Return the folder of the user's expressions."""
     return platformdirs.user_data_path("suisou", appauthor=False) / "expressions"
 
 
 def preset_of(parameters: PlayerParameters, name: str) -> Preset:
-    """A preset with all of a player's parameters that can be shared. Raises UsageError without a name."""
+    """Create a preset from a player's shareable parameters. Raises UsageError for an empty name."""
     cleaned = clean_name(name)[: limits.MOST_NAME]
     if not cleaned:
         raise UsageError("preset.no_name")
@@ -70,12 +69,12 @@ def preset_of(parameters: PlayerParameters, name: str) -> Preset:
 
 
 def presets(folder: Path) -> PresetFolder[Preset]:
-    """Every preset in a folder, by name in alphabetical order."""
+    """All presets in a folder, sorted by name."""
     return PresetFolder(*_PRESETS.found(folder))
 
 
 def save_preset(folder: Path, preset: Preset) -> None:
-    """Write a preset; one of the same name is replaced. Raises FileError."""
+    """Save a preset, replacing one of the same name. Raises FileError."""
     texts = {name: stored(value) if isinstance(value, str) else value for name, value in preset.parameters.items()}
     _save(folder, preset.name, presets(folder).items, _PRESETS, texts)
 
@@ -86,12 +85,12 @@ def delete_preset(folder: Path, name: str) -> None:
 
 
 def expressions(folder: Path) -> PresetFolder[Expression]:
-    """Every expression in a folder, by name in alphabetical order."""
+    """All expressions in a folder, sorted by name."""
     return PresetFolder(*_EXPRESSIONS.found(folder))
 
 
 def save_expression(folder: Path, expression: Expression) -> None:
-    """Write an expression; one of the same name is replaced. Raises UsageError, FileError."""
+    """Save an expression, replacing one of the same name. Raises UsageError or FileError."""
     cleaned = clean_name(expression.name)[: limits.MOST_NAME]
     if not cleaned:
         raise UsageError("expression.no_name")

@@ -1,4 +1,4 @@
-"""The recording that plays with a piece, and how the piece lies on it."""
+"""The recording that plays with a piece, and its alignment."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import msgspec
 
 
 class BeatPin(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A beat that was put by hand where it sounds; following the recording again keeps it there.
+    """A beat placed by hand at its time in the recording; following the recording again keeps it.
 
     Attributes
     ----------
@@ -22,7 +22,7 @@ class BeatPin(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Doubt(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A bar that may lie elsewhere in the recording than where following put it.
+    """A bar whose place in the recording is uncertain after following.
 
     Attributes
     ----------
@@ -43,15 +43,15 @@ class AudioTrack(msgspec.Struct, frozen=True):
     Attributes
     ----------
     path : str
-        Absolute, as this machine knows it; a project's file keeps it relative to itself.
+        Absolute path; project files store it relative to themselves.
     offset_s : float
-        Performance time (score second 0 is tick 0) at which the recording's first sample sounds.
+        Performance time of the recording's first sample; score second 0 is tick 0.
     confidence : float or None
-        0..1 of an estimated offset; None: set by hand.
+        Confidence 0..1 of an estimated offset; None: set by hand.
     pins : tuple of BeatPin
         Ticks and seconds rise.
     doubts : tuple of Doubt
-        In order and apart; what following the recording was not sure of.
+        Uncertain bars, in order without overlap.
     """
 
     path: str
@@ -62,7 +62,7 @@ class AudioTrack(msgspec.Struct, frozen=True):
 
 
 def with_places(audio: AudioTrack, place: Callable[[int], int]) -> AudioTrack:
-    """The recording of a score whose ticks have changed: pins move along; doubtful bars have to be found again."""
+    """The recording after a change of ticks: pins move along; uncertain bars are dropped."""
     pins: list[BeatPin] = []
     for pin in audio.pins:
         tick = place(pin.tick)

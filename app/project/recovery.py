@@ -1,7 +1,6 @@
-"""Recovery after a crash: unsaved work is found, described, and restored or discarded.
+"""Recovery after a crash: finds, describes, restores and discards unsaved work.
 
-Which work is newer, and whether the file has what it holds, is known by what both say and hold, never by the times of
-the files: clocks are set back.
+Which version is newer is decided by their contents, never by file times, since clocks can be set back.
 """
 
 from __future__ import annotations
@@ -24,28 +23,28 @@ from app.project.storage import AUTOSAVE, SUFFIX, Autosaved, autosave_facts, con
 
 @dataclass(frozen=True)
 class Recoverable:
-    """Unsaved work of an editor that is gone.
+    """Unsaved work of an editor that ended abnormally.
 
     Attributes
     ----------
     autosave : Path
-        The file that holds it.
+        File with the work.
     document : Path or None
-        The project's own file; None for a project that was never saved.
+        The project's own file; None if it was never saved.
     name : str
-        The file's name, else the piece's title, else the name of the MIDI file it came from; may be empty.
+        The file's name, else the piece's title, else the name of its MIDI file; may be empty.
     changed_s : float
-        When it was written as the clock of that day had it, seconds since 1970 (UTC); only to be shown.
+        Time of saving, seconds since 1970 (UTC), for display only.
     token : str
-        Of the editor; empty where it left no trace but the file.
+        Token of the editor; empty if only the file is left.
     facts : Autosaved or None
-        None: an older version of the program wrote it.
+        Facts stored in the autosave; None in files of older versions.
     is_file_missing : bool
-        The project has a file, and it is not there.
+        Whether the project's own file no longer exists.
     is_file_changed : bool
-        The file is not what it was when this work on it began.
+        Whether the project's own file changed since the work began.
     source : str
-        The MIDI file or score that it came from; may be empty.
+        MIDI file or score it came from; may be empty.
     """
 
     autosave: Path
@@ -61,13 +60,13 @@ class Recoverable:
 
 
 def recovery_folder() -> Path:
-    """Folder on this machine for unsaved work of projects without a file, and for notes of running editors."""
+    """Folder for unsaved work of projects without a file, and for records of running editors."""
     return platformdirs.user_state_path("suisou", appauthor=False) / "recovery"
 
 
 def recoverable(folder: Path) -> tuple[Recoverable, ...]:
-    """All unsaved work of editors that are gone, the newest first; their other traces are cleared away. May take long:
-    every file of unsaved work is read, and the project's own.
+    """All unsaved work of ended editors, newest first; their other files are deleted. May be slow, since every such
+    file and the project's own file are read.
 
     Parameters
     ----------
@@ -84,8 +83,9 @@ def recoverable(folder: Path) -> tuple[Recoverable, ...]:
 
 
 def recoverable_of(document: Path, folder: Path, own_token: str = "") -> tuple[Recoverable, ...]:
-    """Unsaved work on a project's file, beside it or in the folder, what is based on the file as it is in front; empty
-    where there is none or another living editor has the file open."""
+    """Unsaved work on a project's file, next to it or in the folder; work based on the file's current content comes
+    first. Empty if there is none or another running editor has the file open.
+    """
     beside, real = autosave_path(document), os.path.realpath(document)
     sweep(Path(real).parent)
     left = {beside: "", **_left_behind(folder)}
@@ -94,7 +94,7 @@ def recoverable_of(document: Path, folder: Path, own_token: str = "") -> tuple[R
 
 
 def never_saved(folder: Path, source: Path | None = None) -> tuple[Recoverable, ...]:
-    """Unsaved work of editors that are gone on projects without a file, the newest first.
+    """Unsaved work of ended editors on projects without a file, newest first.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def _plain(path: str) -> str:
 
 
 def load_work(item: Recoverable) -> tuple[Project, str]:
-    """Unsaved work, and the `content_hash` of the file that it began from. Raises FileError."""
+    """Load unsaved work, and the `content_hash` of the file it was based on. Raises FileError."""
     project = load(item.autosave)
     if item.facts is not None:
         return project, item.facts.base
@@ -119,7 +119,7 @@ def load_work(item: Recoverable) -> tuple[Project, str]:
 
 
 def discard(item: Recoverable) -> None:
-    """Throw unsaved work away. Raises FileError where the system keeps it."""
+    """Delete unsaved work. Raises FileError if the system refuses."""
     try:
         item.autosave.unlink(missing_ok=True)
     except OSError as error:
@@ -128,7 +128,7 @@ def discard(item: Recoverable) -> None:
 
 
 def _left_behind(folder: Path) -> dict[Path, str]:
-    """Files that may hold unsaved work of editors that are gone, and their tokens; half-written files are removed."""
+    """Files that may hold unsaved work of ended editors, with their tokens; incomplete files are deleted."""
     known = dict(editors(folder))
     left: dict[Path, str] = {}
     for token, alive in known.items():
@@ -154,8 +154,8 @@ def _left_behind(folder: Path) -> dict[Path, str]:
 def _described(
     left: dict[Path, str], folder: Path, real_document: str | None = None, own_token: str = ""
 ) -> tuple[Recoverable, ...]:
-    """Files to offer for recovery, the newest first; those in the project's file, or of an older generation, are
-    removed.
+    """Files to offer for recovery, newest first; those already contained in the project's file, and older generations,
+    are deleted.
 
     Parameters
     ----------
@@ -198,7 +198,7 @@ def _generation(item: Recoverable) -> int:
 
 
 def _document(path: Path, folder: Path, token: str, facts: Autosaved | None) -> Path | None:
-    """The file of the project that an autosave holds."""
+    """Project file that an autosave belongs to; None if it has none."""
     if path.name.endswith(AUTOSAVE):
         # Both may have been moved since.
         return path.with_name(path.name.removesuffix(AUTOSAVE))
@@ -209,7 +209,7 @@ def _document(path: Path, folder: Path, token: str, facts: Autosaved | None) -> 
 def _item(
     path: Path, document: Path | None, token: str, facts: Autosaved | None, project: Project
 ) -> Recoverable | None:
-    """Recoverable unsaved work; None where the project's file holds the same."""
+    """Describe unsaved work; None if the project's file holds the same."""
     written_s, missing, changed = path.stat().st_mtime, False, False
     if document is not None:
         try:

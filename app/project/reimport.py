@@ -1,19 +1,17 @@
-"""A piece whose MIDI file has changed: the new notes come in, and what was done by hand stays with the music.
+"""Updates a piece whose MIDI file has changed, keeping what was done by hand.
 
-Parts are recognised by what they play, by name, track and instrument, notes by alignment (`app.project.alignment`). A
-note found again keeps its id, and with it every correction about it; corrections at places of the score move with the
-notes around them. A note that the user changed and the file did not stays as the user has it (one that was erased
-stays erased); where both changed it the file's version is taken, and reported. What the user chose for players stays. A
-part that is new gets a player; a player whose part is gone keeps it, as one that was made in the editor, and may be
-removed (`app.project.edit.players.remove_players`). Parts made in the editor stay, and so do notes drawn into the
-file's parts where they do not overlap what the file has there.
+Parts are matched by music, name, track and instrument, notes by alignment (`app.project.alignment`). A matched note
+keeps its id and so its corrections; corrections at ticks move with the notes around them. A note changed only by the
+user stays so (a deleted one stays deleted); if both changed it, the file's version is used and reported. Players'
+settings stay. A new part gets a player. A player whose part disappeared keeps it as a part of the project and may be
+removed (`app.project.edit.players.remove_players`). Parts made in the editor stay, and so do notes added to the file's
+parts where they do not overlap the file's notes.
 
-Dancers stay; what was corrected of their dances moves like other corrections at places of the score, and so do beats
-pinned to the recording.
+Dancers stay; corrections of their dances and pinned beats move like other corrections at ticks.
 
-Parts may be kept as they are here (`Reimport.keeping`); what the file has for them is offered again the next time.
+Chosen parts may be kept unchanged (`Reimport.keeping`); the file's version is offered again next time.
 
-Corrections whose note is gone stay as they are and do nothing (`app.project.orphans`).
+Corrections whose note disappeared stay without effect (`app.project.orphans`).
 """
 
 from __future__ import annotations
@@ -66,21 +64,21 @@ class Reimport:
     Attributes
     ----------
     project : Project
-        The same value where the file says nothing new.
+        The updated project; the same object if the file changes nothing.
     added, removed : tuple of str
-        Ids of notes that are new in the project, and of notes that are in it no more.
+        Ids of added and of removed notes.
     new_players, gone_players : tuple of str
-        Ids in the project: of new parts; of parts that the file does not have any more, which can be removed.
+        Ids of players of new parts, and of players whose part disappeared and who may be removed.
     new_unplayed : tuple of UnplayedPart
-        Parts of the file that get no player and were not in it before, by name.
+        New parts of the file without a player, by name.
     orphans : tuple of Orphan
-        Corrections that lost their note now or earlier.
+        All corrections without a note, from now or earlier.
     conflicts : tuple of Conflict
         In the order of the parts.
     replaced : tuple of {"tempo", "metres", "controllers"}
-        Edited here and in the file: the file's version is taken.
+        Items edited both in the project and in the file; the file's version is used.
     keeping : callable
-        Returns the same re-import with the parts of some ids kept as they are here; new ones among them stay out.
+        Function from part ids to the same re-import with these parts unchanged, and new ones among them left out.
     """
 
     project: Project
@@ -103,10 +101,9 @@ def reimported(
     progress: Progress = lambda share: None,
     stop_requested: StopRequested = lambda: False,
 ) -> Reimport:
-    """Read a MIDI file, as it was decided when the project was made from an earlier version of it, and let it take the
-    place of the project's score.
+    """Read a MIDI file with the decisions of its first import, and replace the project's score by it.
 
-    Raises as `app.score.read.read_contents`, and Cancelled when ``stop_requested``, asked between its steps, says so.
+    Raises as `app.score.read.read_contents`, and Cancelled once ``stop_requested``, called between steps, returns True.
     """
     decisions = project.imported
     apart = {(part.track, part.channel) for part in project.score.parts}
@@ -136,19 +133,19 @@ def reimport(
     source: str | None = None,
     reading: MidiReading | None = None,
 ) -> Reimport:
-    """Let the score that a file holds now take the place of the project's.
+    """Replace the project's score by the current score of its file.
 
-    The title stays, and so do tempo, metres and controllers that were edited here and not in the file; markers,
-    percussion and everything else are the file's.
+    The title stays, and so do tempo, metres and controllers edited only in the project; everything else comes from the
+    file.
 
     Parameters
     ----------
     maps : mapping of str to InstrumentMap
-        By id; every part of the new score names one of them.
+        Maps by id, including the map of every part of the new score.
     source : str, optional
         Absolute path of the file.
     reading : MidiReading, optional
-        Of the file: the decisions that the score was read by.
+        The file with the decisions by which the score was read.
     """
     scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
     found = found_again(project, score, {} if reading is None else reading.places, scale)
@@ -163,7 +160,7 @@ def _outcome(
     source: str | None,
     reading: MidiReading | None,
 ) -> Reimport:
-    """Let parts that were found again take their place; parameters as of `reimport`."""
+    """Apply matched parts to the project; parameters as in `reimport`."""
     scale = Fraction(score.ticks_per_quarter, project.score.ticks_per_quarter)
     everywhere = place_map(found.pairs_of_ticks, scale)
     timing = merged_timing(project, score, everywhere, scale, found.is_unchanged)
@@ -201,7 +198,7 @@ def _outcome(
 
 
 def _says_nothing_new(project: Project, result: Project) -> bool:
-    """Decide whether a file has left a project as it was; what is only known better than before is nothing new."""
+    """Return whether a file left the project unchanged, apart from data that was merely unknown before."""
     fields = ("imported", "read_curves", "read_timing", *(("read_notes",) if not project.read_notes else ()))
     known: dict[str, Any] = {field: getattr(project, field) for field in fields}
     if project.imported is None:
@@ -224,7 +221,7 @@ def _new_unplayed(before: Score, now: Score) -> tuple[UnplayedPart, ...]:
 def _with_curves(
     project: Project, found: FoundParts, everywhere: Callable[[int], int], scale: Fraction
 ) -> tuple[list[Part], tuple[ReplacedKind, ...]]:
-    """The parts found again, with the controllers that were edited here and not in the file."""
+    """Matched parts with controllers edited only in the project, and the kinds that were replaced."""
     parts = list(found.parts)
     replaced = False
     for index, (part, before) in enumerate(zip(found.parts, found.former, strict=True)):
@@ -244,8 +241,9 @@ def _with_curves(
 def _add_others(
     project: Project, parts: list[Part], others: Sequence[Part], place: Callable[[int], int], scale: Fraction
 ) -> dict[str, str]:
-    """Add the parts that the file does not have: those made here, and those of players whose part is gone, which are
-    parts made here from now on. Returns the new id of each."""
+    """Add the parts that the file lacks: those made in the editor, and those of players whose part disappeared. Returns
+    the new id of each.
+    """
     played = {player.part_id for player in project.players}
     ids = iter(fresh_part_ids(project, len(others), MADE_PART))
     result = {}
@@ -267,12 +265,12 @@ def _with_players(
     everywhere: Callable[[int], int],
     scale: Fraction,
 ) -> Project:
-    """The project with these parts and the players it had, their corrections and takes moved with the music.
+    """The project with these parts and its previous players, with corrections and takes moved along.
 
     Parameters
     ----------
     part_of : mapping of str to str
-        The ids of parts that the file does not have, by their former ones.
+        New ids of parts that the file lacks, by their previous ones.
     """
     corrections: dict[str, tuple[Correction, ...]] = {}
     ignored = {id: tuple(moved_ignored(one, everywhere) for one in own) for id, own in project.ignored_problems.items()}
@@ -309,7 +307,7 @@ def _with_new_players(
     maps: Mapping[str, InstrumentMap],
     characters: Mapping[Place, str],
 ) -> Project:
-    """A player for every new part, cast as a new piece's are; ``characters`` are those chosen for some."""
+    """Add a player for every new part, cast as in a new piece; ``characters`` has the chosen ones."""
     names = project.performer_names()
     playing = [maps[player.instrument_id] for player in project.players if player.instrument_id in maps]
     newcomers = []
@@ -328,6 +326,6 @@ def _with_new_players(
 
 
 def _musician(project: Project, player_id: str) -> str:
-    """Return which musician's body a player has, by id; a new player has a new one."""
+    """Return the id of a player's musician; a new player is its own."""
     known = next((player for player in project.players if player.id == player_id), None)
     return player_id if known is None else project.musician(known).id

@@ -1,8 +1,8 @@
-"""A MIDI file read again as it was decided at its import: its tracks are recognised, whatever order they stand in and
-whatever they are called now, and played by those who were chosen for them.
+"""Applies the stored import decisions to a re-read MIDI file: its tracks are recognised regardless of order and name,
+and get their previous players.
 
-Tracks of the file that no decision is about are taken as in any import, but that the name of one need not tell its
-instrument. Decisions about tracks that the file does not have (any more) are kept: a track may come back.
+Tracks without a decision are treated as in a new import, except that a name need not contain an instrument. Decisions
+about tracks missing in the file are kept, in case they return.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ class MidiReading:
     Attributes
     ----------
     contents : PieceContents
-        Tracks that do not say (any more) what they were chosen by do so again.
+        Contents of the file; tracks that no longer have the data by which their instrument was chosen get it back.
     rows : tuple of ImportRow
-        Of its channels.
+        Import rows of its channels.
     decisions : ImportDecisions
-        The former ones and those about new tracks, with marks of the file as it is now.
+        Previous decisions and those about new tracks, with marks of the current file.
     places : mapping of Place to Place
-        Where a part that was read from a place before is now.
+        Current place of each part read earlier, by its previous place.
     """
 
     contents: PieceContents
@@ -65,14 +65,14 @@ def read_as_decided(
     choices: Sequence[MapChoice],
     played_on: Mapping[Place, str],
 ) -> MidiReading:
-    """Rows of a file by the decisions that were made when another version of it was read.
+    """Create import rows of a file from decisions about another version of it.
 
     Parameters
     ----------
     choices : sequence of MapChoice
         Of the maps.
     played_on : mapping of Place to str
-        The map that each part of the project was read for, by its place: it stays where nothing else is known.
+        Instrument map of each part of the project, by place; used if nothing else is known.
     """
     channels = list(contents.channels)
     quarter = contents.tempo_map.ticks_per_quarter
@@ -116,8 +116,9 @@ def read_as_decided(
 
 
 def _played(row: ImportRow, channels: Sequence[TrackChannel], choices: Sequence[MapChoice]) -> ImportRow:
-    """The row of new tracks; where a name that tells no instrument keeps them from being played, the map whose range
-    fits plays them, for no one is asked here."""
+    """Complete the row of new tracks: if the name prevents a choice of instrument, choose by range, since the user is
+    not asked here.
+    """
     own = [
         msgspec.structs.replace(channels[place], name="", instrument_name="", program=None)
         for place in row.assignment.channels
@@ -133,7 +134,7 @@ def _played(row: ImportRow, channels: Sequence[TrackChannel], choices: Sequence[
 def recognised_streams(
     marks: Sequence[TrackMark], channels: Sequence[TrackChannel], melodies: Sequence[tuple[int, ...]]
 ) -> list[int | None]:
-    """The stream that each mark is of, by its place; None: it is not there. As much as possible in common, all in all.
+    """Channel index of each mark, with the greatest total similarity; None: missing.
 
     Parameters
     ----------
@@ -154,7 +155,7 @@ def recognised_streams(
 
 
 def _kinship(mark: TrackMark, channel: TrackChannel) -> float:
-    """Return what speaks for a stream being the marked one beside what it plays."""
+    """Return the similarity of a channel and a mark other than their notes."""
     named = channel.name.casefold() in (mark.called.casefold(), mark.name.casefold())
     return (
         (0.25 if channel.name else 0.1) * named
@@ -167,7 +168,7 @@ def _kinship(mark: TrackMark, channel: TrackChannel) -> float:
 
 
 def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoice]) -> bool:
-    """Return whether a track says who plays it at least as well as it did."""
+    """Return whether a track identifies its instrument at least as well as it did before."""
     found = candidates([channel], choices)
     if found.how is not How.SAID or not found.maps or found.unknown:
         return False
@@ -176,19 +177,19 @@ def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoic
 
 
 def _understood(track: TrackChannel | TrackMark) -> int:
-    """Return how well the names of a track name an instrument: 2, one; 1, one perhaps; 0, none."""
+    """Return how well the names of a track identify an instrument: 2: clearly; 1: vaguely; 0: not at all."""
     named = [vocabulary().by_name(text) for text in (track.name, track.instrument_name) if text]
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 
 
 def _says_the_same(channel: TrackChannel, marks: Sequence[TrackMark]) -> bool:
-    """Return whether a track says what one of the marks did when its player was chosen."""
+    """Return whether a track has the same names and program as one of the marks."""
     said = channel.name, channel.instrument_name, channel.program
     return any((mark.name, mark.instrument_name, mark.program) == said for mark in marks)
 
 
 def _as_before(channel: TrackChannel, mark: TrackMark) -> TrackChannel:
-    """The stream as it said at its import who plays it."""
+    """The channel with the names and program that it had at its import."""
     return msgspec.structs.replace(
         channel,
         name=mark.name,
@@ -206,14 +207,14 @@ def _row(
     choices: Sequence[MapChoice],
     before: str | None,
 ) -> ImportRow:
-    """The row of a decision.
+    """The import row of a decision.
 
     Parameters
     ----------
     called, channels : sequence of TrackChannel
-        As the file has them, and as they say who plays them.
+        Channels as in the file, and with the data by which instruments were chosen.
     before : str or None
-        The map that played them.
+        Instrument map used before.
     """
     own = [channels[place] for place in places]
     installed = {PERCUSSION, *(choice.map_id for choice in choices)}
@@ -246,7 +247,7 @@ def _row(
 
 
 def characters_of(reading: MidiReading) -> dict[Place, str]:
-    """The characters chosen for rows, by the place of the parts that are read from them."""
+    """Chosen characters of rows, by the places of the parts read from them."""
     return {
         reading.contents.channels[row.assignment.channels[0]].place: row.character_id
         for row in reading.rows

@@ -1,7 +1,7 @@
-"""Presence of running editors: each keeps a locked file, with a note of its project beside it.
+"""Records of running editors: each keeps a locked file, with a note about its open project.
 
-The system takes a lock away when its process ends, however it ends; so a file that can be locked belonged to an
-editor that is gone. Process numbers alone would not do: they are given again.
+The system releases a lock when its process ends, however it ends; so a file that can be locked belongs to an ended
+editor. Process ids alone would not suffice, since they are reused.
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ class PresenceNote(msgspec.Struct, frozen=True):
     Attributes
     ----------
     pid : int
-        For people; the lock says whether the editor lives.
+        Process id, for information; the lock shows whether the editor is running.
     document : str
-        Absolute path of the project's file; empty for one that was never saved. In the file as `app.encoding.stored`.
+        Absolute path of the project's file; empty if it was never saved. Encoded with `app.encoding.stored`.
     autosave : str
-        Absolute path of the file that holds its unsaved work.
+        Absolute path of the autosave.
     """
 
     pid: int = 0
@@ -48,9 +48,9 @@ class PresenceNote(msgspec.Struct, frozen=True):
 
 
 class Presence:
-    """This editor, alive until `leave` or the end of its process.
+    """Record of this editor, valid until `leave` or the end of its process.
 
-    Where the folder refuses, the editor goes on unseen by others, and tries again with every note.
+    If the folder cannot be written, the editor works without a record and tries again with every note.
 
     Parameters
     ----------
@@ -60,9 +60,9 @@ class Presence:
     Attributes
     ----------
     token : str
-        Names this editor's files in the folder.
+        Part of the names of this editor's files in the folder.
     note : PresenceNote
-        What this editor works on, whether or not the folder took it.
+        Note about the open project, whether or not it could be written.
     refusal : FileError or None
         Why the folder could not be used when the editor started: ``presence.refused`` (file, reason).
     """
@@ -85,7 +85,7 @@ class Presence:
         return self.folder / f"{self.token}{SUFFIX}"
 
     def report(self, document: Path | None, autosave: Path | None) -> None:
-        """Note down what this editor works on. Raises FileError where the folder refuses."""
+        """Write the note about the open project. Raises FileError if the folder refuses."""
         self.note = note = PresenceNote(os.getpid(), str(document or ""), str(autosave or ""))
         was_here = self._is_here()
         if not was_here:
@@ -102,7 +102,7 @@ class Presence:
         self._on_disk = self.note
 
     def leave(self) -> None:
-        """Remove every trace of this editor: nothing is left to recover."""
+        """Delete all files of this editor's record."""
         stream = self._stream
         if stream is None or stream.closed:
             return
@@ -120,7 +120,7 @@ class Presence:
         return self.folder / f"{self.token}{LOCK}"
 
     def _is_here(self) -> bool:
-        """Return whether others see this editor: its folder may have been cleared."""
+        """Return whether the record still exists on disk; the folder may have been cleared."""
         stream = self._stream
         return stream is not None and not stream.closed and is_same_file(self._lock_path, stream)
 
@@ -137,13 +137,13 @@ class Presence:
 
 
 def editors(folder: Path) -> Iterator[tuple[str, bool]]:
-    """The token of every editor that left a trace, and whether it lives."""
+    """Yield the token of every recorded editor, and whether it is running."""
     for path in sorted(folder.glob(f"*{LOCK}")):
         yield path.name.removesuffix(LOCK), is_locked(path)
 
 
 def note_of(folder: Path, token: str) -> PresenceNote:
-    """Note about an editor's project; an empty note where it left none."""
+    """The note of an editor; an empty one if it has none."""
     path = folder / f"{token}{NOTE}"
     try:
         note = decode_json(read_file(path, MOST_NOTE_BYTES), PresenceNote, str(path))
@@ -153,13 +153,13 @@ def note_of(folder: Path, token: str) -> PresenceNote:
 
 
 def forget(folder: Path, token: str) -> None:
-    """Take the traces of a dead editor away, its unsaved work excepted."""
+    """Delete the record of an ended editor, except its unsaved work."""
     remove(folder / f"{token}{NOTE}")
     remove(folder / f"{token}{LOCK}")
 
 
 def is_open_elsewhere(document: Path, folder: Path, own_token: str = "") -> bool:
-    """Return whether another living editor works on this project file."""
+    """Return whether another running editor has this project file open."""
     requested = os.path.realpath(document)
     return any(
         alive
@@ -180,7 +180,7 @@ def _new_lock(path: Path) -> IO[bytes]:
 
 
 def remove(path: Path) -> None:
-    """Take a file away if it is there and the system lets it go."""
+    """Delete a file if it exists and the system allows it."""
     with contextlib.suppress(OSError):
         path.unlink(missing_ok=True)
 

@@ -1,4 +1,4 @@
-"""The most of a project that can be saved, where the whole cannot: nothing else is lost with one bad value."""
+"""Extracts the largest part of a project that can be saved, if the whole cannot."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Salvaged(NamedTuple):
     Attributes
     ----------
     left_out : tuple of Fault
-        What was wrong with the values that are not in it, or in it as they were before.
+        Faults of the values that were left out or replaced by earlier ones.
     """
 
     project: Project
@@ -35,17 +35,17 @@ class Salvaged(NamedTuple):
 
 
 def salvaged(project: Project, former: Project | None = None) -> Salvaged | None:
-    """The project without the corrections, expressions and other values that cannot be saved.
+    """Return the project without the corrections, expressions and other values that cannot be saved.
 
     Parameters
     ----------
     former : Project, optional
-        An earlier value of it that can be saved: whatever cannot be left out is taken from there.
+        An earlier valid version of the project, which provides values that cannot be left out.
 
     Returns
     -------
     Salvaged or None
-        None where nothing can be saved without a former value.
+        None if nothing can be saved without an earlier version.
     """
     found = tuple(islice(faults(project), _MOST))
     places = [place for place, _ in found]
@@ -85,12 +85,12 @@ def _kept(place: str, values: tuple[T, ...], places: list[str]) -> tuple[T, ...]
 
 
 def _is_at(place: str, places: list[str]) -> bool:
-    """Return whether one of the places is this one, or lies in it."""
+    """Return whether a place contains, or equals, one of the faulty places."""
     return any(one == place or one.startswith((f"{place}.", f"{place}[")) for one in places)
 
 
 def _field(place: str) -> str | None:
-    """The field of a project in which a place lies."""
+    """The project's field that contains a place."""
     found = _FIELD.match(place)
     name: Any = None if found is None else _FIELDS.get(found[0], found[0])
     return name if name in Project.__dataclass_fields__ else None

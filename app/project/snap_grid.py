@@ -1,4 +1,4 @@
-"""The grid that edits snap to: a musical length, counted again in every bar."""
+"""The grid that edits snap to: a musical length, counted from each bar line."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from app.score.metre_map import MetreMap
 
 
 class Grid(msgspec.Struct, frozen=True):
-    """A step of the grid.
+    """Step of the grid.
 
     Attributes
     ----------
     quarters : Fraction
         Length of a step in quarters: 1/4 is a sixteenth, 1/3 an eighth triplet.
     enabled : bool
-        Off: everything stays where it is put, to the tick.
+        False: no snapping.
     """
 
     quarters: Fraction = Fraction(1, 4)
     enabled: bool = True
 
     def step_ticks(self, metre_map: MetreMap) -> Fraction:
-        """Length of a step in ticks, exact; one tick where the grid is off."""
+        """Length of a step in ticks, exact; one tick if the grid is off."""
         return self.quarters * metre_map.ticks_per_quarter if self.enabled else Fraction(1)
 
     def snap(self, metre_map: MetreMap, tick: float) -> int:
-        """The nearest line of the grid; bars are lines too, so that no step crosses one."""
+        """Return the nearest grid line; bar lines are grid lines too."""
         if not self.enabled:
             return round(tick)
         start, following = metre_map.span_of_bar(metre_map.bar_of_tick(round(tick)))

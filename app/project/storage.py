@@ -1,8 +1,8 @@
-"""Project files: one readable JSON document, written whole or not at all.
+"""Project files: one readable JSON document, written atomically.
 
-The file says its version first; older ones are migrated (`app.project.migrations`), newer ones refused. Paths of media
-are kept relative to the file where both lie in one tree, so that a folder can be moved or sent. Whatever a file holds,
-names are only texts: nothing but the recording, the MIDI file it came from and a choreography's file is ever a path.
+The file begins with its version; older ones are migrated (`app.project.migrations`), newer ones refused. Media paths
+are stored relative to the file where possible, so that a folder can be moved. Only the recording, the video, the source
+MIDI file and choreography files are ever used as paths; all names are plain text.
 """
 
 from __future__ import annotations
@@ -44,22 +44,22 @@ MOST_BYTES: Final = 256 * 2**20
 
 
 class Autosaved(msgspec.Struct, frozen=True):
-    """Facts of an autosave, under the key ``autosave``; a saved file does not have it.
+    """Facts stored in an autosave under the key ``autosave``; saved projects have none.
 
-    Nothing here depends on a clock: one may have been set back.
+    None of them depends on a clock, which may be set back.
 
     Attributes
     ----------
     work : str
-        The same for all autosaves from opening a project to saving or closing it, also across a crash and a recovery.
+        Identifies the work from opening a project to saving or closing it, also across a crash and recovery.
     generation : int
         Ascends within a work: the highest is the newest.
     editor : str
         Token of the editor that wrote it (`app.project.running_editors`).
     document : str
-        Absolute path of the project's file (`app.encoding.stored`); empty for a project that was never saved.
+        Absolute path of the project's file (`app.encoding.stored`); empty if it was never saved.
     base : str
-        `content_hash` of that file when the work on it began; empty where it was not there.
+        `content_hash` of that file when the work began; empty if it did not exist.
     """
 
     work: str
@@ -76,13 +76,13 @@ class _Autosave(Content, kw_only=True):
 
 
 class _Facts(msgspec.Struct):
-    """Facts of an autosave that are read besides its project."""
+    """Facts of an autosave, read without its project."""
 
     autosave: Autosaved | None = None
 
 
 def save(project: Project, path: str | os.PathLike[str]) -> str:
-    """Write a project; what the file held before stays beside it as ``.bak``.
+    """Save a project; the previous content is kept as ``.bak``.
 
     Returns
     -------
@@ -92,8 +92,7 @@ def save(project: Project, path: str | os.PathLike[str]) -> str:
     Raises
     ------
     FileError
-        The system refuses, the file is write-protected, or the project holds what could not be read again; the file
-        is as it was.
+        The system refuses, the file is write-protected, or the project could not be read again; the file is unchanged.
     """
     target = Path(os.path.realpath(path))
     content = encode(project, target)
@@ -105,12 +104,12 @@ def save(project: Project, path: str | os.PathLike[str]) -> str:
 
 
 def content_hash(content: bytes) -> str:
-    """By which it is known whether a file holds what it held before; its times would not do, clocks are set back."""
+    """Hash of a file's content, to detect changes independently of file times."""
     return hashlib.sha256(content).hexdigest()
 
 
 def file_hash(path: Path) -> str:
-    """`content_hash` of a file; empty where it is not there or cannot be read."""
+    """`content_hash` of a file; empty if it does not exist or cannot be read."""
     try:
         with open_file(path) as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
@@ -120,17 +119,17 @@ def file_hash(path: Path) -> str:
 
 
 def backup_path(path: Path) -> Path:
-    """Return where the version before the last save is."""
+    """Return the path of the backup made at the last save."""
     return path.with_name(path.name + BACKUP)
 
 
 def encode(project: Project, path: Path) -> bytes:
-    """The bytes of a project's file that is to lie at a path; the same project gives the same bytes.
+    """Encode a project as the bytes of its file at a path; equal projects give equal bytes.
 
     Raises
     ------
     FileError
-        ``project.cannot_save``: the project holds what could not be read again.
+        The project has content that could not be read again.
     """
     content = content_of(project, path)
 
@@ -142,13 +141,12 @@ def encode(project: Project, path: Path) -> bytes:
 
 
 def encode_autosave(project: Project, path: Path, facts: Autosaved) -> bytes:
-    """The bytes of an autosave that is to lie at a path: a project's file without its layout, which would cost fifty
-    times the time, and what it says of itself.
+    """Encode an autosave for a path: a project's file with facts, without layout, which is fifty times faster.
 
     Raises
     ------
     FileError
-        ``project.cannot_save``: the project holds what could not be read again.
+        The project has content that could not be read again.
     """
     content = _Autosave(autosave=facts, **msgspec.structs.asdict(content_of(project, path)))
     return _encoded(lambda: msgspec.json.encode(content, enc_hook=plain_number), path)
@@ -167,15 +165,15 @@ def _encoded(write: Callable[[], bytes], path: Path) -> bytes:
 
 
 def load(path: str | os.PathLike[str]) -> Project:
-    """Read a project.
+    """Load a project.
 
-    What it needs and this computer does not have (an instrument, a character, the recording, the reference video) stays
-    in it; `missing` and `missing_media` tell.
+    Instruments, characters and media missing on this computer stay in the project; `missing` and `missing_media` list
+    them.
 
     Raises
     ------
     FileError
-        See the module's docstring.
+        The file cannot be read, is no project, or is from a newer version.
     """
     return decode(read(path), Path(os.path.realpath(path)), os.fspath(path))
 
@@ -186,12 +184,12 @@ def read(path: str | os.PathLike[str]) -> bytes:
 
 
 def decode(content: bytes, path: Path, name: str | None = None) -> Project:
-    """The project in the bytes of a file that lies at a path.
+    """Decode the bytes of a project file at a path.
 
     Parameters
     ----------
     name : str, optional
-        What the file is called in messages, by default its path.
+        File name for messages; by default the path.
     """
     file = os.fspath(path) if name is None else name
     if content.startswith(b"MThd"):
@@ -223,13 +221,13 @@ def autosave_facts(content: bytes) -> Autosaved | None:
 
 
 def file_named(text: str) -> str:
-    """The absolute path of a file, as a note or an autosave names it; empty where it can be no file's."""
+    """Absolute path of a file as stored in a note or autosave; empty if it is invalid."""
     path = Path(restored(text))
     return str(path) if path.is_absolute() and path.name and "\0" not in str(path) else ""
 
 
 def is_project_file(path: Path) -> bool:
-    """Return whether a file is called like a project's, or like what is kept beside one."""
+    """Return whether a file name is that of a project, its backup or its autosave."""
     name = path.name.casefold()
     return any(name.endswith(f"{SUFFIX}{more}") for more in ("", BACKUP, AUTOSAVE))
 
@@ -263,8 +261,7 @@ def missing(project: Project) -> tuple[Message, ...]:
 
 
 def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
-    """Warning about the missing choreography of a dancer or player of this name; nothing if it is there. Messages: see
-    `missing`."""
+    """Warnings about a missing choreography of a performer with this name; empty if it exists. See `missing`."""
     path = choreography_path(choreography)
     if not may_touch(path):
         return (
@@ -282,14 +279,15 @@ def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
 
 
 def missing_media(project: Project) -> Path | None:
-    """The recording or the reference video that is not at its place (any more); to be asked for. One on a computer that
-    the user did not agree to is not looked for."""
+    """The recording or reference video that does not exist at its path, so that the user can locate it. Paths on other
+    computers are checked only if the user agreed.
+    """
     paths = (track.path for track in (project.audio, project.video) if track is not None)
     return next((Path(path) for path in paths if may_touch(path) and not is_file(path)), None)
 
 
 def elsewhere(project: Project) -> tuple[str, ...]:
-    """Paths of the recording, the reference video and choreographies on computers that the user did not agree to."""
+    """Paths of media and choreographies on other computers that the user has not agreed to access."""
     tracks = [track.path for track in (project.audio, project.video) if track is not None]
     dances = [player.parameters.choreography for player in project.players]
     dances += [dancer.choreography for dancer in project.dancers]
@@ -300,7 +298,7 @@ def elsewhere(project: Project) -> tuple[str, ...]:
 
 
 def _layout(value: Any, indent: str) -> Iterator[str]:
-    """JSON with two spaces a level, in which what holds no other values, a note for one, takes one line."""
+    """Lay out JSON with two spaces per level; values without nested values, such as a note, take one line."""
     if not isinstance(value, dict | list | tuple) or not any(map(_is_nested, _values(value))):
         yield msgspec.json.format(msgspec.json.encode(value), indent=0).decode()
         return

@@ -1,4 +1,4 @@
-"""The content of a project's file, typed: from a project, and back to one."""
+"""Typed content of a project's file: made from a project, and converted back to one."""
 
 from __future__ import annotations
 
@@ -50,8 +50,9 @@ _CHECKED: Final = (
 
 
 class Content(msgspec.Struct, forbid_unknown_fields=True, omit_defaults=True):
-    """Contents of a file of the present version; corrections are read player by player, so that a fault in one of them
-    is found by name."""
+    """Contents of a file of the current version; corrections are decoded player by player, so that errors can name the
+    player.
+    """
 
     schema_version: int
     source: str
@@ -121,7 +122,7 @@ def content_of(project: Project, path: Path) -> Content:
 
 
 def project_of(raw: Raw, folder: Path, file: str) -> Project:
-    """The typed values of a file's content; what they mean is not looked at yet."""
+    """Decode the typed values of a file's content, without checking their meaning."""
     content = _converted(raw, Content, "", file)
     fps = stored_rate(content.fps)
     if fps is None:
@@ -178,7 +179,9 @@ def project_of(raw: Raw, folder: Path, file: str) -> Project:
 
 
 def _edited_notes(project: Project) -> dict[str, tuple[Note, ...]]:
-    """Notes as read from the MIDI file that were changed or deleted here, or drawn here before they were read there."""
+    """Notes as read from the MIDI file that were edited or deleted in the project, or added in the project before the
+    file had them.
+    """
     here = {part.id: {note.id: note for note in part.notes} for part in project.score.parts}
     return {
         part_id: tuple(
@@ -196,7 +199,7 @@ def _place(note: Note) -> tuple[int, int, str]:
 
 
 def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, dict[str, Note]]:
-    """Notes as read from the MIDI file: those that were not drawn here, with the file's version of the edited ones."""
+    """Notes as read from the MIDI file: all not added in the project, with the file's version of the edited ones."""
     parts = {part.id: part.notes for part in score.parts}
     return {
         part_id: {note.id: note for note in parts.get(part_id, ()) if not is_made_here(note.id)}
@@ -206,13 +209,13 @@ def _read_notes(edited: dict[str, tuple[Note, ...]], score: Score) -> dict[str, 
 
 
 def _edited_curves(project: Project) -> dict[str, tuple[ControllerCurve, ...]]:
-    """The MIDI file's controllers of parts whose controllers were edited here."""
+    """The MIDI file's controllers for parts whose controllers were edited in the project."""
     here = {part.id: part.curves for part in project.score.parts}
     return {part_id: curves for part_id, curves in project.read_curves.items() if here.get(part_id) != curves}
 
 
 def _read_curves(content: Content, score: Score) -> dict[str, tuple[ControllerCurve, ...]]:
-    """The MIDI file's controllers, of each part that was read from it."""
+    """The MIDI file's controllers for each part read from it."""
     here = {part.id: part.curves for part in score.parts}
     return {part_id: here.get(part_id, ()) for part_id in content.edited_notes} | content.edited_curves
 
@@ -230,7 +233,7 @@ def _converted(raw: Any, type_: Any, prefix: str, file: str) -> Any:
 
 
 def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
-    """Key paths of a stored file that this version does not read."""
+    """Key paths of a stored file that this version does not know."""
     if isinstance(raw, dict) and isinstance(known, dict):
         for key, value in raw.items():
             if key not in known:
@@ -244,7 +247,7 @@ def _unknown(raw: Any, known: Any, place: str) -> Iterator[str]:
 
 
 def sayable(message: Message) -> Message:
-    """The message itself where it can be worded, else ``project.unknown_remark`` (remark), which names it."""
+    """The message itself if its id has a text, else a general message that contains the id."""
     message = _placed(Message(_RENAMED.get(message.id, message.id), message.arguments))
     try:
         text(message)

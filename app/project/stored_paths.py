@@ -1,4 +1,4 @@
-"""Paths in project files: as they are stored beside the file, and where they lead from it."""
+"""Converts paths between their stored form in project files and absolute paths."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Track = TypeVar("Track", AudioTrack, VideoTrack)
 
 
 def moved_track(track: Track | None, path: Callable[[str, Path], str], folder: Path) -> Track | None:
-    """A recording or video with its path as the file has it, or as this machine does."""
+    """A recording or video with its path converted to the stored or the absolute form."""
     return None if track is None else msgspec.structs.replace(track, path=path(track.path, folder))
 
 
 def stored_path(path: str, folder: Path) -> str:
-    """Path in the file's form: relative, with slashes, where both lie in one tree below the root."""
+    """Path in stored form: relative with slashes if it shares a folder below the root with the file."""
     if path and Path(path).is_absolute():
         try:
             shared = Path(os.path.commonpath([path, folder]))
@@ -36,7 +36,7 @@ def stored_path(path: str, folder: Path) -> str:
 
 
 def full_path(path: str, folder: Path) -> str:
-    """Absolute; a path that is absolute on another system only stays what it is."""
+    """Absolute path; one that is absolute only on another system stays unchanged."""
     path = restored(path)
     if not path or path.startswith(PREFIX) or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
         return path

@@ -1,7 +1,7 @@
-"""The one writer of a project: every edit goes through here, is named, and can be taken back.
+"""The only writer of a project: every edit is applied here with a name, and can be undone.
 
-Edits are pure functions from project to project (`app.project.edit`); the document only keeps values, so an edit that
-raises leaves nothing behind, and history is cheap because unchanged parts are shared.
+Edits are pure functions from project to project (`app.project.edit`); the document only stores values, so a failing
+edit has no effect, and history is cheap because unchanged parts are shared.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ MOST_STEPS = 1000
 class UndoStep:
     """An applied edit: its name, and the project before and after it.
 
-    ``gesture`` is the token of the drag or slider that made it, None for an edit in one go.
+    ``gesture`` is the token of the drag or slider, None for a single edit.
     """
 
     name: Message
@@ -32,10 +32,10 @@ class UndoStep:
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """Notification for observers: compare what you show by identity (``is``), and never write while notified.
+    """Notification for observers, which should compare values by identity (``is``) and must not edit while notified.
 
-    ``origin`` is the object that requested the edit, so that it can skip its own echo; None for undo, redo and opening.
-    ``opened`` says that another document has taken the place of the one before.
+    ``origin`` is the object that requested the edit, so that it can ignore its own change; None for undo, redo and
+    opening. ``opened``: another project was opened.
     """
 
     before: Project
@@ -48,7 +48,7 @@ Observer = Callable[[Change], None]
 
 
 class Document:
-    """A project with its history."""
+    """A project with its undo history."""
 
     def __init__(self, project: Project) -> None:
         self._project = project
@@ -60,50 +60,50 @@ class Document:
 
     @property
     def project(self) -> Project:
-        """The present project."""
+        """The current project."""
         return self._project
 
     @property
     def is_saved(self) -> bool:
-        """True if what is here is what was last saved."""
+        """True if the current project is the last saved one."""
         return self._project is self._saved
 
     @property
     def done(self) -> tuple[UndoStep, ...]:
-        """The steps that undo would take back, oldest first."""
+        """Steps that can be undone, oldest first."""
         return tuple(self._done)
 
     @property
     def undone(self) -> tuple[UndoStep, ...]:
-        """The steps that redo would make again, the next one last."""
+        """Steps that can be redone, the next one last."""
         return tuple(self._undone)
 
     def observe(self, observer: Observer) -> Callable[[], None]:
-        """Report every change to this observer from now on; the result ends that."""
+        """Register an observer of all changes; call the result to remove it."""
         self._observers.append(observer)
         return lambda: self._observers.remove(observer)
 
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
     ) -> None:
-        """Make this the project; one that is equal to it is no step.
+        """Make this the current project, as an undoable step; an equal project makes no step.
 
         Parameters
         ----------
         name : Message
-            As the history shows it.
+            Name shown in the history.
         project : Project
-            What an edit made of `project`; the same value is no step.
+            Result of an edit of `project`; the same object makes no step.
         gesture : object, optional
-            Edits in a row with the same token (a drag, a slider) are one step; one that returns to where it started is
-            none.
+            Consecutive edits with the same token (a drag, a slider) form one step, which is dropped if it returns to
+            its start.
         origin : object, optional
             Handed to the observers.
 
         Raises
         ------
         UsageError
-            ``project.not_storable``: the edit made what could not be saved; nothing is changed.
+            The project could not be saved; nothing is changed.
         """
         before = self._project
         if project is before or project == before:
@@ -123,12 +123,12 @@ class Document:
         self._become(project, origin)
 
     def end_gesture(self) -> None:
-        """Close a drag: an edit that follows is a step of its own even with the same token."""
+        """End a drag: a following edit is a new step even with the same token."""
         if self._done and self._done[-1].gesture is not None:
             self._done[-1] = replace(self._done[-1], gesture=None)
 
     def cancel_gesture(self, gesture: object) -> bool:
-        """Return to where a drag began, as if it had not been; whether the last step was its."""
+        """Revert to the start of a drag; returns whether the last step belonged to it."""
         last = self._done[-1] if self._done else None
         if last is None or last.gesture is not gesture:
             return False
@@ -137,7 +137,7 @@ class Document:
         return True
 
     def undo(self) -> Message | None:
-        """Take the last step back; its name, None where there was none."""
+        """Undo the last step; returns its name, or None without one."""
         if not self._done:
             return None
         step = self._done.pop()
@@ -146,7 +146,7 @@ class Document:
         return step.name
 
     def redo(self) -> Message | None:
-        """Make the step again that was taken back last; its name, None where there was none."""
+        """Redo the step undone last; returns its name, or None without one."""
         if not self._undone:
             return None
         step = self._undone.pop()
@@ -155,7 +155,7 @@ class Document:
         return step.name
 
     def mark_saved(self, project: Project) -> None:
-        """This value is in the file now."""
+        """Record that this version is saved in the file."""
         self._saved = project
 
     def mark_unsaved(self) -> None:
@@ -163,7 +163,7 @@ class Document:
         self._saved = replace(self._project)
 
     def open(self, project: Project) -> None:
-        """Another project takes the place of this one; its history begins here."""
+        """Replace the project by another one, with an empty history."""
         self._done.clear()
         self._undone.clear()
         self._saved = project

@@ -1,4 +1,4 @@
-"""A fault of a project, and what is checked of values of any kind: bounds, order, lengths and uniqueness."""
+"""Faults of a project, and checks of values of any kind: bounds, order, lengths and uniqueness."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ MOST_NAME: Final = 60
 def about(
     performer: Player | Dancer | None, found: Iterable[Fault], where: Callable[[str], str] = lambda place: ""
 ) -> Iterator[Fault]:
-    """Faults of one performer, with its name: a number in a list says little to a reader.
+    """Add a performer's name to faults, since list indices mean little to users.
 
     Parameters
     ----------
     where : callable
-        More of a fault's place, e.g. the bar, by its key path.
+        Function from a fault's key path to further information, such as the bar.
     """
     who = "dancer" if isinstance(performer, Dancer) else "player"
     for place, detail in found:
@@ -40,20 +40,20 @@ def about(
 
 
 def faults_at_key(prefix: str, found: Iterable[Fault]) -> Iterator[Fault]:
-    """Faults of what lies at a key."""
+    """Prefix faults with a key."""
     for place, detail in found:
         yield f"{prefix}.{place}", detail
 
 
 def faults_of_bounds(place: str, value: float, bounds: Bounds) -> Iterator[Fault]:
-    """A number outside its bounds."""
+    """Check that a number is within its bounds."""
     # Also not where it is no number at all, or a whole one that no float can hold.
     if not bounds[0] <= value <= bounds[1]:
         yield place, f"must be from {bounds[0]:.15g} to {bounds[1]:.15g}"
 
 
 def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
-    """Ticks that do not begin with 0 and ascend."""
+    """Check that ticks begin with 0 and ascend."""
     if not ticks:
         yield place, "must not be empty"
         return
@@ -68,7 +68,7 @@ def in_order(place: str, ticks: Sequence[int]) -> Iterator[Fault]:
 
 
 def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable[str] = ()) -> Iterator[Fault]:
-    """Values of a list that appear twice, or are ``taken`` elsewhere."""
+    """Check that values are unique and not ``taken`` elsewhere."""
     seen = set(taken)
     for index, value in enumerate(values):
         if value in seen:
@@ -77,7 +77,7 @@ def unique(place: str, values: Iterable[str], field: str = "id", taken: Iterable
 
 
 def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterator[Fault]:
-    """A text that is too long, or no Unicode text."""
+    """Check that a text is valid Unicode and not too long."""
     if len(value) > most:
         yield place, f"at most {most} characters"
     elif not is_text(value):
@@ -85,7 +85,7 @@ def text_faults(place: str, value: str, most: int = limits.MOST_TEXT) -> Iterato
 
 
 def path_faults(place: str, value: str) -> Iterator[Fault]:
-    """A path that is too long or that no file can have; the bytes of its name may be any."""
+    """Check that a path is not too long and possible for a file; its name may be any bytes."""
     if len(value) > limits.MOST_TEXT:
         yield place, f"at most {limits.MOST_TEXT} characters"
     elif "\0" in value or restored(stored(value)) != value:
@@ -93,7 +93,7 @@ def path_faults(place: str, value: str) -> Iterator[Fault]:
 
 
 def id_faults(place: str, value: str, least: int = 1) -> Iterator[Fault]:
-    """An id that is empty, too long, or no Unicode text."""
+    """Check that an id is not empty, not too long, and valid Unicode."""
     if not least <= len(value) <= limits.MOST_ID:
         yield place, f"must have from {least} to {limits.MOST_ID} characters"
     elif not is_text(value):

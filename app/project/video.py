@@ -1,4 +1,4 @@
-"""The reference video that is seen with a piece."""
+"""The reference video shown with a piece."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ import msgspec
 
 
 class VideoTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A film of real players, or of another animation.
+    """A video of real players, or of another animation.
 
     Attributes
     ----------
     path : str
-        Absolute, as this machine knows it; a project's file keeps it relative to itself.
+        Absolute path; project files store it relative to themselves.
     offset_s : float
-        Performance time (score second 0 is tick 0) at which its first picture is seen.
+        Performance time of its first frame; score second 0 is tick 0.
     confidence : float or None
-        0..1 of an estimated offset; None: set by hand.
+        Confidence 0..1 of an estimated offset; None: set by hand.
     """
 
     path: str
