@@ -1,1 +1,1 @@
-"""Bytes of BVH, FBX and glTF, both ways; knows no scene of ours."""
+"""Reading and writing bytes of BVH, FBX and glTF, independent of the program's scenes."""

@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all."""
+"""Atomic file writing: a file appears complete or not at all."""
 
 from __future__ import annotations
 
@@ -28,21 +28,22 @@ _FRESH_S: Final = 60.0
 def atomic_write(
     path: str | os.PathLike[str], backup: Path | None = None, follow_link: bool = True
 ) -> Iterator[BinaryIO]:
-    """Open a file for writing that takes its name only once it is complete and on the disk.
+    """Open a file for writing; it gets its name only once it is complete and synced to disk.
 
-    The bytes go to a temporary file in the same folder; on leaving the block it is flushed, synced and renamed over
-    `path`. If the block raises, also on KeyboardInterrupt, the temporary file is removed and `path` is left as it was.
-    What a killed process leaves is found by `sweep`: a living one has its temporary file locked.
+    The bytes go to a temporary file in the same folder; on leaving the block it is flushed, synced and renamed to
+    `path`. If the block raises, also KeyboardInterrupt, the temporary file is deleted and `path` is unchanged. Files
+    left by killed processes are deleted by `sweep`; running processes keep theirs locked.
 
     Parameters
     ----------
     path : str or path-like
         The folder must exist.
     backup : path, optional
-        What `path` held before is kept under this name, in the same folder; at every moment one of the two is whole.
+        The previous content of `path` is kept under this name in the same folder; at every moment one of the two files
+        is complete.
     follow_link : bool
-        Whether a symbolic link stays a link, and what it leads to is replaced: so for a file that the user names. A
-        file that only we name replaces the link, which another program has put there.
+        Whether a symbolic link is kept and its target replaced, as for files named by the user. Otherwise the link
+        itself is replaced, for files whose names only this program chooses.
 
     Yields
     ------
@@ -51,7 +52,7 @@ def atomic_write(
     Raises
     ------
     FileError
-        ``file.cannot_write`` if the system refuses (folder missing, no permission, disk full).
+        The system refuses: the folder is missing, there is no permission, or the disk is full.
     """
     try:
         target = Path(os.path.realpath(path)) if follow_link else Path(path)
@@ -78,7 +79,7 @@ def atomic_write(
 
 
 def sweep(folder: Path) -> None:
-    """Remove temporary files of processes that were killed while they wrote into a folder."""
+    """Delete temporary files of processes that were killed while writing into a folder."""
     try:
         found = [path for path in folder.iterdir() if _PARTIAL.fullmatch(path.name)]
     except OSError:
@@ -94,7 +95,7 @@ def sweep(folder: Path) -> None:
 
 
 def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
-    """A new file that is locked, where the file system knows locks."""
+    """Create a new temporary file, locked if the file system supports locks."""
     while True:
         partial = folder / f".{secrets.token_hex(8)}.partial"
         # "x": never write into another program's file; the mode follows the umask, as for any new file.
@@ -110,14 +111,14 @@ def _new_partial(folder: Path) -> tuple[Path, BinaryIO]:
 
 
 def _rename(stream: BinaryIO, partial: Path, target: Path) -> None:
-    """Give a file that is written its name; it stays locked until it has it."""
+    """Rename a written file to its final name; it stays locked until then."""
     if sys.platform == "win32":
         stream.close()
     partial.replace(target)
 
 
 def _keep(file: Path, backup: Path) -> None:
-    """Give a file a second name, or make a copy where the file system knows only one name for a file."""
+    """Give a file a second name as a hard link, or copy it where hard links are not supported."""
     partial = file.parent / f".{secrets.token_hex(8)}.partial"
     try:
         with file.open("rb") as content:
@@ -151,7 +152,7 @@ def _copy(content: BinaryIO, file: Path, backup: Path) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Bring a new name onto the disk too, where the system can."""
+    """Sync a folder, so that a new name is on the disk too, where the system supports it."""
     if os.name != "posix":
         return
     with contextlib.suppress(OSError):

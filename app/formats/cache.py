@@ -1,4 +1,4 @@
-"""A cache of results that cost more to compute than to read, in a folder that may be emptied at any time."""
+"""Disk cache for results that are slower to compute than to read; the folder may be emptied at any time."""
 
 from __future__ import annotations
 
@@ -13,6 +13,6 @@ CACHE_VARIABLE: Final = "SUISOU_CACHE"
 
 
 def cache_folder(kind: str) -> Path:
-    """Return the user's folder for results of a kind; it may not be there yet."""
+    """Return the user's cache folder for a kind of result; it may not exist yet."""
     named = os.environ.get(CACHE_VARIABLE)
     return (Path(named) if named else platformdirs.user_cache_path("suisou", appauthor=False)) / kind

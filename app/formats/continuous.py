@@ -1,4 +1,4 @@
-"""Rotations whose numbers follow one another."""
+"""Makes quaternion sequences continuous."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from app.arrays import AnyFloatArray, SingleArray
 
 
 def continuous(rotations_xyzw: AnyFloatArray) -> SingleArray:
-    """Unit quaternions (F, ..., 4) of which none is further from the frame before than its opposite would be.
+    """Flip the signs of unit quaternions (F, ..., 4) so that each is close to the previous frame's.
 
-    A rotation has two quaternions; a reader that interpolates the numbers would turn the long way round between two
-    that are far apart.
+    Both signs mean the same rotation, but a reader that interpolates the numbers would rotate the long way round
+    between opposite signs.
     """
     values = np.array(rotations_xyzw, dtype=np.float64)
     values /= np.linalg.norm(values, axis=-1, keepdims=True)

@@ -1,8 +1,8 @@
-"""Cubic curves through few keys: each span between two keys is the cubic that is nearest to the motion's own frames.
+"""Cubic curves through few keys: between two keys runs the cubic that best fits the motion's frames.
 
-A span begins and ends on the values of its keys and with slopes of its own, found by least squares from the frames
-between them. So keys are frames of a clip as elsewhere (`app.formats.keys`), and their slopes follow from the clip.
-The basis is Hermite's; source: Khronos, "glTF 2.0 Specification", appendix C.
+Each span starts and ends at the values of its keys, with slopes fitted by least squares to the frames in between. Keys
+are frames of a clip (`app.formats.keys`), and slopes follow from the clip. The basis is Hermite's; source: Khronos,
+"glTF 2.0 Specification", appendix C.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ _PASSES = 8
 
 @cache
 def _basis(length: int) -> tuple[FloatArray, FloatArray]:
-    """Effects (L + 1, 2) of both slopes, as differences from the straight line's, and their least squares (2, L + 1);
-    slopes are changes over the whole span."""
+    """Effects (L + 1, 2) of both slopes, relative to the straight line, and their least squares inverse (2, L + 1);
+    slopes are changes over the whole span.
+    """
     share = np.arange(length + 1) / length
     effects = np.stack([share**3 - 2.0 * share**2 + share, share**3 - share**2], axis=1)
     if length == 1:
@@ -35,7 +36,7 @@ def _basis(length: int) -> tuple[FloatArray, FloatArray]:
 
 
 def span_slopes(values: AnyFloatArray, keys: AnyIntArray) -> FloatArray:
-    """Slopes (K - 1, 2, D) at the begin and the end of each span between keys (K,) of a curve (F, D), per frame."""
+    """Slopes (K - 1, 2, D) per frame at the start and end of each span between keys (K,) of a curve (F, D)."""
     lanes = np.zeros(len(keys) - 1, np.intp)
     result = np.empty((len(keys) - 1, 2, values.shape[1]))
     curve = np.asarray(values)[None]
@@ -45,7 +46,7 @@ def span_slopes(values: AnyFloatArray, keys: AnyIntArray) -> FloatArray:
 
 
 def curved_values(values: AnyFloatArray, kept: BoolArray) -> FloatArray:
-    """Numbers (L, F, D) that cubics between some frames (L, F) of curves have; after its last key a curve rests."""
+    """Values (L, F, D) of cubics between the kept frames (L, F) of curves; constant after the last key."""
     frames = np.arange(values.shape[1])
     last = np.where(kept, frames, 0).max(axis=1)
     rows = np.arange(len(values))[:, None]
@@ -58,8 +59,9 @@ def curved_values(values: AnyFloatArray, kept: BoolArray) -> FloatArray:
 
 
 def cubic_values(values: FloatArray, slopes: FloatArray, keys: AnyIntArray, frames: int) -> FloatArray:
-    """Numbers (F,) at all frames of cubics with values (K,) and slopes (K - 1, 2) per frame between keys (K,); a curve
-    rests before and after them."""
+    """Values (F,) at all frames of cubics with values (K,) and slopes (K - 1, 2) per frame at keys (K,); constant
+    before and after.
+    """
     at = np.arange(frames)
     before = np.clip(np.searchsorted(keys, at, side="right") - 1, 0, len(keys) - 2)
     lengths = (keys[before + 1] - keys[before]).astype(np.float64)
@@ -72,22 +74,22 @@ def cubic_values(values: FloatArray, slopes: FloatArray, keys: AnyIntArray, fram
 
 
 def cubic_keys(values: AnyFloatArray) -> BoolArray:
-    """Few frames whose values, joined by cubics, are nowhere more than 1 off in any number.
+    """Choose few keys such that the cubics through them deviate by at most 1 in any number.
 
     Parameters
     ----------
     values : ndarray, shape (L, F, D)
-        Curves of D numbers each, divided by what they may be off.
+        Curves of D numbers each, divided by the tolerance.
 
     Returns
     -------
     ndarray of bool, shape (L, F)
-        The first frame is among them, and the last unless the curve stays near its first value.
+        Mask of keys; includes the first frame, and the last unless the curve stays near its first value.
 
     Notes
     -----
-    Spans are halved until each is near enough, all of one length at once. Then keys are taken away as long as what is
-    left is near enough: one alone, or one of two whose middle does as well.
+    Spans are halved until each is accurate enough, all of one length at once. Then keys are removed as long as the rest
+    is accurate enough: a single key, or two replaced by one in the middle.
     """
     lanes, frames, _ = values.shape
     kept = np.zeros((lanes, frames), bool)
@@ -106,7 +108,7 @@ def cubic_keys(values: AnyFloatArray) -> BoolArray:
 
 
 def _halved(values: AnyFloatArray) -> BoolArray:
-    """Keys (L, F) between which all spans are near enough."""
+    """Mask (L, F) of keys between which all spans are accurate enough."""
     lanes, frames, _ = values.shape
     borders = np.unique([*range(0, frames, _FIRST), frames - 1])
     kept = np.zeros((lanes, frames), bool)
@@ -123,7 +125,7 @@ def _halved(values: AnyFloatArray) -> BoolArray:
 
 
 def _without_every_second(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
-    """Take away every second key that the curve does not need, in place; how many these are."""
+    """Remove every second key that is not needed, in place; returns their number."""
     lanes, frames = np.nonzero(kept)
     rank = np.arange(len(lanes)) - np.searchsorted(lanes, np.arange(len(kept)))[lanes]
     inner = np.zeros(len(lanes), bool)
@@ -137,7 +139,9 @@ def _without_every_second(values: AnyFloatArray, kept: BoolArray, first: int) ->
 
 
 def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
-    """Put one key in the middle of two, of every three, where that does; in place; how many keys fewer these are."""
+    """Replace two of every three keys by one in the middle where that is accurate enough, in place; returns the number
+    of keys saved.
+    """
     lanes, frames = np.nonzero(kept)
     rank = np.arange(len(lanes)) - np.searchsorted(lanes, np.arange(len(kept)))[lanes]
     inner = np.zeros(len(lanes), bool)
@@ -156,7 +160,7 @@ def _with_one_of_two(values: AnyFloatArray, kept: BoolArray, first: int) -> int:
 
 
 def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths: AnyIntArray) -> BoolArray:
-    """Return which spans (S,) are more than 1 off somewhere."""
+    """Return a mask of the spans (S,) that deviate by more than 1."""
     result = np.zeros(len(lanes), bool)
     for length, some in _by_length(lengths):
         step = max(1, _AT_ONCE // ((length + 1) * values.shape[2]))
@@ -170,7 +174,7 @@ def _far(values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, lengths
 def _fitted(
     values: AnyFloatArray, lanes: AnyIntArray, starts: AnyIntArray, length: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Values (S, length + 1, D) of the cubics of spans of one length, and their slopes (S, 2, D) per frame."""
+    """Values (S, length + 1, D) of fitted cubics for spans of one length, and their slopes (S, 2, D) per frame."""
     effects, squares = _basis(length)
     own = values[lanes[:, None], starts[:, None] + np.arange(length + 1)]
     change = own[:, -1:] - own[:, :1]
@@ -180,14 +184,14 @@ def _fitted(
 
 
 def _spans(kept: BoolArray) -> tuple[IntArray, IntArray, IntArray]:
-    """Curve, first frame and length of every span between two keys of one curve."""
+    """Curve index, first frame and length of every span between two keys of a curve."""
     lanes, frames = np.nonzero(kept)
     same = np.flatnonzero(lanes[1:] == lanes[:-1])
     return lanes[same], frames[same], frames[same + 1] - frames[same]
 
 
 def _by_length(lengths: AnyIntArray) -> Iterator[tuple[int, IntArray]]:
-    """Numbers of the spans of each length."""
+    """Yield the indices of the spans of each length."""
     order = np.argsort(lengths, kind="stable")
     found, starts = np.unique(lengths[order], return_index=True)
     yield from zip(found.tolist(), np.split(order, starts[1:]), strict=False)

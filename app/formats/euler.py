@@ -1,8 +1,8 @@
-"""Quaternions to continuous Euler angles and back, over whole clips at once.
+"""Converts quaternions to continuous Euler angles and back, for whole clips at once.
 
-An order is written as the three axes of a product from left to right: ``"ZYX"`` means the matrix Rz Ry Rx (FBX's
-default, which FBX itself calls XYZ), ``"ZXY"`` means Rz Rx Ry (the usual order of BVH channels). Source: K. Shoemake,
-"Euler Angle Conversion", Graphics Gems IV (1994), for the general form.
+An order names the three axes of a product from left to right: ``"ZYX"`` means the matrix Rz Ry Rx (FBX's default,
+called XYZ there), ``"ZXY"`` means Rz Rx Ry (usual for BVH channels). Source: K. Shoemake, "Euler Angle Conversion",
+Graphics Gems IV (1994), for the general form.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ _JOINTS = 8
 
 
 def euler_degrees(rotations_xyzw: AnyFloatArray, order: str) -> FloatArray:
-    """Angles of every joint, unrolled along the frames.
+    """Angles of every joint, without jumps along the frames.
 
-    Of the two triples for each rotation the one nearer to the previous frame's is taken, and whole turns are added
-    so that no angle jumps: programs that interpolate the angles between two frames then stay near the rotation.
+    Of the two equivalent angle triples the one nearer to the previous frame is used, and full turns are added to avoid
+    jumps, so that interpolated angles stay near the rotation.
 
     Parameters
     ----------
     rotations_xyzw : ndarray, shape (F, J, 4)
-        Quaternions, any nonzero length.
+        Quaternions of any nonzero length.
     order : str
         Three different axes, e.g. ``"ZYX"``.
 
     Returns
     -------
     ndarray, shape (J, 3, F), float64
-        Degrees, the angle of each axis in the order of `order`. At gimbal lock the first angle keeps its last value.
+        Angles in degrees for the axes of `order`. At gimbal lock the first angle keeps its last value.
     """
     frame_count, joint_count, _ = rotations_xyzw.shape
     angles = np.empty((joint_count, 3, frame_count))
@@ -93,7 +93,7 @@ def quaternions(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
 
 
 def matrices(rotations_xyzw: AnyFloatArray) -> FloatArray:
-    """Rotation matrices, shape (..., 3, 3), column-vector convention, of quaternions (..., 4) of any nonzero length."""
+    """Rotation matrices (..., 3, 3) for column vectors, from quaternions (..., 4) of any nonzero length."""
     q = np.asarray(rotations_xyzw, dtype=np.float64)
     x, y, z, w = np.moveaxis(q, -1, 0)
     s = 2.0 / np.einsum("...i,...i->...", q, q)
@@ -111,7 +111,7 @@ def matrices(rotations_xyzw: AnyFloatArray) -> FloatArray:
 
 
 def _angles(q: FloatArray, order: str) -> FloatArray:
-    """Principal angles in radians, shape (3, J, F), of quaternions (4, J, F)."""
+    """Principal angles in radians (3, J, F) of quaternions (4, J, F)."""
     parts = [_part_angles(q[..., :_BLOCK], order)]
     for start in range(_BLOCK, q.shape[-1], _BLOCK):
         parts.append(_part_angles(q[..., start : start + _BLOCK], order, parts[-1][0, :, -1]))
@@ -119,7 +119,7 @@ def _angles(q: FloatArray, order: str) -> FloatArray:
 
 
 def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) -> FloatArray:
-    """Principal angles of some frames; ``before`` has the first angles (J,) of the frame before them."""
+    """Principal angles of some frames; ``before`` has the first angles (J,) of the previous frame."""
     i, j, k = ("XYZ".index(axis) for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     w = q[3]
@@ -153,7 +153,7 @@ def _part_angles(q: FloatArray, order: str, before: FloatArray | None = None) ->
 
 
 def _unrolled(angles: FloatArray) -> FloatArray:
-    """Degrees without jumps along the last axis, from principal radians, shape (3, J, F)."""
+    """Angles in degrees without jumps along the last axis, from principal radians (3, J, F)."""
     turns = angles * (0.5 / np.pi)
     step = np.diff(turns, axis=-1)
     smooth = ((step > -_SMOOTH_TURNS) & (step < _SMOOTH_TURNS)).all(axis=(0, 2))
@@ -164,7 +164,7 @@ def _unrolled(angles: FloatArray) -> FloatArray:
 
 
 def _without_jumps(turns: FloatArray, step: FloatArray) -> FloatArray:
-    """Turns (3, J, F), given their differences from frame to frame. Both arrays are used up."""
+    """Turns (3, J, F) without jumps, given their differences between frames. Overwrites both arrays."""
     same = np.abs(step - np.rint(step)).sum(axis=0)
     # The other triple of a rotation is (first + half a turn, half a turn - middle, third + half a turn). The distance
     # between two triples is the same if both are exchanged, so only the places where to change over matter.

@@ -1,7 +1,7 @@
-"""The ffmpeg that imageio-ffmpeg brings, at work on one file of the user's.
+"""Runs the ffmpeg bundled with imageio-ffmpeg on one of the user's files.
 
-It runs as a process of its own within the limits of `app.child_limits`, reads this one file and no other that the file
-names, and takes no input.
+It is a separate process within the limits of `app.child_limits`; it opens only this file, not files named in it, and
+reads no input.
 """
 
 from __future__ import annotations
@@ -43,22 +43,22 @@ _WINDOWS_CRASH: Final = 0xC0000000
 def ffmpeg_on(
     path: str, limits: str, before: tuple[str, ...], after: tuple[str, ...], quiet: bool = False
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """ffmpeg at work on a file; it has ended when the block is done.
+    """Run ffmpeg on a file; the process has ended when the block is left.
 
     Parameters
     ----------
     path : str
     limits : str
-        Name of the row of `app.child_limits.LIMITS`.
+        Name of a row of `app.child_limits.LIMITS`.
     before, after : tuple of str
         Options before and after the input.
     quiet : bool
-        Nothing is reported.
+        Suppress ffmpeg's report.
 
     Raises
     ------
     FileError
-        ``video.transport_stream``; ``video.not_readable`` where it does not start; see `app.formats.files.open_file`.
+        The file is an MPEG transport stream, or ffmpeg cannot be started; also as `app.formats.files.open_file`.
     """
     with open_file(path) as stream:
         size = os.fstat(stream.fileno()).st_size
@@ -102,17 +102,17 @@ def ffmpeg_on(
 
 
 def kinds_in(report: bytes) -> set[bytes]:
-    """Kinds of streams, ``b"Video"`` and ``b"Audio"``, that ffmpeg found in a file."""
+    """Kinds of streams that ffmpeg found in a file: ``b"Video"`` and ``b"Audio"``."""
     return set(_STREAM.findall(report))
 
 
 def was_ended(status: int) -> bool:
-    """Return whether the system ended a process, at a limit or because it crashed."""
+    """Return whether the system ended a process because of a limit or a crash."""
     return status < 0 or status >= _WINDOWS_CRASH
 
 
 def refusal(report: bytes, path: str, status: int) -> FileError:
-    """The error of a file that ffmpeg did not read, by what it reported and how it ended."""
+    """Make the error for a file that ffmpeg could not read, from its report and exit status."""
     lines = report.decode(errors="replace").splitlines()
     if status in _OVER or any(reason in line for line in lines for reason in _NO_MEMORY):
         return FileError("video.too_costly", file=path)

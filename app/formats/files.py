@@ -1,6 +1,6 @@
-"""Reading files of any origin: only ordinary files, only up to a size, and never waiting for one.
+"""Opens files of any origin safely: only regular files, only up to a size, and without blocking.
 
-A pipe would block its reader for ever and a device may have no end, so what is opened is looked at before it is read.
+Reading a pipe may block forever and a device may be endless, so the file's type is checked after opening.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ _FLAGS: Final = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NONBLOCK"
 
 
 def open_file(path: str | os.PathLike[str]) -> BufferedReader:
-    """Open an ordinary file for reading.
+    """Open a regular file for reading.
 
     Raises
     ------
     FileError
-        ``file.cannot_read``; ``file.not_regular`` for a folder, a pipe or a device; ``file.other_computer`` before the
-        user agrees to it.
+        The file cannot be read; is a folder, a pipe or a device; or is on another computer that the user has not agreed
+        to access.
     """
     refuse_others(path)
     try:
@@ -40,17 +40,17 @@ def open_file(path: str | os.PathLike[str]) -> BufferedReader:
 
 
 def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
-    """The content of an ordinary file.
+    """Read a regular file.
 
     Parameters
     ----------
     most_bytes : int
-        A longer file is refused before any of it is read.
+        Larger files are refused before reading.
 
     Raises
     ------
     FileError
-        As `open_file`; ``file.too_large``.
+        As `open_file`, or the file is too large.
     """
     with open_file(path) as stream:
         try:
@@ -67,9 +67,10 @@ def read_file(path: str | os.PathLike[str], most_bytes: int) -> bytes:
 
 
 def files_in(folder: Path, *suffixes: str) -> list[Path]:
-    """The entries of a folder whose names end so, in any case, by name; none where there is no such folder.
+    """Entries of a folder with one of these suffixes (ignoring case), sorted by name; empty if the folder does not
+    exist.
 
-    Raises FileError where there is one that cannot be listed.
+    Raises FileError if an existing folder cannot be listed.
     """
     try:
         return sorted(path for path in folder.iterdir() if path.suffix.lower() in suffixes)
@@ -80,13 +81,13 @@ def files_in(folder: Path, *suffixes: str) -> list[Path]:
 
 
 def cannot_read(path: str | os.PathLike[str], error: OSError | ValueError) -> FileError:
-    """The error of a file that the system does not let us read."""
+    """Make the error for a file that cannot be read."""
     reason = error.strerror if isinstance(error, OSError) else None
     return FileError("file.cannot_read", file=os.fspath(path), reason=reason or str(error))
 
 
 def cannot_write(path: str | os.PathLike[str], error: OSError | ValueError) -> FileError:
-    """The error of a file that cannot be written: ``file.cannot_write``."""
+    """Make the error for a file that cannot be written."""
     reason = error.strerror if isinstance(error, OSError) else None
     return FileError("file.cannot_write", file=os.fspath(path), reason=reason or str(error))
 

@@ -1,8 +1,8 @@
-"""The sound of a film, or of any file that ffmpeg reads, at the film's own time.
+"""Reads the sound of a video, or of any file that ffmpeg decodes, in the video's time.
 
-ffmpeg decodes what is there and says when each block of it begins. It fills no gap: a few bytes can say that an hour
-passes, and it would make the silence of that hour before anybody could count it. Gaps are filled here, after the whole
-was measured.
+ffmpeg decodes the existing blocks and reports their start times, without filling gaps: a few bytes can claim that an
+hour passes, and filling would allocate that hour before it could be checked. Gaps are filled here after the total is
+known.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ Samples = npt.NDArray[np.int16]
 
 
 class _Timing:
-    """Begin of every stretch of sound without a gap, from ffmpeg's report, which a thread reads.
+    """Start times of the continuous stretches of sound, parsed from ffmpeg's report on a thread.
 
     Attributes
     ----------
     stretches : list of (float, float)
-        Seconds of sound before a stretch, and the second of the film at which it begins.
+        Seconds of sound before a stretch, and the time of the video at which the stretch begins.
     reached_s : float
-        The second of the film that is reached.
+        Time of the video reached so far.
     first_block_s : float
-        Length of the first block that was decoded.
+        Length of the first decoded block.
     """
 
     def __init__(self, stream: IO[bytes]) -> None:
@@ -59,7 +59,7 @@ class _Timing:
         self.thread.start()
 
     def report(self) -> bytes:
-        """The lines of the program's output that say nothing of time."""
+        """Lines of ffmpeg's output other than time stamps."""
         return b"".join([*self._first, *self._last])
 
     def _read(self) -> None:
@@ -95,7 +95,7 @@ def film_sound(
     stop_requested: StopRequested = lambda: False,
     delay_s: float | None = 0.0,
 ) -> Samples:
-    """Read the sound of a film, from the film's beginning on.
+    """Read the sound of a video, from the video's start on.
 
     Parameters
     ----------
@@ -103,21 +103,22 @@ def film_sound(
     rate_hz : int
         Samples per second of the result.
     check : callable
-        Called now and then with the seconds that the result has so far; raises where they are too many.
+        Called repeatedly with the length of the result in seconds so far; raises if that is too long.
     stop_requested : callable
-        Asked now and then; true ends the work.
+        Called repeatedly; True cancels.
     delay_s : float or None
-        What is taken off the beginning, seconds; None: the first block, which a transform codec only begins with.
+        Seconds to remove from the start; None: the length of the first block, which transform codecs only need for
+        start-up.
 
     Returns
     -------
     int16 array, shape (n, 2)
-        Silence where the sound begins after the pictures or is broken.
+        Stereo samples; silence before the sound begins and in gaps.
 
     Raises
     ------
     FileError
-        ``video.no_sound``, those of `app.formats.ffmpeg`, those of ``check``.
+        There is no sound; also as `app.formats.ffmpeg` and ``check``.
     Cancelled
     """
     made, timing, status = _decoded(path, rate_hz, check, stop_requested)
@@ -138,7 +139,7 @@ def film_sound(
 def _decoded(
     path: str, rate_hz: int, check: Callable[[float], None], stop_requested: StopRequested
 ) -> tuple[bytearray, _Timing, int]:
-    """The blocks of sound that there are, one after the other, when each begins, and the status of ffmpeg."""
+    """Decode all blocks of sound; returns the samples, their timing, and ffmpeg's exit status."""
     # ffmpeg would take a gap of more than thirty hours for a mistake and leave it out.
     exact = ("-dts_error_threshold", "1e12")
     heard = ("-map", "0:a:0", "-af", "ashowinfo", "-ac", "2", "-ar", str(rate_hz))
@@ -164,8 +165,7 @@ def _decoded(
 
 
 def _placed(sound: Samples, stretches: list[tuple[float, float]], rate_hz: int) -> tuple[Samples, int]:
-    """The stretches of a sound at their places, one after the other; what overlaps the one before is left out, and how
-    many samples that are."""
+    """Place stretches of sound at their times; overlapping samples are dropped and counted."""
     begins = [min(round(sound_s * rate_hz), len(sound)) for sound_s, _ in stretches]
     parts: list[Samples] = []
     length = heard = 0

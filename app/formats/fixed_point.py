@@ -1,4 +1,4 @@
-"""Tables of numbers -> decimal text, digit by digit in arrays, many times faster than formatting each number."""
+"""Formats tables of numbers as decimal text with array operations, many times faster than number by number."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _SCALE = 10**DECIMALS
 
 
 def _words(form: str) -> npt.NDArray[np.uint32]:
-    """Words of four bytes for 0 to 999; blanks before the digits are bytes that are left out of the text."""
+    """Four-byte words for 0 to 999; padding bytes are removed from the text later."""
     rows = [list((form % n).lstrip().rjust(4, "\0").encode()) for n in range(1000)]
     return np.array(rows, dtype=np.uint8).view("<u4")[:, 0]
 
@@ -26,22 +26,22 @@ _BLOCK = 16384
 
 
 def table_text(values: AnyFloatArray) -> list[bytearray]:
-    """Text of a table: rows on lines, numbers with `DECIMALS` decimals and one blank between them.
+    """Format a table: one line per row, numbers with `DECIMALS` decimals, separated by one blank.
 
     Parameters
     ----------
     values : ndarray, shape (R, C)
-        Finite, smaller than 1e9.
+        Finite numbers smaller than 1e9.
 
     Returns
     -------
     list of bytearray
-        Pieces of the text, in order; together they end with a line break.
+        Pieces of the text in order, ending with a line break.
 
     Raises
     ------
     ValueError
-        If a value is not finite or too large.
+        A value is not finite or too large.
     """
     rows, columns = values.shape
     if not columns:
@@ -81,6 +81,6 @@ def _block_text(values: FloatArray) -> bytearray:
 
 
 def _divided(numbers: IntArray) -> tuple[IntArray, IntArray]:
-    """Thousands and the rest of numbers that are not negative. NumPy's divmod is several times slower."""
+    """Thousands and remainder of numbers >= 0; several times faster than NumPy's divmod."""
     thousands = numbers // 1000
     return thousands, numbers - 1000 * thousands

@@ -1,4 +1,4 @@
-"""Images from anywhere -> textures, and textures -> pixels, within bounds. Pillow is loaded where it is needed."""
+"""Reads untrusted images as textures, and decodes textures to pixels, within size limits. Pillow is imported on use."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ Pixels = npt.NDArray[np.uint8]
 
 
 class ImageReader:
-    """Makes textures of the images of one file, each looked at once: many surfaces share one.
+    """Makes textures from the images of one file; each image is checked once.
 
     Parameters
     ----------
     size_bytes : int
-        Of all images together.
+        Total size of all images.
     own : bool
-        Whether the file is one of ours, whose images need not be looked at.
+        Whether this program wrote the file, so that images need not be checked.
     """
 
     def __init__(self, size_bytes: int, own: bool = False) -> None:
@@ -53,7 +53,7 @@ class ImageReader:
         self._seen: dict[int, tuple[bytes, Texture | None]] = {}
 
     def texture(self, name: str, content: bytes) -> Texture | None:
-        """The texture of an image's bytes; None where they are no whole image, or one too large."""
+        """The texture of an image's bytes; None if the image is invalid, incomplete or too large."""
         if id(content) not in self._seen:
             # The content is kept, so that its id is no other's.
             self._seen[id(content)] = content, self._read(name, content)
@@ -77,25 +77,27 @@ class ImageReader:
 
 
 def decoded(texture: Texture, most_px: int) -> Pixels | None:
-    """A texture as (H, W, 4) RGBA, made so small that no side is longer; None where it cannot be read."""
+    """Decode a texture to RGBA (H, W, 4), scaled down so that no side exceeds ``most_px``; None if it cannot be
+    read.
+    """
     image = _smaller(texture.content, most_px)
     return None if image is None else np.asarray(image.convert("RGBA"))
 
 
 @lru_cache(maxsize=32)
 def small(texture: Texture) -> Pixels | None:
-    """A texture as `decoded` with at most 256 pixels a side: for colours."""
+    """Decode a texture with at most 256 pixels a side, for average colours."""
     return decoded(texture, 256)
 
 
 def mean(texture: Texture) -> float:
-    """Mean of a grey texture from 0 to 1; a half where it cannot be read."""
+    """Mean of a grey texture, 0 to 1; 0.5 if it cannot be read."""
     pixels = small(texture)
     return 0.5 if pixels is None else float(pixels[..., 0].mean()) / 255.0
 
 
 def resized(textures: MaterialTextures, most_px: int) -> MaterialTextures:
-    """Textures of which no side is longer."""
+    """Scale down textures so that no side exceeds ``most_px``."""
 
     def fit(use: TextureUse | None) -> TextureUse | None:
         return None if use is None else replace(use, texture=_resized(use.texture, most_px))
@@ -149,7 +151,7 @@ def _has_alpha(image: Image) -> bool:
 
 
 def _opened(content: bytes) -> Image | None:
-    """An image whose pixels are not read yet; None where it is none."""
+    """Open an image without decoding its pixels; None if it is invalid."""
     from PIL import Image
 
     if content.startswith(_JPEG_MAGIC) and content.count(_SCAN) > MOST_SCANS:
@@ -169,7 +171,7 @@ _UNREADABLE: Final[tuple[type[Exception], ...]] = (OSError, ValueError, SyntaxEr
 
 
 def _loaded(image: Any) -> bool:
-    """Read the pixels; return whether there are all."""
+    """Decode the pixels; returns whether the image is complete."""
     try:
         image.load()
     except _UNREADABLE:
@@ -185,8 +187,9 @@ def _png(image: Image) -> bytes:
 
 @lru_cache(maxsize=128)
 def tinted(texture: Texture, factor: tuple[float, float, float], solid: bool) -> Texture:
-    """An sRGB texture whose linear colours are multiplied, without its alpha where it is ``solid``; itself where that
-    changes nothing, or it cannot be read."""
+    """Multiply the linear colours of an sRGB texture, and drop its alpha if ``solid``; returns the texture itself if
+    nothing changes or it cannot be read.
+    """
     image = _opened(texture.content)
     if image is None or (factor == (1.0, 1.0, 1.0) and not (solid and _has_alpha(image))):
         return texture
@@ -206,7 +209,9 @@ def tinted(texture: Texture, factor: tuple[float, float, float], solid: bool) ->
 
 @lru_cache(maxsize=128)
 def scaled_channel(texture: Texture, band: str, role: str, factor: float) -> Texture:
-    """One channel (``R``, ``G`` or ``B``) of a texture as a grey one, multiplied; itself where it cannot be read."""
+    """One channel (``R``, ``G`` or ``B``) of a texture as grey image, multiplied by a factor; the texture itself if it
+    cannot be read.
+    """
     image = _smaller(texture.content, MOST_SIDE_PX)
     if image is None:
         return texture
@@ -217,7 +222,7 @@ def scaled_channel(texture: Texture, band: str, role: str, factor: float) -> Tex
 
 @lru_cache(maxsize=128)
 def opacity(texture: Texture, factor: float) -> Texture:
-    """The alpha of a texture, multiplied, as grey and as alpha; itself where it cannot be read."""
+    """The alpha of a texture multiplied by a factor, as grey and as alpha; the texture itself if it cannot be read."""
     image = _smaller(texture.content, MOST_SIDE_PX)
     if image is None:
         return texture
@@ -227,7 +232,7 @@ def opacity(texture: Texture, factor: float) -> Texture:
 
 
 def with_opacity(color: Texture, mask: Texture) -> Texture:
-    """A colour with the alpha of another image, or with its brightness where that has none."""
+    """A colour texture with the alpha of another image, or with its brightness if it has no alpha."""
     first, second = _smaller(color.content, MOST_SIDE_PX), _smaller(mask.content, MOST_SIDE_PX)
     if first is None or second is None or color == mask:
         return color
@@ -238,7 +243,7 @@ def with_opacity(color: Texture, mask: Texture) -> Texture:
 
 
 def packed_surface(roughness: Texture | None, metallic: Texture | None) -> Texture:
-    """Grey images of roughness and metal as green and blue of one; where one is missing, the factor alone counts."""
+    """Combine grey images of roughness and metallic as green and blue channels; a missing image counts as constant."""
     first, second = (None if one is None else _smaller(one.content, MOST_SIDE_PX) for one in (roughness, metallic))
     size = next((image.size for image in (first, second) if image is not None), (1, 1))
     white = _white(size)
@@ -260,7 +265,7 @@ def _merged(mode: str, bands: list[Image]) -> Image:
 
 
 def _encoded(texture: Texture, name: str, image: Image) -> Texture:
-    """An image as a texture of the kind that another one is of."""
+    """Encode an image as a texture in the format of another texture."""
     if texture.mime_type == "image/png":
         return texture_of(name, _png(image))
     stream = io.BytesIO()

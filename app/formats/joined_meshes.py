@@ -1,8 +1,8 @@
-"""Several meshes -> one.
+"""Joins several meshes into one.
 
-A morph name that several meshes of a file share is many curves of one name: Unreal drives them all, but programs that
-know weights by name alone see doubles, and three.js copies every bone for every mesh. One mesh of several materials
-has none of that.
+If several meshes of a file share morph names, there are several curves of one name: Unreal drives them all, but
+programs that identify weights by name see duplicates, and three.js copies every bone for each mesh. One mesh with
+several materials avoids this.
 """
 
 from __future__ import annotations
@@ -20,19 +20,18 @@ Number = TypeVar("Number", bound=np.generic)
 
 
 def join_meshes(meshes: Sequence[SkinnedMesh], name: str) -> SkinnedMesh:
-    """One mesh of all vertices, in the order given.
+    """Join all vertices in the given order.
 
     Parameters
     ----------
     meshes : sequence of SkinnedMesh
-        At least one, with polygons of the same number of corners, bound in the same pose.
+        At least one mesh; all with equal polygon sizes and the same bind pose.
 
     Returns
     -------
     SkinnedMesh
-        Vertex v of the nth mesh becomes v plus the vertex counts of the meshes before it. Equal materials become one,
-        morphs of one name become one. Normals are per vertex if all were. Where only some have UVs, the others get
-        zeros.
+        Vertex v of a mesh becomes v plus the vertex counts of the meshes before it. Equal materials and morphs of one
+        name are merged. Normals are per vertex if all were. If only some meshes have UVs, the others get zeros.
     """
     counts = [len(mesh.vertices_cm) for mesh in meshes]
     starts = (np.cumsum(counts) - counts).tolist()

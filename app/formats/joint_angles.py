@@ -1,4 +1,4 @@
-"""Angles of joints as animators see them: away from the rest pose, each joint about its axes in an order of its own."""
+"""Joint angles for animators: relative to the rest pose, in a rotation order suited to each joint."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _DIGITS: Final = 4
 
 
 def order_along(axes: AnyFloatArray | None) -> str:
-    """The order, as in `app.formats.euler`, whose axes are nearest to three axes.
+    """The rotation order, as in `app.formats.euler`, whose axes are nearest to three given axes.
 
     Parameters
     ----------
     axes : ndarray, shape (3, 3), or None
-        A row per axis, either way round, from the parent on; None: `PLAIN_ORDER`.
+        One axis per row, in either direction, from the outermost rotation; None: `PLAIN_ORDER`.
     """
     if axes is None:
         return PLAIN_ORDER
@@ -37,20 +37,20 @@ def order_along(axes: AnyFloatArray | None) -> str:
 def channel_degrees(
     rotations_xyzw: AnyFloatArray, orders: Sequence[str], rests_xyzw: AnyFloatArray | None = None
 ) -> FloatArray:
-    """Angles of joints about their own X, Y and Z, unrolled along the frames.
+    """Angles of joints about their own X, Y and Z, without jumps along the frames.
 
     Parameters
     ----------
     rotations_xyzw : ndarray, shape (F, J, 4)
     orders : sequence of str
-        Of each joint.
+        Rotation order of each joint.
     rests_xyzw : ndarray, shape (J, 4), optional
-        Rotations at which all angles are 0; absent: unturned.
+        Rotations at which all angles are 0; None: identity.
 
     Returns
     -------
     ndarray, shape (J, 3, F), float64
-        Degrees.
+        Angles in degrees.
     """
     frames, joints, _ = rotations_xyzw.shape
     result = np.empty((joints, len(AXES), frames))
@@ -68,7 +68,7 @@ def channel_degrees(
 def channel_quaternions(
     degrees: AnyFloatArray, orders: Sequence[str], rests_xyzw: AnyFloatArray | None = None
 ) -> FloatArray:
-    """Inverse of `channel_degrees`: unit quaternions (J, F, 4) of angles (J, F, 3) about X, Y and Z."""
+    """Inverse of `channel_degrees`: unit quaternions (J, F, 4) from angles (J, F, 3) about X, Y and Z."""
     result = np.empty((*degrees.shape[:-1], 4))
     for order, chosen in _by_order(orders):
         turned = quaternions(degrees[chosen][..., [AXES.index(axis) for axis in order]], order)
@@ -79,11 +79,11 @@ def channel_quaternions(
 
 
 def _by_order(orders: Sequence[str]) -> list[tuple[str, list[int]]]:
-    """The joints of each order."""
+    """Indices of the joints for each rotation order."""
     return [(order, [joint for joint, own in enumerate(orders) if own == order]) for order in dict.fromkeys(orders)]
 
 
 def _left_products(rotations_xyzw: FloatArray) -> FloatArray:
-    """Matrices (J, 4, 4) that multiply quaternions from the left by the unit ones of some rotations (J, 4)."""
+    """Matrices (J, 4, 4) that left-multiply quaternions by the normalised rotations (J, 4)."""
     x, y, z, w = (rotations_xyzw / np.linalg.norm(rotations_xyzw, axis=-1, keepdims=True)).T
     return np.array([[w, -z, y, x], [z, w, -x, y], [-y, x, w, z], [-x, -y, -z, w]]).transpose(2, 0, 1)

@@ -1,4 +1,4 @@
-"""JSON of any origin -> typed values; nothing but our own error escapes."""
+"""Decodes untrusted JSON to typed values, raising only FileError."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ UTF-8, nested too deep."""
 
 
 def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: str, refused: str = "json.invalid") -> T:
-    """The value of a JSON text.
+    """Decode a JSON text.
 
     Parameters
     ----------
     kind : type or decoder of that type
     file : str
-        Where it is from, for messages.
+        File name for messages.
     refused : str
-        Message (file, detail) of a text that is no JSON, or not of the kind.
+        Message id, with arguments file and detail, for invalid text.
 
     Raises
     ------
     FileError
-        ``refused``.
+        The text is no JSON or not of the type.
     """
     decoder = kind if isinstance(kind, msgspec.json.Decoder) else msgspec.json.Decoder(kind)
     try:
@@ -41,7 +41,7 @@ def decode_json(content: bytes, kind: type[T] | msgspec.json.Decoder[T], file: s
 
 
 def _plain(error: Exception) -> str:
-    """The fault in words for users, with its place."""
+    """The error in words for users, with its position."""
     malformed = _MALFORMED.match(str(error))
     if malformed is not None:
         return f"its text cannot be understood from byte {malformed[1]} on"

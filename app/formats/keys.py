@@ -1,8 +1,8 @@
-"""Keys that are not on every frame: where they are, how linear ones are chosen, and what is between these.
+"""Keyframe reduction: frames with keys, choice of linear keys, and values between keys.
 
-Every program interpolates linear keys alike: numbers (places, weights, Euler angles) along a straight line, quaternions
-at constant angular speed. So keys are frames of a clip at which its own values are written, and what a program shows at
-any other frame can be worked out here.
+All programs interpolate linear keys alike: numbers (positions, weights, Euler angles) linearly, quaternions at constant
+angular speed. Keys are frames of a clip with their own values, so the values shown at other frames can be computed
+here.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ _LEAST_CHUNK, _MOST_CHUNK, _AT_ONCE = 64, 512, 8192
 
 @dataclass(frozen=True, eq=False)
 class Keys:
-    """The frames of a clip that have keys, each list ascending from frame 0; a curve that never changes has one key.
+    """The frames of a clip that have keys, each list ascending from frame 0; a constant curve has one key.
 
     Attributes
     ----------
     bones : tuple of ndarray of int
-        Of each bone's rotation and place. Both have theirs at the same frames, and so have all axes: Blender merges
-        them, and three.js pairs them by their number.
+        Keys of each bone. Rotation and translation and all axes share them, since Blender merges them and three.js
+        pairs them by number.
     morphs : mapping of str to ndarray of int
-        Of each morph's weight.
+        Keys of each morph's weight.
     face : ndarray of int
-        Of all morphs together, for formats in which the morphs of a mesh share their keys.
+        Keys of all morphs together, for formats that require this.
     pose : ndarray of int or None
-        Of all bones together, for formats in which they share their keys; None: on every frame there.
+        Keys of all bones together, for formats that require this; None: every frame.
     curved : bool
-        Whether cubics (`app.formats.cubics`) join the keys of `bones`. All other keys are linear.
+        Whether the keys of `bones` are joined by cubics (`app.formats.cubics`). All other keys are linear.
     """
 
     bones: tuple[AnyIntArray, ...]
@@ -49,12 +49,12 @@ class Keys:
     curved: bool = False
 
     def beside(self, other: Keys) -> Keys:
-        """Return these keys followed by the keys of further bones, which move no morphs."""
+        """Append the keys of further bones without morphs."""
         pose = None if self.pose is None or other.pose is None else np.union1d(self.pose, other.pose)
         return replace(self, bones=self.bones + other.bones, pose=pose)
 
     def check(self, bones: int, frames: int, morphs: Mapping[str, object]) -> None:
-        """Raise ValueError where these are no keys of a clip."""
+        """Raise ValueError unless these keys fit a clip."""
         if len(self.bones) != bones or self.morphs.keys() != morphs.keys():
             raise ValueError("keys of other bones or morphs than the clip's")
         lists = [*self.bones, *self.morphs.values(), self.face, *([] if self.pose is None else [self.pose])]
@@ -65,14 +65,14 @@ class Keys:
 
 @dataclass(frozen=True, eq=False)
 class KeySpans:
-    """Position of frames between keys.
+    """Position of frames relative to the keys around them.
 
     Attributes
     ----------
     before, after : ndarray of int, shape (L, F)
-        The keys of each curve around each frame: the frame itself where it has one, the last key twice after it.
+        Key frames before and after each frame: both are the frame itself if it has a key, and the last key after it.
     share : ndarray, shape (L, F)
-        How far a frame is from the one to the other, 0..1.
+        Position of a frame between the two, 0..1.
     """
 
     before: AnyIntArray
@@ -81,7 +81,7 @@ class KeySpans:
 
     @classmethod
     def of(cls, kept: BoolArray) -> KeySpans:
-        """Spans between the frames (L, F) that have keys, the first among them."""
+        """Spans between the frames (L, F) that have keys; the first frame must have one."""
         frames = np.arange(kept.shape[1], dtype=np.int32)
         before = np.maximum.accumulate(np.where(kept, frames, 0), axis=1)
         last = before[:, -1:]
@@ -95,11 +95,11 @@ class KeySpans:
         return KeySpans(self.before[:, frames], self.after[:, frames], self.share[:, frames])
 
     def row(self, row: int) -> KeySpans:
-        """Spans of one of the curves."""
+        """Spans of one curve."""
         return KeySpans(self.before[row, None], self.after[row, None], self.share[row, None])
 
     def straight(self, values: AnyFloatArray) -> FloatArray:
-        """Numbers (L, F, D) at these frames, interpolated from the keys."""
+        """Values (L, F, D) at these frames, linearly interpolated from the keys."""
         rows = np.arange(len(values))[:, None]
         first, last = values[rows, self.before], values[rows, self.after]
         return np.asarray(first + (last - first) * self.share[..., None], np.float64)
@@ -111,7 +111,7 @@ class KeySpans:
 
 
 def slerp(a: AnyFloatArray, b: AnyFloatArray, share: AnyFloatArray) -> FloatArray:
-    """Interpolate between unit quaternions (..., 4) by the shorter way; ``share`` (..., 1) is 0 at a."""
+    """Interpolate between unit quaternions (..., 4) by the shorter way; ``share`` (..., 1) is 0 at ``a``."""
     cosine = np.einsum("...i,...i->...", a, b)[..., None]
     b = np.where(cosine < 0.0, -b, b)
     angle = np.arccos(np.clip(np.abs(cosine), 0.0, 1.0))
@@ -124,24 +124,24 @@ def slerp(a: AnyFloatArray, b: AnyFloatArray, share: AnyFloatArray) -> FloatArra
 
 
 def straight_keys(values: AnyFloatArray) -> BoolArray:
-    """Few frames whose values, joined by straight lines, are nowhere more than 1 off in any number.
+    """Choose few keys such that straight lines through them deviate by at most 1 in any number.
 
     Parameters
     ----------
     values : ndarray, shape (L, F, D)
-        Curves of D numbers each, divided by what they may be off.
+        Curves of D numbers each, divided by the tolerance.
 
     Returns
     -------
     ndarray of bool, shape (L, F)
-        The first frame is among them, and the last unless the curve stays near its first value.
+        Mask of keys; includes the first frame, and the last unless the curve stays near its first value.
 
     Notes
     -----
-    From a key on, the straight lines that meet the tolerance of all frames so far have slopes in an interval; the next
-    key is the last frame that such a line reaches before the interval is empty (the "swing door" of P. A. Bristol, US
-    patent 4669097, 1987, with keys on the curve itself). All curves are walked at once, and in chunks of frames, whose
-    borders are keys at first and are then taken away where they are not needed.
+    From a key on, lines within the tolerance of all frames so far have slopes in an interval; the next key is the last
+    frame before the interval becomes empty (the "swing door" of P. A. Bristol, US patent 4669097, 1987, with keys on
+    the curve). All curves are processed at once in chunks of frames, whose borders are keys that are removed afterwards
+    if not needed.
     """
     lanes, frames, width = values.shape
     kept = np.zeros((lanes, frames), bool)
@@ -159,7 +159,7 @@ def straight_keys(values: AnyFloatArray) -> BoolArray:
 
 
 def _walked(rows: AnyFloatArray, lanes: int, borders: AnyIntArray) -> BoolArray:
-    """Frames (L, F) of `straight_keys`, with every border among them; ``rows`` is (D, L * F)."""
+    """Mask (L, F) of keys as in `straight_keys`, including every border; ``rows`` is (D, L * F)."""
     frames = rows.shape[1] // lanes
     kept = np.zeros(lanes * frames, bool)
     starts = (np.arange(lanes)[:, None] * frames + borders[:-1]).ravel()
@@ -191,9 +191,9 @@ def _walked(rows: AnyFloatArray, lanes: int, borders: AnyIntArray) -> BoolArray:
 
 
 def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray) -> BoolArray:
-    """The keys without those at some frames that straight lines do not need.
+    """Remove keys at some frames that straight lines do not need.
 
-    Of those that are left every second one is tried at a time, so that each stands between two keys that stay.
+    Every second remaining one is tried at a time, so that each is between two keys that stay.
     """
     at_borders = np.zeros(kept.shape, bool)
     at_borders[:, borders] = True
@@ -215,7 +215,7 @@ def _without_needless(rows: AnyFloatArray, kept: BoolArray, borders: AnyIntArray
 
 
 def _joined(rows: AnyFloatArray, first: AnyIntArray, last: AnyIntArray) -> BoolArray:
-    """Return which straight lines (N,) between two columns of ``rows`` are nowhere more than 1 off."""
+    """Return a mask of the lines (N,) between two columns of ``rows`` that deviate by at most 1."""
     lengths = last - first
     line = np.repeat(np.arange(len(first)), lengths)
     on = np.arange(len(line)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
@@ -226,7 +226,7 @@ def _joined(rows: AnyFloatArray, first: AnyIntArray, last: AnyIntArray) -> BoolA
 
 
 def runs(flags: BoolArray) -> Iterator[slice]:
-    """The unbroken runs of frames (F,) that are flagged."""
+    """Yield the runs of consecutive flagged frames (F,)."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
     for first, last in edges.reshape(-1, 2).tolist():
         yield slice(first, last)

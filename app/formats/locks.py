@@ -1,4 +1,4 @@
-"""Locks of files, which the system takes away when their process ends, however it ends."""
+"""File locks that the system releases when their process ends."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ _held: Final = WeakSet[IO[Any]]()
 
 
 def lock(stream: IO[Any]) -> bool:
-    """Lock a file for as long as it is open; whether no other process has. Raises OSError where there are no locks."""
+    """Lock a file while it is open; returns False if another process has locked it. Raises OSError if locks are not
+    supported.
+    """
     try:
         if sys.platform == "win32":
             place = stream.tell()
@@ -42,7 +44,7 @@ def lock(stream: IO[Any]) -> bool:
 
 
 def _let_go() -> None:
-    """Leave the locks to the process that was copied: the copy has nothing in place of their files."""
+    """Drop the locks in a forked copy of a process, which has no access to the files."""
     held = [stream for stream in _held if not stream.closed]
     if held:
         nothing = os.open(os.devnull, os.O_RDWR)
@@ -57,13 +59,13 @@ if sys.platform != "win32":
 
 @contextlib.contextmanager
 def locked_here(path: Path) -> Iterator[bool]:
-    """Lock an existing file for the time of the block; yields whether no other process has it. Raises OSError."""
+    """Lock an existing file during the block; yields False if another process has locked it. Raises OSError."""
     with path.open("r+b") as stream:
         yield lock(stream)
 
 
 def is_locked(path: Path) -> bool:
-    """Return whether a living process has locked a file, or may have."""
+    """Return whether a running process has locked a file, or may have."""
     try:
         with locked_here(path) as is_ours:
             return not is_ours
@@ -75,7 +77,7 @@ def is_locked(path: Path) -> bool:
 
 
 def is_same_file(path: Path, stream: IO[Any]) -> bool:
-    """Return whether an open file is still the one of this name."""
+    """Return whether an open file still has this name."""
     try:
         return os.path.samestat(path.stat(), os.fstat(stream.fileno()))
     except OSError:

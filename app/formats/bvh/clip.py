@@ -1,4 +1,4 @@
-"""A skeleton and its motion as BVH files have them."""
+"""A skeleton and its motion, with the contents of a BVH file."""
 
 from __future__ import annotations
 
@@ -20,29 +20,29 @@ class BvhClip:
     Attributes
     ----------
     names : tuple of str
-        Joints, parents first; the first is the one root.
+        Joint names, parents first; the first joint is the only root.
     parents : tuple of int
-        -1 for the root.
+        Index of the parent of each joint; -1 for the root.
     offsets_cm : ndarray, shape (J, 3)
-        Relative to the parent; the root's is zero.
+        Offset relative to the parent; zero for the root.
     end_sites_cm : mapping of int to ndarray, shape (3,)
-        Ends of the joints that have no child.
+        End points of the joints without children, relative to the joint.
     root_translation_cm : ndarray, shape (F, 3)
     rotations_xyzw : ndarray, shape (F, J, 4)
-        Relative to the parent.
+        Rotation relative to the parent.
     translations_cm : mapping of int to ndarray, shape (F, 3)
-        Joints below the root that are not always at their offset, relative to the parent; only in files of others.
+        Positions, relative to the parent, of joints below the root that leave their offset; only in files of other
+        programs.
     rate_guess : Message or None
-        How the frame time of a file was understood that does not have it in seconds.
+        Interpretation of the frame time, if the file does not have it in seconds.
     guesses : tuple of Message
-        What else had to be guessed where a file contradicts itself or the usual.
+        Other guesses made because the file is contradictory or unusual.
     figures : tuple of str
-        Names of all skeletons of the file where it has several, this one among them: those of their roots, numbered
-        where they are the same.
+        Names of the roots of all skeletons in a file with several, made unique by numbers.
     figure : str
-        Which of `figures` this one is.
+        Name of this skeleton in `figures`.
     orders : tuple of str
-        Order of each joint's rotation channels, for a file that is to be written; empty: Z, X, Y.
+        Order of each joint's rotation channels for writing; empty: Z, X, Y.
     """
 
     names: tuple[str, ...]

@@ -1,8 +1,7 @@
-"""BVH files of any program.
+"""Reads BVH files of any program.
 
-Programs differ in capitals, blanks and where braces stand; in how many rows "Frames:" announces; in the unit of the
-frame time; some write a byte order mark, scales, or several skeletons. What a file means without doubt is read, and
-what had to be guessed stands in the clip.
+Programs differ in capitals, blanks and braces, in the number of rows relative to "Frames:", and in the unit of the
+frame time; some write a byte order mark, scales, or several skeletons. Guesses are recorded in the clip.
 """
 
 from __future__ import annotations
@@ -46,20 +45,20 @@ _BRACES: Final = re.compile(r"([{}])")
 
 
 def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
-    """Read a BVH file with any channels in any order, also with positions of joints other than the root.
+    """Read a BVH file with any channels in any order, including positions of joints other than the root.
 
-    Position channels take the place of the offset, as in most programs; a root offset is left out. Rotations are about
-    the axes in the order of their channels, where one is missing by 0.
+    Position channels replace the offset, as in most programs; a root offset is ignored. Rotations are applied in the
+    order of their channels; missing axes have angle 0.
 
     Parameters
     ----------
     figure : str
-        Name of the skeleton to read where there are several (`BvhClip.figures`); empty: the first.
+        Name of the skeleton to read if there are several (`BvhClip.figures`); empty: the first.
 
     Raises
     ------
     FileError
-        If it is no such file; ``motion.no_figure`` if no skeleton has that root.
+        The file is no valid BVH file, or has no skeleton of that name.
     """
     data = read_file(path, MOST_BYTES)
     wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
@@ -67,7 +66,7 @@ def read_bvh(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
 
 
 def decode_bvh(text: str, file: str, figure: str = "") -> BvhClip:
-    """Clip of a file's text, as `read_bvh`."""
+    """Parse the text of a BVH file, as `read_bvh`."""
     found = _MOTION.search(text)
     head, motion = (text[: found.start()], text[found.end() :]) if found else (text, "")
     skeleton = _Skeleton(file)
@@ -76,7 +75,7 @@ def decode_bvh(text: str, file: str, figure: str = "") -> BvhClip:
 
 
 class _Skeleton:
-    """The hierarchy as it is read, of all figures of the file."""
+    """The joints of all skeletons of a file while it is parsed."""
 
     def __init__(self, file: str) -> None:
         self.file = file
@@ -88,11 +87,11 @@ class _Skeleton:
 
     @property
     def roots(self) -> list[int]:
-        """First joint of each figure."""
+        """Index of each skeleton's root joint."""
         return [joint for joint, parent in enumerate(self.parents) if parent < 0]
 
     def figure(self, first: int) -> _Skeleton:
-        """The figure whose root is this joint, alone."""
+        """The skeleton with this root joint."""
         stop = next((root for root in self.roots if root > first), len(self.names))
         found, own = _Skeleton(self.file), slice(first, stop)
         found.names, found.offsets, found.channels = self.names[own], self.offsets[own], self.channels[own]
@@ -174,7 +173,7 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip:
-    """Read what follows MOTION, which is on a line."""
+    """Parse the text after MOTION; ``line`` is its line number."""
     file = skeleton.file
     said = _FRAMES.match(motion)
     if said is None:
@@ -205,7 +204,7 @@ def _motion(motion: str, skeleton: _Skeleton, line: int, figure: str) -> BvhClip
 
 
 def _whole(word: str) -> int:
-    """Return the whole number that is written; 0 for anything else."""
+    """Parse a whole number; 0 for any other text."""
     try:
         return int(word)
     except ValueError:
@@ -213,20 +212,20 @@ def _whole(word: str) -> int:
 
 
 def _numbered(names: list[str]) -> list[str]:
-    """Names, each once: the second "Hips" is "Hips (2)", which no joint of a file is called."""
+    """Make names unique: the second "Hips" becomes "Hips (2)"."""
     earlier = [names[:at].count(name) for at, name in enumerate(names)]
     return [f"{name} ({before + 1})" if before else name for name, before in zip(names, earlier, strict=True)]
 
 
 def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[FloatArray, tuple[Message, ...]]:
-    """Return the rows of the motion, and a guess where there are more or fewer than said.
+    """Parse the rows of the motion, with a message if their number differs from the stated one.
 
     Parameters
     ----------
     frames : int
-        How many rows the file announces.
+        Number of rows stated in the file.
     line : int
-        Where the text begins.
+        Line number at which the text begins.
     """
     rows = [line.split() for line in text.splitlines()]
     values = _numbers(rows, file, line)
@@ -270,7 +269,7 @@ def _clip(
     rate_guess: Message | None,
     guesses: tuple[Message, ...],
 ) -> BvhClip:
-    """Make the clip of the only figure of a skeleton; the table may have columns of others behind."""
+    """Make the clip of a skeleton; the table may have further columns of other skeletons."""
     frames, joints = len(table), len(skeleton.names)
     if frames * joints > _FREE_ROTATIONS + 4 * table.size:
         # Joints need not have channels, and then cost the file nothing in a frame.
@@ -311,15 +310,15 @@ def _clip(
 
 
 def _rotations(angles_degrees: AnyFloatArray, order: str) -> FloatArray:
-    """Quaternions of angles (F, up to 3) about these axes; about the others by nothing."""
+    """Quaternions of angles (F, up to 3) about the axes in ``order``; missing axes have angle 0."""
     missing = "".join(axis for axis in AXES if axis not in order)
     return euler.quaternions(np.pad(angles_degrees, ((0, 0), (0, len(missing)))), order + missing)
 
 
 def _rate(frame_time: float, written: str) -> tuple[Fraction, Message | None]:
-    """Return the rate that a frame time means, which is often written with few digits: .03333 is 30 frames per second.
+    """Return the frame rate of a frame time, which is often rounded: .03333 is 30 frames per second.
 
-    A number that is impossible as a time in seconds is one in milliseconds, or the rate itself.
+    A number that is impossible in seconds is taken as milliseconds, or as the rate itself.
     """
     digit = float(Decimal(10) ** int(Decimal(written).as_tuple().exponent))
     accuracy = 0.5 * digit / frame_time

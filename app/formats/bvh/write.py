@@ -1,9 +1,9 @@
-"""BVH files as every reader takes them.
+"""Writes BVH files that all common programs read.
 
-The dialect that bvhio, bvh, pybvh, Blender, assimp and three.js read alike: position channels on the root only, whose
-own OFFSET is zero (some readers add it to the channels, others replace it), three rotation channels on every joint, in
-an order of its own, the frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture
-File Formats Explained" (University of Sheffield, 2001).
+Uses the dialect that bvhio, bvh, pybvh, Blender, assimp and three.js read alike: position channels only on the root,
+whose OFFSET is zero (some readers add it to the channels, others replace it); three rotation channels on every joint,
+in its own order; a frame time with enough digits for a long take. Source: M. Meredith, S. Maddock, "Motion Capture File
+Formats Explained" (University of Sheffield, 2001).
 """
 
 from __future__ import annotations
@@ -27,21 +27,21 @@ _ROWS = 256
 
 
 def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
-    """Write a BVH file, whole or not at all.
+    """Write a BVH file atomically.
 
     Parameters
     ----------
     clip : BvhClip
-        Names have no blanks; children need not follow their parent directly (the file's order of joints is depth
-        first). The root's offset is not written: its place is in `root_translation_cm`. Every joint without a child
-        needs an end site.
+        Names must not contain blanks; joints may be in any order with parents first (the file is depth first). The
+        root's offset is not written, since `root_translation_cm` has its position. Every joint without a child needs an
+        end site.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``.
+        The file cannot be written.
     ValueError
-        If the values contradict each other.
+        The values contradict each other.
     """
     pieces = bvh_pieces(clip)
     with atomic_write(path) as stream:
@@ -49,7 +49,7 @@ def write_bvh(path: str | os.PathLike[str], clip: BvhClip) -> None:
 
 
 def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
-    """The file's bytes, one piece after the other, made when they are asked for."""
+    """Yield the file's bytes piece by piece, generated on demand."""
     _check(clip)
     children: list[list[int]] = [[] for _ in clip.names]
     for joint, parent in enumerate(clip.parents[1:], start=1):
@@ -64,7 +64,7 @@ def bvh_pieces(clip: BvhClip) -> Iterator[bytes | bytearray]:
 
 
 def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
-    """The channels frame by frame, with joints in this order."""
+    """Yield the channels frame by frame, with joints in this order."""
     orders = _orders(clip)
     angles = channel_degrees(clip.rotations_xyzw, orders)
     channels = np.array([[AXES.index(axis) for axis in orders[joint]] for joint in order])
@@ -78,7 +78,7 @@ def _table_pieces(clip: BvhClip, order: list[int]) -> Iterator[bytearray]:
 
 
 def _joint_lines(clip: BvhClip, children: list[list[int]], lines: list[str], order: list[int]) -> None:
-    """Add the hierarchy, depth first, and say in which order the joints come."""
+    """Append the lines of the hierarchy, depth first, and the order of the joints."""
     turning = [" ".join(f"{axis}rotation" for axis in order) for order in _orders(clip)]
     # What is still to be written, last first: a joint with its depth, or a closing brace of that depth.
     pending: list[tuple[int | None, int]] = [(0, 0)]

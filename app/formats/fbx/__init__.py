@@ -1,1 +1,1 @@
-"""Binary FBX, both ways: bytes, elements, scenes of bones, skinned meshes and one clip."""
+"""Reads and writes binary FBX: bytes, elements, scenes of bones, skinned meshes and one clip."""

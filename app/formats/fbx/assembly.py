@@ -1,4 +1,4 @@
-"""Objects of an FBX file with their ids and connections, before they are written as bytes."""
+"""Objects of an FBX file with ids and connections, before encoding."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FIRST_ID: Final = 1_000_000
 
 @dataclass
 class Assembly:
-    """Objects and connections while the file is being put together."""
+    """Objects and connections of an FBX file under construction."""
 
     files: TextureFiles
     objects: list[Element] = field(default_factory=list)
@@ -28,18 +28,18 @@ class Assembly:
     last_id: int = _FIRST_ID
 
     def new_id(self) -> int:
-        """An id that no object has."""
+        """Return a new, unused object id."""
         self.last_id += 1
         return self.last_id
 
     def add(self, kind: str, name: str, class_name: str, sub_class: str, children: tuple[Element, ...]) -> int:
-        """Add an object; its id."""
+        """Add an object, and return its id."""
         new = self.new_id()
         self.objects.append(Element(kind, (np.int64(new), f"{name}\0\x01{class_name}", sub_class), children))
         return new
 
     def connect(self, child: int, parent: int, to_property: str | None = None) -> None:
-        """Connect an object to another one, or to a property of it."""
+        """Connect an object to another object, or to one of its properties."""
         ends: tuple[Property, ...] = (np.int64(child), np.int64(parent))
         if to_property is None:
             self.connections.append(Element("C", ("OO", *ends)))

@@ -1,4 +1,4 @@
-"""Values by key, as many as there is room for in bytes."""
+"""Cache limited by the total size of its values in bytes."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ V = TypeVar("V")
 
 
 class ByteCache(Generic[K, V]):
-    """Values by key; those unused for longest go first. Any thread may use it.
+    """Thread-safe cache; the least recently used values are dropped first.
 
     Parameters
     ----------
     most_bytes : int
-        Of all values together.
+        Largest total size of all values.
     largest_bytes : int
-        A larger value is not kept.
+        Larger values are not stored.
     """
 
     def __init__(self, most_bytes: int, largest_bytes: int) -> None:
@@ -36,7 +36,7 @@ class ByteCache(Generic[K, V]):
             return self._kept[key][0]
 
     def keep(self, key: K, value: V, size: int) -> None:
-        """Keep a value, and its size in bytes."""
+        """Store a value with its size in bytes."""
         if size > self._largest_bytes:
             return
         with self._lock:

@@ -1,4 +1,4 @@
-"""The curves of an FBX file: linear keys on every frame, or linear or cubic ones at the frames of `Keys`."""
+"""Animation curves of an FBX file: linear keys on every frame, or linear or cubic keys at the frames of `Keys`."""
 
 from __future__ import annotations
 
@@ -30,30 +30,31 @@ LINEAR = 0x4
 
 
 def rotation_curves(bones: Sequence[Bone], clip: Clip) -> FloatArray:
-    """Angles (B, 3, F) about X, Y and Z in degrees, each bone's in its own order and away from its rest, as they are
-    written."""
+    """Angles (B, 3, F) in degrees about X, Y and Z to be written, in each bone's rotation order and relative to its
+    rest.
+    """
     angles = channel_degrees(clip.rotations_xyzw, *_resting(bones))
     return angles if clip.keys is None else steady(angles, STEADY_DEG).astype(np.float64, copy=False)
 
 
 def curve_rotations(bones: Sequence[Bone], degrees: AnyFloatArray) -> FloatArray:
-    """Rotations (B, F, 4) of bones whose curves have the values (B, F, 3) of `rotation_curves`."""
+    """Rotations (B, F, 4) of bones from curve values (B, F, 3) as in `rotation_curves`."""
     return channel_quaternions(degrees, *_resting(bones))
 
 
 def _resting(bones: Sequence[Bone]) -> tuple[tuple[str, ...], FloatArray]:
-    """Orders and rests (B, 4) of bones."""
+    """Rotation orders and rest rotations (B, 4) of bones."""
     return tuple(bone.order for bone in bones), np.array([bone.rotation_xyzw for bone in bones], np.float64)
 
 
 def place_curves(clip: Clip, bone: int) -> AnyFloatArray:
-    """Places (3, F) of a bone that leaves its own, in centimetres, as they are written."""
+    """Positions (3, F) in centimetres to be written for a bone that leaves its rest position."""
     places = np.asarray(clip.translations_cm[bone]).T
     return places if clip.keys is None else steady(places, STEADY_CM)
 
 
 def _cubic(slopes: FloatArray) -> tuple[Element, ...]:
-    """Elements of cubic keys (K) whose spans (K - 1, 2) begin and end with these slopes per second."""
+    """Elements of cubic keys (K), with slopes per second at the start and end of each span (K - 1, 2)."""
     data = np.tile(_KEY_DATA, (len(slopes) + 1, 1))
     data[:-1, :2] = slopes
     flags = np.full(len(data), CUBIC | OWN_SLOPES, np.int32)
@@ -65,13 +66,13 @@ def _cubic(slopes: FloatArray) -> tuple[Element, ...]:
 
 
 def steady(curves: AnyFloatArray, least: float) -> AnyFloatArray:
-    """Curves (..., F) of which those that change by no more than ``least`` keep their first value."""
+    """Replace curves (..., F) that change by at most ``least`` by their first value."""
     rests = np.ptp(curves, axis=-1, keepdims=True) <= least
     return np.where(rests, curves[..., :1], curves)
 
 
 class FbxLayerCurves:
-    """Writer of the curves of one animation layer. Arrays that many curves share are packed once."""
+    """Writes the curves of one animation layer. Arrays shared by several curves are packed once."""
 
     def __init__(self, assembly: Assembly, layer: int, key_ticks: IntArray) -> None:
         self._assembly = assembly
@@ -89,8 +90,9 @@ class FbxLayerCurves:
         *,
         alone: bool = False,
     ) -> None:
-        """Animate the models of a figure's bones, and the channels of each of its morphs; without meshes, ``alone``,
-        properties of the root of the morphs' names, from 0 to 1."""
+        """Animate the models of a figure's bones and the channels of its morphs; without meshes (``alone``), properties
+        from 0 to 1 on the root, named after the morphs.
+        """
         keys = clip.keys
         slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         rotations = rotation_curves(bones, clip)
@@ -118,8 +120,9 @@ class FbxLayerCurves:
         frames: AnyIntArray | None,
         slopes_fps: float = 0.0,
     ) -> None:
-        """Animate one property; `values` has a row of frames per channel, with keys at some frames or at all; cubic
-        ones at a frame rate, linear ones at none."""
+        """Animate one property; `values` has a row of frames per channel. Keys are at the given frames or all; cubic if
+        a frame rate is given, else linear.
+        """
         defaults = [
             property_row(f"d|{channel}", "Number", "", "A", float(row[0]))
             for channel, row in zip(channels, values, strict=True)
@@ -140,7 +143,7 @@ class FbxLayerCurves:
             self._assembly.connect(curve, node, f"d|{channel}")
 
     def _times(self, frames: AnyIntArray | None) -> tuple[tuple[Element, ...], tuple[Element, ...]]:
-        """Elements before and after the values of a curve with keys at some frames, or at all."""
+        """Elements before and after the values of a curve with keys at some frames or all."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._at:
             key_ticks = self._ticks if frames is None else self._ticks[frames]
@@ -158,7 +161,7 @@ class FbxLayerCurves:
     def _keys(self, row: SingleArray) -> PackedArray:
         """Add the keys of one channel's curve.
 
-        One that rests is compressed to nothing; the noise of a moving one is not worth the time.
+        Constant curves compress to nothing; for moving ones compression is not worth the time.
         """
         if not (row == row[0]).all():
             return pack_array(row, compress=False)

@@ -1,7 +1,7 @@
-"""Bytes of a binary FBX file -> Element tree.
+"""Decodes the bytes of a binary FBX file into a tree of elements.
 
-Meant for files of any origin: every length is checked before it is believed, records may nest only so deep, and an
-array is never unpacked to more than its compressed bytes can hold.
+Safe for untrusted files: every length is checked, nesting is limited, and an array is never unpacked beyond what its
+compressed bytes can hold.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ def read_elements(data: bytes, file: str) -> Element:
     Parameters
     ----------
     file : str
-        Its name, for messages.
+        File name for messages.
 
     Returns
     -------
     Element
-        Nameless, with the file's version as an int32 property and the top level as its children.
+        Element without a name, with the file's version as an int32 property and the top level as its children.
 
     Raises
     ------
     FileError
-        If anything about the bytes is wrong; see the module's messages.
+        The bytes are invalid.
     """
     if len(data) < len(MAGIC) + 4 or not data.startswith(MAGIC[:20]):
         raise FileError("fbx.not_binary", file=file)
@@ -94,7 +94,7 @@ class _Reader:
         return FileError(f"fbx.{what}", file=self._file, offset=offset)
 
     def block(self, position: int, end: int, depth: int) -> tuple[tuple[Element, ...], int]:
-        """Records up to the all-zero head that closes them; and where that ends."""
+        """Decode records up to the closing null record; returns them and the offset after it."""
         if depth > _DEEPEST:
             raise self._error("too_deep", position)
         elements: list[Element] = []

@@ -1,8 +1,8 @@
-"""Element tree -> bytes of a binary FBX file.
+"""Encodes a tree of elements as the bytes of a binary FBX file.
 
-Knows records, properties and the footer, and no scene. Layout: `FBX binary file format specification
-<https://code.blender.org/2013/08/fbx-binary-file-format-specification/>`_ and, for the identifiers, measurements on
-the FBX SDK's own reader, which takes a file for empty if FileId, CreationTime and footer id do not belong together.
+Handles records, properties and the footer, not scenes. Layout: `FBX binary file format specification
+<https://code.blender.org/2013/08/fbx-binary-file-format-specification/>`_; identifiers were measured with the FBX SDK's
+own reader, which treats a file as empty if FileId, CreationTime and footer id do not match.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _ARRAY_CODES = {"f4": b"f", "f8": b"d", "i4": b"i", "i8": b"l", "b1": b"b"}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PackedArray:
-    """An array already in its file form; many elements may share one, so that it is compressed once."""
+    """An array in its encoded form; several elements may share one, so that it is compressed once."""
 
     encoded: bytes
 
@@ -52,18 +52,18 @@ Property: TypeAlias = (
 
 
 class Element(msgspec.Struct, frozen=True, eq=False):
-    """A record of an FBX file: a name, properties and nested records.
+    """A record of an FBX file: name, properties and nested records.
 
     Attributes
     ----------
     name : str
         ASCII, at most 255 characters.
     properties : tuple of Property
-        The type decides the form in the file: bool C, np.int16 Y, np.int32 I, np.int64 L, np.float32 F, float D,
-        str S, bytes R, one-dimensional arrays of float32 f, float64 d, int32 i, int64 l, bool b. A plain int is
-        refused: its width would be a guess.
+        The Python type determines the code in the file: bool C, np.int16 Y, np.int32 I, np.int64 L, np.float32 F, float
+        D, str S, bytes R, one-dimensional arrays of float32 f, float64 d, int32 i, int64 l, bool b. A plain int is
+        refused, since its width is ambiguous.
     children : tuple of Element or None
-        None: no block at all. ``()``: an empty block, which some records must have.
+        None: no nested block. ``()``: an empty block, required for some records.
     """
 
     name: str
@@ -71,17 +71,17 @@ class Element(msgspec.Struct, frozen=True, eq=False):
     children: tuple[Element, ...] | None = None
 
     def child(self, name: str) -> Element | None:
-        """First child of that name."""
+        """First child with that name; None if there is none."""
         return next((child for child in self.children or () if child.name == name), None)
 
 
 def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> PackedArray:
-    """File form of a one-dimensional array, compressed if that is worth it.
+    """Encode a one-dimensional array, compressed if that saves space.
 
     Raises
     ------
     TypeError
-        If its type has no form in the file.
+        The array's type has no code in the file.
     """
     code = _ARRAY_CODES.get(values.dtype.str[1:])
     if code is None or values.ndim != 1:
@@ -94,12 +94,12 @@ def pack_array(values: npt.NDArray[np.generic], *, compress: bool = True) -> Pac
 
 
 def element_pieces(elements: Sequence[Element]) -> list[bytes]:
-    """A whole file in pieces; big arrays are not copied.
+    """Encode a whole file in pieces; large arrays are not copied.
 
     Parameters
     ----------
     elements : sequence of Element
-        The top level. Their order is kept; FileId and CreationTime must be `FILE_ID` and `CREATION_TIME`.
+        Top-level records in order; FileId and CreationTime must be `FILE_ID` and `CREATION_TIME`.
     """
     writer = _Writer(VERSION)
     writer.file(elements)
@@ -110,7 +110,7 @@ def element_pieces(elements: Sequence[Element]) -> list[bytes]:
 
 
 def _of_version(element: Element, version: int) -> Element:
-    """The record with the version that is said inside it, if it is the one that says it."""
+    """The record, with the version replaced if it is the record that states it."""
     if element.name != "FBXHeaderExtension" or element.children is None:
         return element
     said = Element("FBXVersion", (np.int32(version),))
@@ -158,7 +158,7 @@ class _Writer:
         self.chunks[start] = self._head_of(properties, property_bytes, name)
 
     def _head_of(self, properties: list[bytes], property_bytes: int, name: bytes) -> bytes:
-        """The head of a record that ends here; it says how long the record is where this version can."""
+        """Encode the head of a record that ends here, including its length."""
         if self.position > _LARGEST_OFFSET and self._version < LARGE_VERSION:
             return self._null
         return self._head.pack(self.position, len(properties), property_bytes, len(name))

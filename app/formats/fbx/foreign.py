@@ -1,8 +1,8 @@
-"""FBX files of other programs -> plain values: nodes, meshes, skins, morphs. What ours need is `app.formats.fbx.read`.
+"""Reads FBX files of other programs as plain values: nodes, meshes, skins, morphs. For this program's files see
+`app.formats.fbx.read`.
 
-Any version and both encodings are read by the library ufbx, which knows pre-rotations, pivots, geometric transforms,
-units and axes. It runs in a process of its own (`foreign_child`): what a damaged file does to it is reported as an
-error.
+The library ufbx reads every version and both encodings, with pre-rotations, pivots, geometric transforms, units and
+axes. It runs in a separate process (`foreign_child`), so that crashes on damaged files become errors.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ class FbxNode:
     Attributes
     ----------
     parent : int
-        -1: none.
+        Index of the parent; -1: none.
     kind : str
-        What hangs on it: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA``, ``LOD_GROUP`` ...
+        Kind of the attached object: ``BONE``, ``MESH``, ``EMPTY``, ``CAMERA``, ``LOD_GROUP`` ...
     world_from_node, world_from_geometry : (4, 4) float64
-        As the file poses it. The vertices of a mesh on the node are in its geometry's space.
+        Pose in the file. Vertices of a mesh on the node are in geometry space.
     """
 
     name: str
@@ -60,15 +60,16 @@ class FbxNode:
 
 @dataclass(frozen=True, eq=False)
 class FbxCluster:
-    """The vertices that a bone moves.
+    """The vertices moved by a bone.
 
     Attributes
     ----------
     bone_from_mesh : (4, 4) float64
         The inverse bind matrix.
     world_from_bone : (4, 4) float64
-        Where the bone was when the mesh was bound.
+        World transform of the bone when the mesh was bound.
     points, weights : (N,)
+        Vertex indices and their weights.
     """
 
     node: int
@@ -80,7 +81,7 @@ class FbxCluster:
 
 @dataclass(frozen=True, eq=False)
 class FbxMorph:
-    """Blend shape at full weight: the points that move, and their offsets."""
+    """Blend shape at full weight: indices of moved points, and their offsets."""
 
     name: str
     points: IntArray
@@ -89,16 +90,16 @@ class FbxMorph:
 
 @dataclass(frozen=True, eq=False)
 class FbxTexture:
-    """An image that a material uses.
+    """An image used by a material.
 
     Attributes
     ----------
     file : str
-        Its name as the program that wrote the file had it: any path, of any system.
+        Path of the image on the computer that wrote the file.
     image : int or None
-        The image's file among those in this one; None where it is not.
+        Index of the embedded image file; None if it is not embedded.
     moved, scaled : (float, float)
-        The image's coordinates are ``(uv - moved) * scaled``, v up.
+        Image coordinates are ``(uv - moved) * scaled``, v up.
     """
 
     name: str
@@ -110,14 +111,14 @@ class FbxTexture:
 
 @dataclass(frozen=True, eq=False)
 class FbxMaterial:
-    """A surface; colours are linear.
+    """A surface material; colours are linear.
 
     Attributes
     ----------
     bump : float
         Strength of its normal map.
     textures : mapping of str to FbxTexture
-        By role: ``color``, ``opacity``, ``normal``, ``roughness``, ``metallic``.
+        Textures by role: ``color``, ``opacity``, ``normal``, ``roughness``, ``metallic``.
     """
 
     name: str
@@ -130,20 +131,21 @@ class FbxMaterial:
 
 @dataclass(frozen=True, eq=False)
 class FbxMesh:
-    """A mesh of polygons.
+    """A polygon mesh.
 
     Attributes
     ----------
     nodes : tuple of int
-        Where it hangs; more than one: it is shown as often.
+        Indices of the nodes that show it; several nodes show several copies.
     points : (P, 3) float64
     corners : (C,) int64
-        Point of each corner.
+        Index of the point of each corner.
     faces : (F, 2) int64
         First corner and number of corners of each polygon.
     face_materials : (F,) int64
+        Material index of each polygon.
     normals, uvs : (C, 3) and (C, 2) float64, or None
-        By corner; v points up.
+        Values by corner; v points up.
     """
 
     name: str
@@ -161,12 +163,12 @@ class FbxMesh:
 
 @dataclass(frozen=True, eq=False)
 class FbxContent:
-    """Contents of a file; `nodes` in the file's order, the first is the file's own root.
+    """Contents of an FBX file; `nodes` are in file order, the first one is the file's root.
 
     Attributes
     ----------
     images : tuple of (N,) uint8
-        Files of images that are in it.
+        Embedded image files.
     """
 
     nodes: tuple[FbxNode, ...]
@@ -181,14 +183,14 @@ class FbxMotion:
     Attributes
     ----------
     nodes : tuple of FbxNode
-        As in `FbxContent`.
+        The nodes, as in `FbxContent`.
     bound : tuple of (int, (4, 4) float64)
-        Nodes, and where each was when a mesh was bound to it.
+        Nodes with their world transform when a mesh was bound to them.
     length_s : float
         Duration of the animation.
     transforms : (F, N, 10) float64
-        Of each node on its parent: translation in metres, rotation xyzw, scale. No frames: the file has no animation,
-        or a longer one than `app.formats.motion_limits.longest_motion_s` allows.
+        Local transform of each node: translation in metres, rotation xyzw, scale. F = 0 if there is no animation or one
+        longer than `app.formats.motion_limits.longest_motion_s`.
     """
 
     nodes: tuple[FbxNode, ...]
@@ -199,7 +201,7 @@ class FbxMotion:
 
 
 def read_foreign_motion(path: str | os.PathLike[str]) -> FbxMotion:
-    """Read the longest animation of an FBX file of any program. Raises as `read_foreign_fbx`."""
+    """Read the longest animation in an FBX file of any program. Raises as `read_foreign_fbx`."""
     return _read(path, FbxMotion, _checked_motion, MOTION)
 
 
@@ -209,13 +211,15 @@ def read_foreign_fbx(path: str | os.PathLike[str]) -> FbxContent:
     Raises
     ------
     FileError
-        If it cannot be read, is no FBX file, is damaged or absurdly large.
+        The file cannot be read, is no FBX file, is damaged, or is too large.
     """
     return _read(path, FbxContent, _checked_content)
 
 
 def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T], *arguments: str) -> T:
-    """Read the child's output about a file: a description, in which arrays go by their names. Raises FileError."""
+    """Run the child process on a file, and decode its description, in which arrays are referenced by name. Raises
+    FileError.
+    """
     file = os.fspath(path)
     printed = _child(read_file(path, MOST_BYTES), file, *arguments)
     try:
@@ -228,7 +232,7 @@ def _read(path: str | os.PathLike[str], kind: type[T], checked: Callable[[T], T]
 
 
 def _child(data: bytes, file: str, *arguments: str) -> bytes:
-    """Run the child on a file's bytes and return its output. Raises FileError."""
+    """Run the child process on a file's bytes and return its output. Raises FileError."""
     of_motion = arguments == (MOTION,)
     limits = f"ufbx.{MOTION}" if of_motion else "ufbx.figure"
     too_large = "fbx.motion_too_large" if of_motion else "fbx.too_large"
@@ -248,7 +252,9 @@ def _child(data: bytes, file: str, *arguments: str) -> bytes:
 
 
 def _value(arrays: Mapping[str, npt.NDArray[Any]], kind: type, given: Any) -> Any:
-    """A rate, an array by its name, values by corner by the names of both, or a matrix by its rows."""
+    """Decode a value of the description: a frame rate, an array by name, values by corner by two names, or a matrix by
+    rows.
+    """
     if kind is Fraction:
         return exact_rate(given)
     if isinstance(given, str):

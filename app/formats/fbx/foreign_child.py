@@ -1,7 +1,7 @@
-"""Reads one FBX file of another program by ufbx and prints what it holds; a process of its own (see `foreign`).
+"""Child process that reads one FBX file of another program with ufbx and prints its contents (see `foreign`).
 
-The binding (0.0.5) crashes when its objects are freed, and a damaged file may crash any reader in C: so nothing is
-freed here, and the process ends without tidying up.
+The binding (0.0.5) crashes when its objects are freed, and damaged files may crash any C reader: so nothing is freed,
+and the process exits without clean-up.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _kept: list[object] = []
 
 
 def _keep(value: T) -> T:
-    """The value, which is never freed."""
+    """Return the value after keeping a reference to it, so that it is never freed."""
     _kept.append(value)
     return value
 
@@ -60,12 +60,12 @@ def _every(values: Iterable[T]) -> list[T]:
 
 
 class _Written:
-    """Arrays by number, beside the description that names them.
+    """Arrays by number, referenced by the description.
 
     Parameters
     ----------
     most : int
-        How many numbers they may have; one more, and it raises MemoryError.
+        Largest total count of numbers; exceeding it raises MemoryError.
     """
 
     def __init__(self, most: int) -> None:
@@ -75,7 +75,7 @@ class _Written:
         self._left = most
 
     def take(self, count: int) -> None:
-        """Count what is to be made, before it is."""
+        """Subtract numbers from the budget before they are allocated."""
         self._left -= count
         if self._left < 0:
             raise MemoryError
@@ -86,7 +86,7 @@ class _Written:
         return name
 
     def vectors(self, values: Any, width: int) -> str:
-        """Numbers of vectors, which are plain tuples and may be freed: a face of many shapes has millions."""
+        """Store vectors from ufbx, which are plain tuples and may be freed; faces with many shapes have millions."""
         self.take(width * len(_keep(values)))
         numbers = (number for vector in values for number in vector)
         return self.add(np.fromiter(numbers, np.float64).reshape(-1, width))
@@ -97,7 +97,7 @@ class _Written:
 
 
 def _matrix(matrix: Any) -> list[list[float]]:
-    """Rows of a 3 x 4 matrix, of which ufbx has the columns."""
+    """Rows of a 3 x 4 matrix, which ufbx stores by columns."""
     rows: list[list[float]] = np.array([list(column) for column in _keep(matrix)], dtype=np.float64).T.tolist()
     return rows
 
@@ -129,7 +129,7 @@ def _mesh(mesh: Any, written: _Written) -> dict[str, Any]:
 
 
 def _attribute(attribute: Any, width: int, written: _Written) -> list[str] | None:
-    """Values of a mesh attribute, and for each corner the index of its value."""
+    """Store the values of a mesh attribute, and for each corner the index of its value; None if it does not exist."""
     if not _keep(attribute).exists:
         return None
     return [written.vectors(attribute.values, width), written.numbers(attribute.indices, np.int64)]
@@ -167,7 +167,7 @@ def _material(material: Any, written: _Written) -> dict[str, Any]:
 
 
 def _texture(maps: Iterable[Any], written: _Written) -> dict[str, Any] | None:
-    """The first image of some maps of a material: its file's name, its content if it is in the file, and its place."""
+    """Describe the first image among some maps of a material: file name, content if embedded, and placement."""
     for own in _every(maps):
         texture = _keep(own.texture)
         if texture is None or not texture.has_file:
@@ -189,7 +189,7 @@ def _texture(maps: Iterable[Any], written: _Written) -> dict[str, Any] | None:
 
 
 def _image(key: int, content: Any, written: _Written) -> int:
-    """The number of an image's content among those of the file, which many materials share."""
+    """Store an image's content once for all materials that share it, and return its index."""
     if key not in written.image_numbers:
         written.take(len(content) // 8)
         written.image_numbers[key] = len(written.images)
@@ -216,7 +216,7 @@ def _skin(skin: Any, written: _Written) -> list[dict[str, Any]]:
 
 
 def _morph(deformer: Any, channel: Any, written: _Written) -> list[dict[str, Any]]:
-    """The last of a channel's shapes: what it is at its full weight."""
+    """Describe the last shape of a channel, the one at full weight."""
     frames = _every(_keep(channel).keyframes)
     if not frames:
         return []
@@ -272,7 +272,7 @@ def _nodes(scene: Any, written: _Written) -> list[dict[str, Any]]:
 
 
 def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Nodes and meshes of a file's bytes, in metres, right-handed, Y up."""
+    """Read nodes and meshes from a file's bytes, in metres, right-handed, Y up."""
     scene = _load(data, animated=False)
     written = _Written(FREE_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
@@ -281,7 +281,9 @@ def read(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
 
 
 def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
-    """Nodes of a file's bytes, where skins were bound, and the local transforms of the longest animation's frames."""
+    """Read from a file's bytes the nodes, bind transforms, and local transforms in all frames of the longest
+    animation.
+    """
     scene = _load(data, animated=True)
     written = _Written(FREE_MOTION_NUMBERS + NUMBERS_PER_BYTE * len(data))
     nodes = _nodes(scene, written)
@@ -314,12 +316,12 @@ def read_motion(data: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]
 
 
 def _length_s(stack: Any) -> float:
-    """Return the duration of an animation stack."""
+    """Return the duration of an animation stack in seconds."""
     return float(stack.time_end) - float(stack.time_begin)
 
 
 def main() -> None:
-    """Print what the file on standard input holds: a JSON description and the arrays it names, as ``.npz``."""
+    """Print the contents of the file on standard input: a JSON description and its arrays as ``.npz``."""
     gc.disable()
     output = sys.stdout.buffer
     status = 0

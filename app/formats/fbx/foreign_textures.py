@@ -1,7 +1,8 @@
-"""Surfaces of FBX files of other programs as those of a scene, with the images that are in the file or beside it.
+"""Converts materials of other programs' FBX files to scene materials, with embedded images or image files next to the
+FBX file.
 
-A file names images by paths of the computer it was written on. Of these only names count: an image is looked for in the
-file's own folder and in some below it, after links are resolved.
+The file contains image paths of another computer. Only their names are used: the image is searched in the file's folder
+and some subfolders, after links are resolved.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ _FARTHEST: Final = 1e6
 
 
 class FbxTextures:
-    """Makes materials of those of one file, each image read once."""
+    """Converts the materials of one file, reading each image once."""
 
     def __init__(self, path: Path, content: FbxContent) -> None:
         self.file = str(path)
@@ -36,7 +37,7 @@ class FbxTextures:
         self._beside: dict[str, bytes] = {}
 
     def material(self, surface: FbxMaterial) -> Material:
-        """A material with those of its textures that can be read; what opacity its images have cuts it out."""
+        """Convert a material with its readable textures; the opacity in its images makes it a cut-out."""
         found = {role: use for role, one in surface.textures.items() if (use := self._use(one)) is not None}
         color, opacity = found.get("color"), found.get("opacity")
         cut = color is not None and opacity is not None
@@ -80,7 +81,7 @@ class FbxTextures:
         return self._images.texture(Path(name).stem or texture.name, content) if content else None
 
     def _found(self, name: str) -> bytes:
-        """An image's file by its name; nothing where there is none to be had."""
+        """Contents of an image file by its name; empty if it is not found."""
         if name in self._beside or not name or "\0" in name or self._left_files <= 0:
             return self._beside.get(name, b"")
         self._left_files -= 1

@@ -1,4 +1,4 @@
-"""Objects of a decoded FBX file and what hangs from what; every access is checked."""
+"""Objects and connections of a decoded FBX file, with checked access."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class FbxObject:
-    """An object of the file: its kind, name and record."""
+    """An object of an FBX file: kind, name and record."""
 
     id: int
     kind: str
@@ -27,7 +27,7 @@ class FbxObject:
 
 
 class ObjectGraph:
-    """Objects by id, and what hangs from what."""
+    """Objects of an FBX file by id, and their connections."""
 
     def __init__(self, root: Element, file: str) -> None:
         self.file = file
@@ -49,18 +49,18 @@ class ObjectGraph:
             self.parents.setdefault(int(child), []).append((int(parent), to_property))
 
     def section(self, root: Element, name: str) -> Element:
-        """The child record of that name."""
+        """The child record with that name. Raises FileError if it is missing."""
         found = root.child(name)
         if found is None:
             raise FileError("fbx.missing", file=self.file, what=name)
         return found
 
     def of_kind(self, kind: str, sub_class: str) -> list[FbxObject]:
-        """Objects of a kind and class, in the file's order."""
+        """Objects of a kind and class, in file order."""
         return [o for o in self.objects.values() if o.kind == kind and o.sub_class == sub_class]
 
     def below(self, parent: FbxObject, kind: str, sub_class: str | None = None) -> list[FbxObject]:
-        """Objects of a kind that are connected to `parent`, in the file's order."""
+        """Objects of a kind connected to `parent`, in file order."""
         linked = (self.objects.get(child) for child, _ in self.children.get(parent.id, ()))
         return [o for o in linked if o is not None and o.kind == kind and sub_class in (None, o.sub_class)]
 
@@ -72,18 +72,18 @@ class ObjectGraph:
         return values
 
     def floats(self, element: Element, name: str, width: int) -> FloatArray:
-        """Array of doubles in rows; not to be written to."""
+        """Array of doubles in rows of ``width``; read-only."""
         return self.stored(element, name, width).astype(np.float64, copy=False)
 
     def stored(self, element: Element, name: str, width: int) -> AnyFloatArray:
-        """Array of numbers in rows, in the file's precision."""
+        """Array of numbers in rows of ``width``, in the file's precision."""
         values: AnyFloatArray = self._array(element, name, "f")  # type: ignore[assignment]
         if len(values) % width or not np.isfinite(values).all():
             raise FileError("fbx.contradiction", file=self.file, detail=f"{name} is not made of finite {width}s")
         return values.reshape(-1, width)
 
     def integers(self, element: Element, name: str) -> IntArray:
-        """Array of integers; not to be written to."""
+        """Array of integers; read-only."""
         return self._array(element, name, "i").astype(np.int64, copy=False)
 
     def matrix(self, element: Element, name: str) -> FloatArray:
@@ -94,19 +94,19 @@ class ObjectGraph:
         return values.reshape(4, 4).T
 
     def only(self, element: Element, kind: type[T]) -> T:
-        """The one property of a record."""
+        """The only property of a record. Raises FileError if it is missing or of another type."""
         if len(element.properties) != 1 or not isinstance(element.properties[0], kind):
             raise FileError("fbx.missing", file=self.file, what=f"value of {element.name}")
         return element.properties[0]
 
 
 def properties_of(element: Element) -> dict[str, tuple[Property, ...]]:
-    """Values of the Properties70 block, by name."""
+    """Values of a record's Properties70 block, by name."""
     block = element.child("Properties70")
     rows = [row.properties for row in (block.children or () if block is not None else ())]
     return {row[0]: row[4:] for row in rows if len(row) >= 4 and isinstance(row[0], str)}
 
 
 def numbers(values: tuple[Property, ...]) -> list[float]:
-    """Numbers among the values of a property."""
+    """The numbers among the values of a property."""
     return [float(value) for value in values if isinstance(value, float | np.integer | np.floating)]

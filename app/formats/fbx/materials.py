@@ -1,6 +1,6 @@
-"""Metallic-roughness surfaces in FBX, and back.
+"""Converts metallic-roughness materials to FBX and back.
 
-FBX 7.4 itself knows Phong surfaces only, so one surface is said in several ways; each reader takes its own:
+FBX 7.4 only has Phong surfaces, so a material is described in several ways for different readers:
 
 - Blender's importer in Python takes the colour from DiffuseColor alone, metallic from ReflectionFactor, roughness from
   Shininess as ``1 - sqrt(Shininess) / 10`` and the reflectance of what is no metal from SpecularFactor
@@ -10,7 +10,7 @@ FBX 7.4 itself knows Phong surfaces only, so one surface is said in several ways
 - ufbx (Blender's newer importer, Godot), FBX2glTF and Unity take a 3ds Max Physical Material by the numbers of its
   class and its parameters; ufbx does so where the surface is not called Phong.
 
-Our own reader takes what Blender's in Python takes.
+This program's reader uses the same properties as Blender's Python importer.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Phong:
 
 
 def phong(material: Material) -> Phong:
-    """The nearest Phong surface: a metal's colour is in its reflection."""
+    """The nearest Phong surface; the colour of a metal becomes its reflection."""
     red, green, blue, _ = material.base_color
     metallic = material.metallic
     factor = _BLENDER_SPECULAR + (1.0 - _BLENDER_SPECULAR) * metallic
@@ -63,5 +63,5 @@ def phong(material: Material) -> Phong:
 
 
 def roughness_of(shininess: float) -> float:
-    """The roughness that a surface of that `phong` has."""
+    """The roughness whose `phong` surface has this shininess."""
     return min(max(1.0 - math.sqrt(max(shininess, 0.0)) / 10.0, 0.0), 1.0)

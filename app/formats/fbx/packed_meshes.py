@@ -1,4 +1,4 @@
-"""Meshes in their file form, kept by what they hold: players with the same body have the same meshes."""
+"""Caches encoded meshes by content, since players with the same body have the same meshes."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ _MOST_KEPT_BYTES: Final = 2**26
 
 
 class PackedMesh(msgspec.Struct, frozen=True, eq=False):
-    """Mesh data of a file besides names, materials and the bind pose.
+    """Encoded mesh data, without names, materials and bind pose.
 
     Attributes
     ----------
     geometry : tuple of Element
-        Children of its Geometry record.
+        Children of the mesh's Geometry record.
     clusters : tuple of (int, Element, Element)
-        Bones that move it, with their vertices and weights.
+        Bone index, vertices and weights for each bone.
     morphs : tuple of tuple of Element
-        Children of the Geometry records of its morphs, in their order.
+        Children of the Geometry records of its morphs, in order.
     """
 
     geometry: tuple[Element, ...]
@@ -35,7 +35,7 @@ class PackedMesh(msgspec.Struct, frozen=True, eq=False):
 
 
 def packed_mesh(mesh: SkinnedMesh) -> PackedMesh:
-    """The file form of a mesh, made once for all meshes that hold the same."""
+    """Encode a mesh, once for all meshes with the same content."""
     known = _digest(mesh)
     packed = _meshes.get(known)
     if packed is None:
@@ -58,7 +58,7 @@ _meshes: Final = ByteCache[bytes, PackedMesh](_MOST_KEPT_BYTES, _MOST_KEPT_BYTES
 
 
 def _digest(mesh: SkinnedMesh) -> bytes:
-    """Digest of all that `PackedMesh` is made from."""
+    """Hash of everything that a `PackedMesh` depends on."""
     arrays = [mesh.vertices_cm, mesh.faces, mesh.normals, mesh.uvs, mesh.face_materials]
     arrays += [mesh.joint_indices, mesh.weights]
     for morph in mesh.morphs:
@@ -74,13 +74,13 @@ def _digest(mesh: SkinnedMesh) -> bytes:
 
 
 def _packed(record: Element) -> Element:
-    """A record whose arrays are in their file form."""
+    """Encode the arrays of a record."""
     properties = tuple(pack_array(value) if isinstance(value, np.ndarray) else value for value in record.properties)
     children = None if record.children is None else tuple(map(_packed, record.children))
     return Element(record.name, properties, children)
 
 
 def _size(record: Element) -> int:
-    """Bytes of a record's arrays."""
+    """Total bytes of a record's arrays."""
     own = sum(len(value.encoded) for value in record.properties if isinstance(value, PackedArray))
     return own + sum(map(_size, record.children or ()))

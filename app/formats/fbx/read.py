@@ -1,8 +1,8 @@
-"""Binary FBX file -> scene: for reading back what `app.formats.fbx.write` wrote.
+"""Reads binary FBX files written by `app.formats.fbx.write` back into scenes.
 
-It understands what that writes: bones in centimetres without scaling or pivots, directly under the scene or those of
-each figure under a Null, and linear keys on frames; the clip has what these curves are at every frame. Anything else is
-refused, never quietly misread.
+Supports only what that writer produces: bones in centimetres without scaling or pivots, directly under the scene or
+under one Null per figure, and linear keys on frames, evaluated at every frame. Everything else raises an error, never a
+silent misreading.
 """
 
 from __future__ import annotations
@@ -37,25 +37,25 @@ _OF_BONES = ("PreRotation", "RotationOrder")
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
-    """Read a file as `write_scene` writes it.
+    """Read a file written by `write_scene`.
 
-    Normals and UVs come per corner, everything else as it went in, in float64 (curves in float32's precision).
+    Normals and UVs are per corner; everything else is as written, in float64 (curves in float32 precision).
 
     Raises
     ------
     FileError
-        If the file is no such file.
+        The file is not of that form.
     """
     return decode_scene(read_file(path, MOST_BYTES), os.fspath(path))
 
 
 def read_scenes(path: str | os.PathLike[str]) -> tuple[Scene, ...]:
-    """Read a file as `write_scenes` writes it; see `read_scene`."""
+    """Read a file written by `write_scenes`; see `read_scene`."""
     return decode_scenes(read_file(path, MOST_BYTES), os.fspath(path))
 
 
 def decode_scene(data: bytes, file: str) -> Scene:
-    """Scene of a file's bytes, as `read_scene`."""
+    """Decode the bytes of a file with one scene, as `read_scene`."""
     scenes = decode_scenes(data, file)
     if len(scenes) != 1:
         raise FileError("fbx.unsupported", file=file, what=f"{len(scenes)} figures in one file")
@@ -63,7 +63,7 @@ def decode_scene(data: bytes, file: str) -> Scene:
 
 
 def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
-    """Scenes of a file's bytes, as `read_scenes`."""
+    """Decode the bytes of a file with several scenes, as `read_scenes`."""
     root = read_elements(data, file)
     graph = ObjectGraph(root, file)
     creator = root.child("Creator")
@@ -84,7 +84,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
 
 
 def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, creator: str) -> Scene:
-    """Scene below a node; below the file's root if there is none."""
+    """Scene below a node, or below the file's root if there is no node."""
     bones, turns_from, bone_of_model = _bones(graph, node)
     place, node_from_world, models = None, np.eye(4, dtype=np.float64), graph.of_kind("Model", "Mesh")
     if node is not None:
@@ -109,8 +109,9 @@ def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, cr
 
 
 def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...], FloatArray, dict[int, int]]:
-    """Bones below a node with parents first, the rotations (B, 4) that their angles turn away from, and the index of
-    each model."""
+    """Bones below a node, parents first; the rest rotations (B, 4) of their angles; and the bone index of each
+    model.
+    """
     top = 0 if node is None else node.id
     models = graph.of_kind("Model", "LimbNode")
     is_bone = {model.id for model in models}
@@ -152,7 +153,7 @@ def _bones(graph: ObjectGraph, node: FbxObject | None) -> tuple[tuple[Bone, ...]
 
 
 def _turning(graph: ObjectGraph, model: FbxObject) -> tuple[str, FloatArray]:
-    """Order of a bone's angles, and the Euler angles of what they turn away from."""
+    """Rotation order of a bone, and the Euler angles of its pre-rotation."""
     properties = properties_of(model.element)
     values = {name: numbers(properties.get(name, ())) for name in ("RotationActive", *_OF_BONES)}
     if not any(values["RotationActive"]):
@@ -166,7 +167,9 @@ def _turning(graph: ObjectGraph, model: FbxObject) -> tuple[str, FloatArray]:
 
 
 def _placement(graph: ObjectGraph, model: FbxObject, without: Iterable[str] = ()) -> tuple[FloatArray, FloatArray]:
-    """Local translation and Euler angles of a model that has nothing else, nor any properties ``without``."""
+    """Local translation and Euler angles of a model that has no other transform and none of the properties
+    ``without``.
+    """
     properties = properties_of(model.element)
     for name in (*_NOT_SUPPORTED, *without):
         if any(numbers(properties.get(name, ()))):
@@ -261,7 +264,7 @@ def _material(material: FbxObject) -> Material:
 def _skin(
     graph: ObjectGraph, shape: FbxObject, vertex_count: int, bone_of_model: dict[int, int]
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Joints and weights by vertex, the strongest first, and the bind pose of every bone."""
+    """Joints and weights by vertex, strongest first, and the bind pose of every bone."""
     binds = _bind_pose(graph, bone_of_model)
     shares: list[tuple[int, IntArray, FloatArray]] = []
     slots: list[IntArray] = []
@@ -308,7 +311,7 @@ def _bind_pose(graph: ObjectGraph, bone_of_model: dict[int, int]) -> FloatArray:
 
 
 def _channels(graph: ObjectGraph, shape: FbxObject) -> Iterator[FbxObject]:
-    """Channels of the morphs of a mesh's shape."""
+    """Yield the morph channels of a mesh's shape."""
     for deformer in graph.below(shape, "Deformer", "BlendShape"):
         yield from graph.below(deformer, "Deformer", "BlendShapeChannel")
 
@@ -337,7 +340,7 @@ def _clip(
     bone_of_model: dict[int, int],
     name_of_channel: dict[int, str],
 ) -> Clip:
-    """Clip of a take with some bones and morphs."""
+    """Read the clip of a take for the given bones and morphs."""
     frames = take.frames
     if frames * max(len(bones), len(name_of_channel)) > MOST_VALUES:
         raise FileError("fbx.unsupported", file=graph.file, what=f"{frames} frames of {len(bones)} bones")
@@ -366,7 +369,7 @@ def _clip(
 def _turn(
     rotations: FloatArray, turning: list[tuple[int, list[FbxCurve]]], orders: Sequence[str], turns_from: FloatArray
 ) -> None:
-    """Set the rotations (4, B, F) of bones to what the curves of their angles say, some bones at a time."""
+    """Set the rotations (4, B, F) of bones from the curves of their angles, block by block."""
     frames = rotations.shape[-1]
     resting = [row for row in turning if all(curve.rests for curve in row[1])]
     moving = [row for row in turning if not all(curve.rests for curve in row[1])]

@@ -1,4 +1,4 @@
-"""Parts of an FBX file that are about the file and not about its objects; and how properties are written."""
+"""Sections of an FBX file other than its objects, and helpers for properties."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.formats.fbx.encode import Element, Property
 
 
 def integer(name: str, value: int) -> Element:
-    """A record of one 32-bit integer."""
+    """A record with one 32-bit integer."""
     return Element(name, (np.int32(value),))
 
 
@@ -27,7 +27,7 @@ def property_block(*rows: Element) -> Element:
 
 
 def header(creator: str) -> Element:
-    """FBXHeaderExtension: version, program, and a date that is always the same."""
+    """FBXHeaderExtension: version, program, and a constant date."""
     stamp = tuple(
         integer(name, value)
         for name, value in (
@@ -84,7 +84,7 @@ def global_settings(rate: Fraction | None, last_tick: int) -> Element:
 
 
 def documents(document_id: int, take: str) -> Element:
-    """The one document, the scene."""
+    """The single document, the scene."""
     document = Element(
         "Document",
         (np.int64(document_id), "Scene", "Scene"),
@@ -100,7 +100,9 @@ def documents(document_id: int, take: str) -> Element:
 
 
 def definitions(objects: Iterable[Element]) -> Element:
-    """Return how many objects of each kind there are; without it the FBX SDK finds nothing."""
+    """Return the Definitions section with the number of objects of each kind; without it the FBX SDK finds no
+    objects.
+    """
     counts = {"GlobalSettings": 1}
     for element in objects:
         counts[element.name] = counts.get(element.name, 0) + 1
@@ -109,7 +111,7 @@ def definitions(objects: Iterable[Element]) -> Element:
 
 
 def takes(take: str, last_tick: int) -> Element:
-    """The clip, as older programs look for it."""
+    """The Takes section, where older programs find the clip."""
     children: tuple[Element, ...] = (Element("Current", (take,)),)
     if take:
         span = (np.int64(0), np.int64(last_tick))

@@ -1,4 +1,4 @@
-"""Smoothing groups: faces that share one are lit as one surface, for programs that compute normals themselves."""
+"""Smoothing groups, for programs that compute normals themselves: faces that share a group are shaded smoothly."""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ _DIRECTIONS: Final = 1e3
 
 
 def smoothing_groups(mesh: SkinnedMesh) -> IntArray:
-    """The group of each face (T,) as a bit: faces on both sides of an edge have the same one if their normals agree
-    there, and different ones if not, unless they meet elsewhere."""
+    """Smoothing group of each face (T,) as a bit: faces on both sides of an edge share one if their normals agree
+    there, and have different ones otherwise, unless they meet elsewhere.
+    """
     faces = np.asarray(mesh.faces, np.int64)
     places = _numbered(np.asarray(mesh.vertices_cm, np.float64) * _PLACES)[faces]
     normals = np.asarray(mesh.normals, np.float64)
@@ -43,13 +44,13 @@ def smoothing_groups(mesh: SkinnedMesh) -> IntArray:
 
 
 def _numbered(values: AnyFloatArray) -> IntArray:
-    """A number for each different row of values (N, 3), rounded."""
+    """Index of each distinct row of values (N, 3), after rounding."""
     numbers: IntArray = np.unique(np.rint(values).astype(np.int64), axis=0, return_inverse=True)[1].reshape(-1)
     return numbers
 
 
 def _neighbours(ends: IntArray, number: IntArray) -> IntArray:
-    """Pairs (P, 2) of faces that share an edge, by the numbers (T, N) of their corners."""
+    """Pairs (P, 2) of faces that share an edge, from the indices (T, N) of their corners."""
     edges = np.sort(np.stack([ends.ravel(), np.roll(ends, -1, axis=1).ravel()], axis=1), axis=1)
     order = np.lexsort(edges.T)
     edges, number = edges[order], number[order]

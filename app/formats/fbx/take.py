@@ -1,4 +1,4 @@
-"""The animation of a binary FBX file as our writer makes it: one take, linear or cubic keys on frames."""
+"""Reads the animation of a binary FBX file written by this program: one take with linear or cubic keys on frames."""
 
 from __future__ import annotations
 
@@ -28,8 +28,9 @@ _ANIMATED = {
 
 
 class FbxCurve(NamedTuple):
-    """Frames of a curve's keys and their values, as stored in the file; and slopes (K - 1, 2) per frame at the begin
-    and the end of each span of cubic keys, None of linear ones."""
+    """Frames and values of a curve's keys, as stored in the file; for cubic keys also slopes (K - 1, 2) per frame at
+    the start and end of each span, None for linear keys.
+    """
 
     frames: IntArray
     values: AnyFloatArray
@@ -37,11 +38,11 @@ class FbxCurve(NamedTuple):
 
     @property
     def rests(self) -> bool:
-        """True if it has one value at all frames."""
+        """True if the value is constant."""
         return self.slopes is None and bool((self.values == self.values[0]).all())
 
     def at(self, frames: int) -> FloatArray:
-        """Values of the curve at all frames: lines or cubics between the keys, constant before and after them."""
+        """Values at all frames: lines or cubics between the keys, constant before and after them."""
         if len(self.frames) == frames:
             return self.values.astype(np.float64)
         if self.slopes is not None:
@@ -51,7 +52,7 @@ class FbxCurve(NamedTuple):
 
 
 class FbxTake(NamedTuple):
-    """The file's one animation: its curves by channel and property."""
+    """The animation of a file: curves by channel and property."""
 
     name: str
     fps: Fraction
@@ -60,7 +61,7 @@ class FbxTake(NamedTuple):
 
 
 def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
-    """The first take of a file; None where it has none."""
+    """The first take of a file; None if there is none."""
     stacks = graph.of_kind("AnimationStack", "")
     if not stacks:
         return None
@@ -88,7 +89,7 @@ def read_take(graph: ObjectGraph, root: Element) -> FbxTake | None:
 def _curves(
     graph: ObjectGraph, stack: FbxObject, frame_ticks: IntArray, fps: Fraction
 ) -> dict[tuple[int, str], list[FbxCurve]]:
-    """The curves of every animated property, channel by channel."""
+    """Curves of every animated property, by channel."""
     result: dict[tuple[int, str], list[FbxCurve]] = {}
     # Equal arrays of a file are one array.
     known: dict[int, tuple[IntArray, IntArray]] = {}
@@ -114,7 +115,7 @@ def _curves(
 
 
 def _slopes(graph: ObjectGraph, curve: Element, count: int, fps: Fraction) -> FloatArray | None:
-    """Slopes of cubic keys as of `FbxCurve`; None of linear ones."""
+    """Slopes of cubic keys as in `FbxCurve`; None for linear keys."""
     flags = graph.integers(curve, "KeyAttrFlags")
     if len(flags) == 1 and flags[0] & LINEAR:
         return None
@@ -126,7 +127,7 @@ def _slopes(graph: ObjectGraph, curve: Element, count: int, fps: Fraction) -> Fl
 
 
 def _key_frames(graph: ObjectGraph, key_ticks: IntArray, frame_ticks: IntArray, fps: Fraction) -> IntArray:
-    """The frames at which keys are."""
+    """Frame numbers of the keys. Raises FileError for keys between frames."""
     frames = ticks.nearest_frames(key_ticks.astype(np.float64), fps)
     there = len(frames) and 0 <= frames.min() <= frames.max() < len(frame_ticks)
     if not there or (np.diff(frames) <= 0).any() or not np.array_equal(frame_ticks[frames], key_ticks):

@@ -1,9 +1,9 @@
-"""Scenes -> binary FBX 7.4 file.
+"""Writes scenes as binary FBX 7.4 files.
 
-The layout is what the FBX SDK 2019.2, ufbx, Blender, assimp and three.js all read alike: no pivots, no scaling, bones
+The layout is one that the FBX SDK 2019.2, ufbx, Blender, assimp and three.js read alike: no pivots, no scaling, bones
 as LimbNodes under one root, linear keys. A bone's rest is its pre-rotation, so that its curves are 0 there, and each
-has its own order of angles. Several scenes share one take; the bones and meshes of each are below a Null of its name at
-its place, which Blender makes the armature. Textures are files beside it (`app.formats.texture_files`).
+bone has its own rotation order. Several scenes share one take; the bones and meshes of each are below a Null with its
+name and place, which becomes the armature in Blender. Textures are separate files (`app.formats.texture_files`).
 """
 
 from __future__ import annotations
@@ -41,20 +41,20 @@ _BESIDE_CM = 5e-4
 
 
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
-    """Write a scene as a binary FBX file, whole or not at all; the same scene always gives the same.
+    """Write a scene as a binary FBX file, atomically and deterministically.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``.
+        The file cannot be written.
     ValueError
-        If the scene contradicts itself.
+        The scene contradicts itself.
     """
     write_scenes(path, (scene,))
 
 
 def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
-    """Write scenes into one file as `write_scene`; each is let go when the next is asked for."""
+    """Write several scenes into one file as `write_scene`; each scene is released when the next is requested."""
     textures = TextureFiles()
     pieces = element_pieces(scene_elements(scenes, textures))
     textures.write(Path(path).parent)
@@ -63,7 +63,7 @@ def write_scenes(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
 
 
 def scene_elements(scenes: Iterable[Scene], textures: TextureFiles | None = None) -> tuple[Element, ...]:
-    """Top level of the file, in the order that every reader expects; ``textures`` gets those that it names."""
+    """Top-level records in the order that all readers expect; the files of used textures are added to ``textures``."""
     graph = Assembly(TextureFiles() if textures is None else textures)
     curves: FbxLayerCurves | None = None
     creator, take, rate, last_tick = "", "", None, 0
@@ -91,7 +91,7 @@ def scene_elements(scenes: Iterable[Scene], textures: TextureFiles | None = None
 
 
 def _vector(name: str, values: AnyFloatArray) -> Element:
-    """A transform property that may be animated; its kind is called like the property."""
+    """A transform property that may be animated; its type is named like the property."""
     return property_row(name, name, "", "A", *(float(value) for value in values))
 
 
@@ -100,14 +100,14 @@ def _vector(name: str, values: AnyFloatArray) -> Element:
 
 @dataclass
 class _Figure:
-    """One scene in the graph.
+    """Object ids of one scene in the file.
 
     Attributes
     ----------
     node : int
-        What its root bone and meshes hang from: a node of its own, or the file's root.
+        Parent of its root bone and meshes: its own node, or the file's root.
     channel_ids : dict of str to list of int
-        Channels that a morph of that name drives.
+        Ids of the channels for each morph name.
     """
 
     node: int = 0
@@ -181,10 +181,10 @@ def _model(
 
 
 def _unconnected_binds(scene: Scene) -> FloatArray:
-    """Bind transforms (J, 4, 4) in which no bone that changes its place lies exactly on its parent's y axis.
+    """Bind transforms (J, 4, 4), adjusted so that no translated bone lies exactly on its parent's y axis.
 
-    Blender takes the child at the end of that axis for connected and then drops its location keys, so such a bone is
-    bound a hundredth of a millimetre beside it.
+    Blender treats a child at the end of that axis as connected and drops its location keys, so such a bone is moved by
+    a hundredth of a millimetre.
     """
     binds = np.array(scene.meshes[0].world_from_bone_bind, dtype=np.float64)
     moving = scene.clip.translations_cm if scene.clip is not None else ()
@@ -245,7 +245,7 @@ def _add_skin(
 
 
 def _matrix(name: str, matrix: AnyFloatArray) -> Element:
-    """Stored column by column: the translation is in entries 12 to 14."""
+    """A matrix stored column by column: entries 12 to 14 are the translation."""
     return Element(name, (np.ascontiguousarray(matrix.T, dtype=np.float64).ravel(),))
 
 
@@ -274,7 +274,7 @@ def _add_morphs(graph: Assembly, figure: _Figure, mesh: SkinnedMesh, packed: Pac
 
 
 def _add_take(graph: Assembly, clip: Clip) -> tuple[int, FbxLayerCurves]:
-    """Stack and layer; the tick of the last key, and what adds curves to them."""
+    """Add animation stack and layer; returns the tick of the last key, and the writer of the layer's curves."""
     key_ticks = ticks.frame_ticks(clip.fps, clip.frames)
     last_tick = int(key_ticks[-1])
     spans = [

@@ -1,7 +1,7 @@
-"""Materials of an FBX file with their textures, which are files beside it.
+"""Writes materials of an FBX file, with textures as separate files.
 
-A texture takes the place of a property: FBX knows no factors for them, and no image of several values. So colours are
-multiplied into the image, and roughness, metal and opacity are images of their own, each named for every reader:
+In FBX a texture replaces a property: there are no factors, and no images of several values. So colours are multiplied
+into the image; roughness, metallic and opacity become separate images, each registered for all readers:
 
 - Blender's importer in Python: DiffuseColor, whose alpha it takes as the opacity of any material, NormalMap with
   BumpFactor, and ReflectionFactor as metal; the older importers of Unreal and three.js take the first two and
@@ -9,8 +9,8 @@ multiplied into the image, and roughness, metal and opacity are images of their 
   named, and the mean roughness stands in the properties.
 - ufbx, and with it Blender's newer importer and Godot: the maps of the Physical Material.
 
-A texture at ``scale * uv + offset`` is said as one that is moved by ``-offset / scale`` first (measured on both of
-Blender's importers).
+A texture at ``scale * uv + offset`` is written as a translation by ``-offset / scale`` before scaling (measured in both
+of Blender's importers).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _MAPS = "3dsMax|Parameters|"
 
 
 def material_object(graph: Assembly, material: Material) -> int:
-    """The id of a material's object, which is added with its textures when it is first asked for."""
+    """Return the id of a material's object, adding it with its textures on first use."""
     if material not in graph.materials:
         maps = fbx_maps(material)
         properties = _properties(_shown(material, maps), material.textures.normal_scale)
@@ -54,8 +54,9 @@ _PROPERTIES = {
 
 
 def fbx_maps(material: Material) -> dict[str, TextureUse]:
-    """Textures of a material as FBX has them, by role: ``color``, ``opacity``, ``normal``, ``roughness``,
-    ``metallic``."""
+    """Textures of a material as FBX needs them, by role: ``color``, ``opacity``, ``normal``, ``roughness``,
+    ``metallic``.
+    """
     textures, maps = material.textures, dict[str, TextureUse]()
     if textures.color is not None:
         solid = material.alpha_mode == "opaque"
@@ -75,7 +76,7 @@ def fbx_maps(material: Material) -> dict[str, TextureUse]:
 
 
 def _shown(material: Material, maps: Mapping[str, TextureUse]) -> Material:
-    """A material whose values are for readers that do not find its maps, and none besides them for those that do."""
+    """A material whose plain values suit readers that ignore its maps, and are neutral for those that use them."""
     if "color" in maps:
         material = replace(material, base_color=(1.0, 1.0, 1.0, 1.0))
     if "roughness" in maps:

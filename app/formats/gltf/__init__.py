@@ -1,1 +1,1 @@
-"""glTF 2.0 and VRM files -> plain values."""
+"""Reads and writes glTF 2.0 and VRM files."""

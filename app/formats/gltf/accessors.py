@@ -1,7 +1,7 @@
 """Checked access to a glTF document: fields, buffers, accessors.
 
-A document from anywhere may hold anything that JSON can, so every index, offset and size is checked before any byte is
-touched. Source: Khronos, "glTF 2.0 Specification", section 3.6.
+Documents are untrusted, so every index, offset and size is checked before bytes are accessed. Source: Khronos, "glTF
+2.0 Specification", section 3.6.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ _HARMLESS = (
 
 
 class Accessors:
-    """A document and its bytes; every method raises FileError for what is not as it should be.
+    """A glTF document with its bytes; every method raises FileError for invalid data.
 
     Parameters
     ----------
     size : int
-        The file's, in bytes.
+        Size of the file in bytes.
     unpacked : bytes
-        Contents of the last buffer where that has no address (`app.formats.gltf.packed`).
+        Contents of the last buffer if it has no address (`app.formats.gltf.packed`).
     """
 
     def __init__(
@@ -93,7 +93,7 @@ class Accessors:
         return value if isinstance(value, str) and value else otherwise
 
     def number(self, owner: object, name: str, otherwise: int | None = None) -> int:
-        """A count, offset or code: an integer that is not negative."""
+        """A count, offset or code: a non-negative integer; ``otherwise`` if it is missing."""
         value = field(owner, name)
         if value is None and otherwise is not None:
             return otherwise
@@ -139,7 +139,7 @@ class Accessors:
         return bytes(data)
 
     def data(self, uri: str) -> bytes:
-        """Contents of a data URI."""
+        """Decode a data URI."""
         try:
             return base64.b64decode(uri.partition(",")[2], validate=True)
         except (binascii.Error, ValueError) as error:
@@ -152,13 +152,13 @@ class Accessors:
         return buffer[start : start + length]
 
     def _place(self, number: object) -> tuple[bytes, int, int, int]:
-        """The buffer that a view is of, where it begins there, its length and its stride, which may be 0."""
+        """Buffer, start, length and stride (0 if none) of a buffer view."""
         views = self.items("bufferViews")
         view = views[self.index(number, len(views), "bufferView")]
         return *self._span(view), self.number(view, "byteStride", 0)
 
     def _span(self, view: object) -> tuple[bytes, int, int]:
-        """A buffer, and where a part of it begins and how long it is."""
+        """Buffer, start and length of a part of a buffer."""
         buffer = self._buffers[self.index(field(view, "buffer"), len(self._buffers), "buffer")]
         start, length = self.number(view, "byteOffset", 0), self.number(view, "byteLength")
         if start + length > len(buffer):
@@ -166,25 +166,25 @@ class Accessors:
         return buffer, start, length
 
     def part_of_buffer(self, view: object) -> bytes:
-        """The bytes that an object with the members of a buffer view is of."""
+        """The bytes described by an object with the fields of a buffer view."""
         buffer, start, length = self._span(view)
         self.take(length // 8)
         return buffer[start : start + length]
 
     def take(self, numbers: int) -> None:
-        """Refuse the file if it makes more of its bytes than any does, before the memory for it is asked for.
+        """Refuse the file if it expands more than real files do, before memory is allocated.
 
         Parameters
         ----------
         numbers : int
-            How many numbers of 8 bytes are to be made.
+            Count of 8-byte numbers about to be allocated.
         """
         self._left_bytes -= 8 * numbers
         if self._left_bytes < 0:
             raise FileError("gltf.too_large", file=self.file)
 
     def _view(self, number: object, offset: int, count: int, dtype: np.dtype[Any], width: int) -> npt.NDArray[Any]:
-        """Elements (count, width) of a buffer view, from an offset in bytes; a copy."""
+        """Elements (count, width) of a buffer view from an offset in bytes; a copy."""
         buffer, start, length, stride = self._place(number)
         element = dtype.itemsize * width
         stride = stride or element
@@ -197,7 +197,7 @@ class Accessors:
         return np.empty((0, width), dtype) if rows is None else rows.copy()
 
     def _accessor(self, number: object) -> tuple[Any, np.dtype[Any], int, int]:
-        """Accessor, its type, its numbers per element and its count."""
+        """Accessor object, data type, numbers per element and element count."""
         accessors = self.items("accessors")
         accessor = accessors[self.index(number, len(accessors), "accessor")]
         component = COMPONENTS.get(self.number(accessor, "componentType"))
@@ -207,7 +207,7 @@ class Accessors:
         return accessor, np.dtype(component), width, self.number(accessor, "count")
 
     def _sparse(self, accessor: object, dtype: np.dtype[Any], width: int, count: int) -> tuple[IntArray, Any]:
-        """Changed elements of an accessor and their values."""
+        """Changed elements of a sparse accessor and their values."""
         sparse = field(accessor, "sparse")
         if sparse is None:
             return np.empty(0, dtype=np.int64), np.empty((0, width), dtype)
@@ -225,7 +225,7 @@ class Accessors:
         return rows, self._view(field(values, "bufferView"), offset, changed, dtype, width)
 
     def _scaled(self, accessor: object, values: npt.NDArray[Any]) -> FloatArray:
-        """Numbers that are meant: integers may stand for fractions."""
+        """Convert normalised integers to fractions."""
         with np.errstate(invalid="ignore"):  # What is no number at all is refused below.
             result = values.astype(np.float64)
         if field(accessor, "normalized") is True and values.dtype.kind != "f":
@@ -247,21 +247,21 @@ class Accessors:
         return accessor, values
 
     def real(self, number: object, width: int) -> FloatArray:
-        """Accessor as numbers, shape (N, width)."""
+        """Accessor as floats (N, width)."""
         accessor, values = self._elements(number)
         if values.shape[1] != width:
             raise self.damaged("accessor type")
         return self._scaled(accessor, values)
 
     def whole(self, number: object, width: int) -> IntArray:
-        """Accessor as integers, shape (N, width)."""
+        """Accessor as integers (N, width)."""
         _, values = self._elements(number)
         if values.shape[1] != width or values.dtype.kind != "u":
             raise self.damaged("accessor type")
         return values.astype(np.int64)
 
     def changes(self, number: object, count: int) -> tuple[IntArray, FloatArray]:
-        """Rows of a (count, 3) accessor that are not zero, without filling in the others where they are not stored."""
+        """Indices and values of the non-zero rows of a (count, 3) accessor, without expanding sparse ones."""
         accessor, dtype, width, length = self._accessor(number)
         if width != 3 or length != count:
             raise self.damaged("morph target")

@@ -1,4 +1,4 @@
-"""Values of an animation's channels at given times.
+"""Samples an animation's channels at given times.
 
 Source: Khronos, "glTF 2.0 Specification", section 3.11 and appendix C (interpolation).
 """
@@ -16,7 +16,7 @@ _KEY_TOLERANCE = 1e-5
 
 
 def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
-    """Values (T, W) of a channel; before its first and after its last key it stands still. Rotations are unit ones."""
+    """Values (T, W) of a channel; constant before its first and after its last key. Rotations are normalised."""
     known = channel.times_s
     if channel.interpolation == "STEP":
         # Keys are float32 seconds, which may lie after the frame that they are meant for.
@@ -37,7 +37,7 @@ def sampled(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
 
 
 def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
-    """Return rotations as unit quaternions, other values as they are."""
+    """Normalise rotations; other values stay."""
     if channel.path != "rotation":
         return found
     size = np.linalg.norm(found, axis=1, keepdims=True)
@@ -45,7 +45,7 @@ def _unit(channel: GltfChannel, found: FloatArray) -> FloatArray:
 
 
 def _spline(keys: FloatArray, before: IntArray, after: IntArray, share: FloatArray, length_s: FloatArray) -> FloatArray:
-    """Hermite's cubic between keys (K, 3, W): tangent on the way in, value, tangent on the way out."""
+    """Cubic Hermite spline between keys (K, 3, W): in-tangent, value, out-tangent."""
     t, t2, t3 = share, share**2, share**3
     return np.asarray(
         (2.0 * t3 - 3.0 * t2 + 1.0) * keys[before, 1]

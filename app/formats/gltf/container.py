@@ -1,7 +1,7 @@
-"""The outer layer of a glTF file: its JSON document and the bytes beside it.
+"""Container of a glTF file: the JSON document and the binary chunk.
 
-Source: Khronos, "glTF 2.0 Specification", section 4 (GLB). Read here and not by a library because those make an object
-of every accessor of a character with hundreds of morph targets, which takes longer than everything else.
+Source: Khronos, "glTF 2.0 Specification", section 4 (GLB). Libraries are not used, since they create an object for
+every accessor, which is too slow for characters with hundreds of morph targets.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ BINARY: Final = 0x004E4942
 
 
 def field(owner: object, name: str) -> Any:
-    """A member of a JSON object; None where there is none, or no object."""
+    """A member of a JSON object; None if it is missing or the owner is no object."""
     return owner.get(name) if isinstance(owner, dict) else None
 
 
 def split(data: bytes, file: str) -> tuple[dict[str, Any], bytes | None]:
-    """The document of a file and its binary chunk, if it has one. Raises FileError."""
+    """Split a file into its document and its binary chunk, if any. Raises FileError."""
     text, binary = (data, None) if data[:4] != MAGIC else _chunks(data, file)
     try:
         document = json.loads(text.decode("utf-8-sig"))
@@ -37,7 +37,7 @@ def split(data: bytes, file: str) -> tuple[dict[str, Any], bytes | None]:
 
 
 def _chunks(data: bytes, file: str) -> tuple[bytes, bytes | None]:
-    """The JSON chunk and the first binary one; others are to be skipped, says the specification."""
+    """The JSON chunk and the first binary chunk; other chunks are skipped, as specified."""
     kinds: dict[int, bytes] = {}
     if len(data) < 12 or struct.unpack_from("<I", data, 4)[0] != 2:
         raise FileError("gltf.not_gltf", file=file)

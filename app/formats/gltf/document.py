@@ -1,4 +1,4 @@
-"""A glTF document under construction: its JSON, and the bytes that accessors refer to."""
+"""A glTF document under construction: its JSON, and the bytes of its accessors."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Pieces = list[bytes | memoryview]
 
 @dataclass
 class _Buffer:
-    """The binary chunk while it is put together: a view for every kind of data, and equal data once."""
+    """The binary chunk under construction: one view for each kind of data; equal data is stored once."""
 
     views: list[gltf.BufferView] = field(default_factory=list)
     _index: dict[str, int] = field(default_factory=dict)
@@ -33,7 +33,7 @@ class _Buffer:
     _starts: dict[tuple[str, bytes], int] = field(default_factory=dict)
 
     def add(self, kind: str, values: npt.NDArray[Any], target: int | None, stride: int | None) -> tuple[int, int]:
-        """Index of the view of a kind and a stride, and where in it the values are."""
+        """Add values; returns the index of the view for a kind and stride, and the offset within it."""
         kind = f"{kind} {stride}"
         if kind not in self._index:
             self._index[kind] = len(self.views)
@@ -51,7 +51,7 @@ class _Buffer:
         return view, start
 
     def pieces(self) -> Pieces:
-        """All bytes, and says in the views where each begins."""
+        """Return all bytes, and set the offsets of the views."""
         start = 0
         for view in self.views:
             view.byteOffset = start
@@ -61,7 +61,7 @@ class _Buffer:
 
 @dataclass
 class GlbDocument:
-    """A document under construction."""
+    """A glTF document under construction."""
 
     gltf: gltf.GLTF2
     buffer: _Buffer = field(default_factory=_Buffer)
@@ -75,7 +75,7 @@ class GlbDocument:
         bounds: bool = False,
         flat: bool = False,
     ) -> int:
-        """Index of an accessor of values (N,) or (N, width); flat: every number is an element."""
+        """Add an accessor of values (N,) or (N, width), and return its index; ``flat``: every number is an element."""
         width = 1 if flat or values.ndim == 1 else values.shape[1]
         stride = values.itemsize * width if target == gltf.ARRAY_BUFFER else None
         view, start = self.buffer.add(kind, values, target, stride)
@@ -92,7 +92,7 @@ class GlbDocument:
         )
 
     def sparse(self, count: int, rows: AnyIntArray, values: SingleArray) -> int:
-        """Index of an accessor of vectors (count, 3) of which only some rows are not zero."""
+        """Add a sparse accessor of vectors (count, 3) with few non-zero rows, and return its index."""
         if not len(rows):  # legal without any, but assimp refuses an accessor that has no bytes
             rows, values = np.zeros(1, np.int64), np.zeros((1, 3), np.float32)
         bounds = values if len(rows) == count else np.concatenate([np.zeros((1, 3), np.float32), values])
@@ -118,7 +118,7 @@ class GlbDocument:
         return self._add(accessor)
 
     def blob(self, kind: str, content: bytes) -> int:
-        """Index of a view of its own that holds some bytes."""
+        """Add a separate view with some bytes, and return its index."""
         return self.buffer.add(kind, np.frombuffer(content, np.uint8), None, None)[0]
 
     def _add(self, accessor: gltf.Accessor) -> int:
@@ -127,5 +127,5 @@ class GlbDocument:
 
 
 def listed(values: npt.NDArray[Any]) -> list[float]:
-    """Numbers as JSON has them."""
+    """Numbers as a list for JSON."""
     return [float(value) for value in values]

@@ -1,6 +1,6 @@
-"""Contents of a glTF file, as plain values.
+"""Contents of a glTF file as plain values.
 
-Units are glTF's: metres, right-handed, Y up, quaternions xyzw.
+Units as in glTF: metres, right-handed, Y up, quaternions xyzw.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from app.arrays import FloatArray, IntArray
 
 @dataclass(frozen=True, eq=False)
 class GltfMorph:
-    """A morph target: the vertices it moves.
+    """A morph target with the vertices it moves.
 
     Attributes
     ----------
     name : str
-        From the mesh's ``extras.targetNames``; else ``morph_0`` ...
+        Name in the mesh's ``extras.targetNames``; else ``morph_0`` ...
     vertex_indices : ndarray of int64, shape (K,)
     position_deltas : ndarray, shape (K, 3)
     normal_deltas : ndarray, shape (K, 3), or None
@@ -40,10 +40,10 @@ class GltfPrimitive:
     positions : ndarray, shape (V, 3)
     normals : ndarray, shape (V, 3), or None
     uvs : ndarray, shape (V, 2), or None
-        First set; v points down, as glTF has it.
+        First set; v points down, as in glTF.
     triangles : ndarray of int64, shape (T, 3)
     joint_indices : ndarray of int64, shape (V, 4 * sets)
-        Into the skin's joints; all sets side by side, no columns without a skin.
+        Indices into the skin's joints, all sets side by side; no columns without a skin.
     weights : ndarray, shape (V, 4 * sets)
     """
 
@@ -59,14 +59,14 @@ class GltfPrimitive:
 
 @dataclass(frozen=True, eq=False)
 class GltfMesh:
-    """A mesh: its parts of one material each."""
+    """A mesh: one primitive for each material."""
 
     name: str
     primitives: tuple[GltfPrimitive, ...]
 
     @property
     def morph_names(self) -> tuple[str, ...]:
-        """Names of its morph targets, which all its parts have."""
+        """Names of the morph targets, shared by all primitives."""
         return tuple(morph.name for morph in self.primitives[0].morphs) if self.primitives else ()
 
 
@@ -79,7 +79,7 @@ class GltfSkin:
     joints : tuple of int
         Indices of nodes.
     joint_from_mesh_bind : ndarray, shape (J, 4, 4)
-        The inverse bind matrices, for column vectors.
+        Inverse bind matrices, for column vectors.
     """
 
     name: str
@@ -89,7 +89,7 @@ class GltfSkin:
 
 @dataclass(frozen=True)
 class GltfTextureUse:
-    """An image as a material uses it, with the scale and offset of ``KHR_texture_transform``."""
+    """A texture reference of a material, with scale and offset of ``KHR_texture_transform``."""
 
     image: int
     scale: tuple[float, float] = (1.0, 1.0)
@@ -98,7 +98,7 @@ class GltfTextureUse:
 
 @dataclass(frozen=True)
 class GltfMaterial:
-    """A metallic-roughness surface; colours are linear."""
+    """A metallic-roughness material; colours are linear."""
 
     name: str
     base_color_rgba: tuple[float, float, float, float]
@@ -122,7 +122,7 @@ class GltfNode:
     Attributes
     ----------
     parent : int
-        -1: none.
+        Index of the parent; -1: none.
     translation : ndarray, shape (3,)
     rotation_xyzw : ndarray, shape (4,)
     scale : ndarray, shape (3,)
@@ -145,11 +145,11 @@ class GltfChannel:
     Attributes
     ----------
     path : str
-        ``translation``, ``rotation``, ``scale`` or ``weights``.
+        Animated property: ``translation``, ``rotation``, ``scale`` or ``weights``.
     interpolation : str
         ``LINEAR``, ``STEP`` or ``CUBICSPLINE``.
     times_s : ndarray, shape (K,)
-        Ascending.
+        Key times, ascending.
     values : ndarray, shape (K, W), or (3 * K, W) of cubic splines
     """
 
@@ -167,11 +167,11 @@ class GltfAnimation:
     Attributes
     ----------
     channels : tuple of GltfChannel
-        Of nodes' transforms.
+        Channels of nodes' transforms.
     weights : tuple of GltfChannel
-        Of the morphs of the meshes on nodes; only where they were asked for.
+        Channels of morph weights, by node; only if requested.
     extras : mapping
-        Its ``extras``.
+        The animation's ``extras``.
     """
 
     name: str
@@ -182,7 +182,7 @@ class GltfAnimation:
 
 @dataclass(frozen=True, eq=False)
 class GltfImage:
-    """An image: the bytes of its file, not decoded; empty if it is not in the glTF file."""
+    """An image: the undecoded bytes of its file; empty if it is not in the glTF file."""
 
     name: str
     content: bytes
@@ -190,24 +190,24 @@ class GltfImage:
 
 @dataclass(frozen=True, eq=False)
 class GltfModel:
-    """A whole file.
+    """Contents of a glTF file.
 
     Attributes
     ----------
     nodes : tuple of GltfNode
-        In the file's order, which need not have parents first.
+        Nodes in file order; parents need not come first.
     meshes, skins, materials : tuples
     images : tuple of GltfImage
     extensions : mapping
-        The document's, e.g. ``VRMC_vrm``, as parsed JSON.
+        Extensions of the document, such as ``VRMC_vrm``, as parsed JSON.
     scene_extras : mapping
-        The ``extras`` of the scene that is shown.
+        The ``extras`` of the default scene.
     generator : str
-        The program that wrote the file.
+        Program that wrote the file.
     animations : tuple of GltfAnimation
-        Only where they were asked for.
+        Animations; only if requested.
     size_bytes : int
-        Of the file and of what lies beside it.
+        Total size of the file and its external files.
     """
 
     nodes: tuple[GltfNode, ...]

@@ -1,7 +1,7 @@
-"""Documents whose meshes or buffers are compressed -> the same without compression.
+"""Decompresses the meshes and buffers of glTF documents.
 
-Read are KHR_draco_mesh_compression (by DracoPy) and EXT_meshopt_compression, also under its later name KHR (by
-meshopt), in a process of its own. Source: the extensions' texts in Khronos' glTF repository.
+Supports KHR_draco_mesh_compression (with DracoPy) and EXT_meshopt_compression, also under its later KHR name (with
+meshopt), in a separate process. Source: the extensions' texts in Khronos' glTF repository.
 """
 
 from __future__ import annotations
@@ -38,26 +38,26 @@ _NOTHING: Final = {"byteLength": 0, "uri": "data:,"}
 
 
 def unpacked(document: dict[str, Any], binary: bytes | None, file: str, size: int) -> tuple[dict[str, Any], bytes]:
-    """Unpack what a document says must be.
+    """Decompress everything compressed in a document.
 
     Parameters
     ----------
     document, binary
-        Of the file, as `app.formats.gltf.container.split` returns them.
+        Parts of the file, from `app.formats.gltf.container.split`.
     size : int
-        The file's, in bytes.
+        Size of the file in bytes.
 
     Returns
     -------
     dict of str to Any
-        The document without compression; the same where there is none.
+        The document without compression; the same object if there is none.
     bytes
-        Contents of its last buffer, which has no address; empty where nothing was unpacked.
+        Contents of its last buffer, which has no address; empty if nothing was decompressed.
 
     Raises
     ------
     FileError
-        Damaged, too much, or the library that reads it is not installed.
+        The data is damaged or too large, or the required library is not installed.
     """
     required = document.get("extensionsRequired")
     required = required if isinstance(required, list) else []
@@ -76,7 +76,7 @@ def unpacked(document: dict[str, Any], binary: bytes | None, file: str, size: in
 
 
 def _is_fallback(buffer: object) -> bool:
-    """Return whether a buffer has no bytes of its own: its views are all compressed ones."""
+    """Return whether a buffer has no bytes, because all of its views are compressed."""
     extensions = member(buffer, "extensions")
     marked = any(member(member(extensions, name), "fallback") is True for name in MESHOPT)
     return marked and member(buffer, "uri") is None
@@ -84,19 +84,20 @@ def _is_fallback(buffer: object) -> bool:
 
 @dataclass(eq=False)
 class _Unpacking:
-    """A document while its compressed parts are unpacked.
+    """State while the compressed parts of a document are replaced.
 
     Attributes
     ----------
     reader : Accessors
-        Of the document.
+        Access to the document.
     required : sequence of str
-        Extensions without which it cannot be read.
+        Extensions required to read it.
     parts : list of PackedPart
+        The compressed parts.
     places : list
-        Where each part belongs: a view's number, or the number of a mesh and of its primitive.
+        Place of each part: index of a view, or indices of a mesh and its primitive.
     data : bytearray
-        The bytes of the buffer with what was unpacked.
+        Bytes of the buffer with decompressed data.
     """
 
     reader: Accessors
@@ -119,7 +120,7 @@ class _Unpacking:
         }
 
     def collect(self) -> None:
-        """Find the parts that are compressed."""
+        """Collect the compressed parts."""
         reader, views = self.reader, self.document["bufferViews"]
         for number, view in enumerate(views):
             extensions = reader.mapping(view, "extensions")
@@ -147,7 +148,7 @@ class _Unpacking:
         return MeshoptPart(reader.part_of_buffer(packed), reader.number(packed, "count"), stride, mode, filtering)  # type: ignore[arg-type]
 
     def put(self, unpacked: Sequence[Mapping[str, UnpackedArray]]) -> None:
-        """Put what was unpacked in the place of the parts, in a buffer of its own."""
+        """Replace the parts by their decompressed data in a new buffer."""
         self.document["buffers"].append({"byteLength": 0})
         for place, part, arrays in zip(self.places, self.parts, unpacked, strict=True):
             if isinstance(part, MeshoptPart) and isinstance(place, int):
@@ -171,7 +172,7 @@ class _Unpacking:
         primitives[order] = {**primitive, "attributes": attributes}
 
     def _accessor(self, number: object, array: UnpackedArray, otherwise: str) -> int:
-        """Number of a new accessor of unpacked values, of the kind that the file's own one has."""
+        """Index of a new accessor of decompressed values, with the type of the original accessor."""
         accessors = self.reader.items("accessors")
         own = accessors[self.reader.index(number, len(accessors), "accessor")] if number is not None else {}
         kind = self.reader.text(own, "type", otherwise)
@@ -189,7 +190,7 @@ class _Unpacking:
         return len(self.document["accessors"]) - 1
 
     def _view(self, data: bytes) -> dict[str, Any]:
-        """A view of bytes that are appended to the buffer."""
+        """Append bytes to the buffer, and return a view of them."""
         start = len(self.data)
         self.data += data + bytes(-len(data) % 4)
         return {"buffer": len(self.document["buffers"]) - 1, "byteOffset": start, "byteLength": len(data)}
@@ -198,7 +199,7 @@ class _Unpacking:
 def _answer(
     parts: list[PackedPart], file: str, size: int, names: Sequence[str]
 ) -> Sequence[Mapping[str, UnpackedArray]]:
-    """Have parts unpacked by the child. Raises FileError."""
+    """Decompress parts in the child process. Raises FileError."""
     most = FREE_BYTES + MOST_TIMES * size
     if sum(part.count * part.stride for part in parts if isinstance(part, MeshoptPart)) > most:
         raise FileError("gltf.too_large", file=file)

@@ -1,6 +1,6 @@
-"""Unpacks compressed parts of one glTF file by DracoPy and meshopt; a process of its own (`app.formats.reading_child`).
+"""Child process that decompresses parts of a glTF file with DracoPy and meshopt (`app.formats.reading_child`).
 
-A library is imported only where a part is for it: there may be no wheel for some Python.
+A library is imported only if a part needs it, since it may be unavailable for some Python versions.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from app.formats.reading_child import NO_MEMORY, NO_READER, UNREADABLE
 
 
 def meshopt_rows(part: MeshoptPart) -> dict[str, UnpackedArray]:
-    """The bytes of a buffer view."""
+    """Decompress the bytes of a buffer view."""
     import meshopt
 
     rows = meshopt.decode_gltf_buffer(part.data, part.count, part.stride, part.mode, part.filter)
@@ -34,7 +34,7 @@ def meshopt_rows(part: MeshoptPart) -> dict[str, UnpackedArray]:
 
 
 def draco_arrays(part: DracoPart) -> dict[str, UnpackedArray]:
-    """Attributes and triangles of a primitive. Raises KeyError where it lacks an attribute."""
+    """Decompress attributes and triangles of a primitive. Raises KeyError if an attribute is missing."""
     import DracoPy
 
     mesh = DracoPy.decode(part.data)
@@ -50,7 +50,7 @@ def _array(values: npt.NDArray[Any]) -> UnpackedArray:
 
 
 def unpack(request: PackedParts) -> list[dict[str, UnpackedArray]]:
-    """Unpack parts one after another. Raises MemoryError where they become more than they may."""
+    """Decompress parts one after another. Raises MemoryError if they exceed the limit."""
     left, unpacked = request.most_bytes, []
     for part in request.parts:
         arrays = meshopt_rows(part) if isinstance(part, MeshoptPart) else draco_arrays(part)

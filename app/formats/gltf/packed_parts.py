@@ -1,4 +1,4 @@
-"""Compressed parts of glTF files, as they go to the process that unpacks them (`packed_child`), and what comes back."""
+"""Messages exchanged with the child process that decompresses glTF files (`packed_child`)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Filter: TypeAlias = Literal["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "
 
 
 class MeshoptPart(msgspec.Struct, frozen=True, tag="meshopt"):
-    """A buffer view under EXT_meshopt_compression: ``count`` elements of ``stride`` bytes."""
+    """A buffer view with EXT_meshopt_compression: ``count`` elements of ``stride`` bytes."""
 
     data: bytes
     count: int
@@ -25,7 +25,7 @@ class MeshoptPart(msgspec.Struct, frozen=True, tag="meshopt"):
 
 
 class DracoPart(msgspec.Struct, frozen=True, tag="draco"):
-    """A primitive under KHR_draco_mesh_compression: Draco's ids of its attributes, by their names in the file."""
+    """A primitive with KHR_draco_mesh_compression: Draco's ids of its attributes, by name in the file."""
 
     data: bytes
     attributes: dict[str, int]
@@ -35,14 +35,14 @@ PackedPart: TypeAlias = MeshoptPart | DracoPart
 
 
 class PackedParts(msgspec.Struct, frozen=True):
-    """Request to unpack parts; all of them together become no more than ``most_bytes``."""
+    """Request to decompress parts to at most ``most_bytes`` in total."""
 
     parts: list[PackedPart]
     most_bytes: int
 
 
 class UnpackedArray(msgspec.Struct, frozen=True):
-    """Rows of ``width`` numbers of a kind (`numpy.dtype.str`)."""
+    """Rows of ``width`` numbers of one type (`numpy.dtype.str`)."""
 
     kind: str
     width: int

@@ -1,4 +1,4 @@
-"""Meshes of a scene in the form glTF stores them: triangles of one material, whose vertices have one normal each."""
+"""Converts meshes of a scene to glTF primitives: triangles of one material with one normal per vertex."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class Primitive:
     material : int
         Index into the mesh's materials.
     vertices : ndarray of int, shape (V,)
-        The mesh's vertex that each of these is, in the mesh's order; one comes several times where its corners have
-        different normals or UVs.
+        Index of the mesh's vertex for each vertex here, in the mesh's order; repeated where corners differ in normal or
+        UV.
     normals : ndarray, shape (V, 3)
         Unit length.
     uvs : ndarray, shape (V, 2), or None
@@ -36,7 +36,7 @@ class Primitive:
 
 
 def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
-    """One primitive for each material that has a face, with the vertices that it uses."""
+    """One primitive for each material that has faces, with the vertices it uses."""
     faces, corners = len(mesh.faces), mesh.faces.shape[1]
     own = np.zeros(faces, dtype=np.int64) if mesh.face_materials is None else mesh.face_materials
     result = []
@@ -51,7 +51,7 @@ def primitives(mesh: SkinnedMesh) -> tuple[Primitive, ...]:
 
 
 def _primitive(mesh: SkinnedMesh, material: int, triangles: AnyIntArray) -> Primitive:
-    """Primitive of triangles whose corners are numbered through the mesh."""
+    """Primitive of triangles given by corner indices of the mesh."""
     places = triangles.ravel()
     vertices = mesh.faces.ravel()[places]
     count = len(mesh.vertices_cm)

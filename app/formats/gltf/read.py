@@ -1,8 +1,8 @@
-"""glTF 2.0 files (``.glb``, ``.gltf``) -> plain values.
+"""Reads glTF 2.0 files (``.glb``, ``.gltf``) as plain values.
 
-Every index, offset and size is checked before any byte is touched, since characters come from anywhere. Nothing outside
-the file's folder is ever opened. Units stay glTF's: metres, right-handed, Y up, quaternions xyzw. Source: Khronos,
-"glTF 2.0 Specification", sections 3.6 (buffers and accessors), 3.7 (geometry, skins, morph targets) and 4 (GLB).
+Files are untrusted, so every index, offset and size is checked before bytes are accessed, and nothing outside the
+file's folder is opened. Units as in glTF: metres, right-handed, Y up, quaternions xyzw. Source: Khronos, "glTF 2.0
+Specification", sections 3.6 (buffers and accessors), 3.7 (geometry, skins, morph targets) and 4 (GLB).
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
 class _Vertices(NamedTuple):
-    """Arrays by vertex for a `GltfPrimitive`."""
+    """Vertex arrays for a `GltfPrimitive`."""
 
     positions: FloatArray
     normals: FloatArray | None
@@ -61,20 +61,20 @@ def read_glb(path: str | os.PathLike[str], *, animated: bool = False, morphing: 
     Parameters
     ----------
     animated : bool
-        Whether animations are read too; most files are read for what they show.
+        Whether to read animations.
     morphing : bool
-        Whether those of morphs are.
+        Whether to read animations of morphs.
 
     Raises
     ------
     FileError
-        If it cannot be read, is damaged, or needs a file that is not in its folder.
+        The file cannot be read, is damaged, or needs a file outside its folder.
     """
     return decode_gltf(read_whole(path), os.fspath(path), animated=animated, morphing=morphing)
 
 
 def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: bool = False) -> GltfModel:
-    """Model of a file's bytes, as `read_glb`."""
+    """Decode a file's bytes, as `read_glb`."""
     document, binary = split(data, file)
     document, parts = unpacked(document, binary, file, len(data))
     reader = _Reader(document, binary, file, len(data), parts)
@@ -97,7 +97,7 @@ def decode_gltf(data: bytes, file: str, *, animated: bool = False, morphing: boo
 
 
 class _Reader(Accessors):
-    """Makes values of a checked document."""
+    """Converts a checked document to plain values."""
 
     def mesh(self, mesh: object, index: int) -> GltfMesh:
         primitives = self.items("primitives", mesh)
@@ -112,7 +112,7 @@ class _Reader(Accessors):
         )
 
     def check_instances(self, nodes: tuple[GltfNode, ...], meshes: tuple[GltfMesh, ...]) -> None:
-        """Refuse a file that shows its meshes so often that it is a scene, or meant to fill the memory."""
+        """Refuse a file that shows its meshes too many times for a character, which would fill the memory."""
         sizes = [_size(mesh) for mesh in meshes]
         shown = sum(sizes[node.mesh] for node in nodes if node.mesh is not None)
         if shown > _FREE_NUMBERS + 2 * sum(sizes):
@@ -216,8 +216,9 @@ class _Reader(Accessors):
         return GltfSkin(self.text(skin, "name", ""), joints, matrices)
 
     def animation(self, animation: object, morph_counts: Sequence[int]) -> GltfAnimation:
-        """Channels of nodes' transforms and, of the nodes that have a count of them, of morphs; those of extensions are
-        left out."""
+        """Channels of nodes' transforms and of morphs for nodes with ``morph_counts``; channels of extensions are
+        skipped.
+        """
         nodes, samplers = self.items("nodes"), self.items("samplers", animation)
         channels: list[GltfChannel] = []
         weights: list[GltfChannel] = []
@@ -269,8 +270,9 @@ class _Reader(Accessors):
         return otherwise if value is None else self.finite([value], 1, name)[0]
 
     def _texture(self, use: object) -> GltfTextureUse | None:
-        """A texture that a material uses; None where its image is of an extension that is not known, or it lies by
-        texture coordinates of another set than the first."""
+        """A texture reference of a material; None if its image needs an unknown extension, or it uses other than the
+        first UV set.
+        """
         if use is None:
             return None
         textures = self.items("textures")
@@ -287,8 +289,7 @@ class _Reader(Accessors):
         return GltfTextureUse(image, (scale_u, scale_v), (offset_u, offset_v))
 
     def images(self) -> tuple[GltfImage, ...]:
-        """The images' files; empty where one lies elsewhere, which is not needed. The same bytes are there once,
-        however many images they are."""
+        """The image files; empty for external ones, which are not needed. Equal bytes are shared."""
         blobs: dict[int, bytes] = {}
         found = []
         for image in self.items("images"):
@@ -321,7 +322,7 @@ class _Reader(Accessors):
         return tuple(self._node(node, number, parents[number]) for number, node in enumerate(nodes))
 
     def _check_depth(self, parents: list[int]) -> None:
-        """Refuse circles, and nodes that hang from more others than any figure's."""
+        """Refuse cycles and excessive nesting of nodes."""
         children: list[list[int]] = [[] for _ in parents]
         for number, parent in enumerate(parents):
             if parent >= 0:
@@ -360,7 +361,7 @@ class _Reader(Accessors):
         )
 
     def _parts(self, matrix: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Translation, rotation and scale of a matrix; the specification allows no others."""
+        """Translation, rotation and scale of a matrix, the only transforms that glTF allows."""
         scale: FloatArray = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
         if not (scale > 1e-12).all():
             raise self.damaged("matrix")
@@ -390,7 +391,7 @@ class _Reader(Accessors):
 
 
 def _size(mesh: GltfMesh) -> int:
-    """Return how many numbers a mesh has, and some for the work that each part of it makes."""
+    """Return the count of numbers of a mesh, plus an allowance for each primitive."""
     shared = {id(primitive.positions): primitive for primitive in mesh.primitives}
     size = sum(256 + primitive.triangles.size for primitive in mesh.primitives)
     for primitive in shared.values():

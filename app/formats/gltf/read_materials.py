@@ -1,4 +1,4 @@
-"""Materials of a glTF file as those of a scene, with their textures."""
+"""Converts materials of a glTF file to scene materials with textures."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def scene_materials(model: GltfModel, *, own: bool) -> tuple[Material, ...]:
     Parameters
     ----------
     own : bool
-        Whether the file is one of ours, whose images are not looked at.
+        Whether this program wrote the file, so that its images need not be checked.
     """
     contents = {id(image.content): len(image.content) for image in model.images}
     images = ImageReader(sum(contents.values()), own)

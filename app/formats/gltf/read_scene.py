@@ -1,8 +1,8 @@
-"""GLB file -> scene: for reading back what `app.formats.gltf.write` wrote.
+"""Reads GLB files written by `app.formats.gltf.write` back into scenes.
 
-It understands what that writes: bones below one root without scaling, meshes on one skin, one animation whose rate and
-length are in its extras. Anything else is refused, never quietly misread. glTF has a vertex several times where its
-corners differ, and in the order of the materials; the scene has those of the meshes that were written.
+Supports only what that writer produces: bones below one root without scaling, meshes on one skin, one animation with
+rate and length in its extras. Everything else raises an error, never a silent misreading. glTF splits vertices where
+corners differ and orders them by material; the scene gets the vertices of the written meshes.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from app.formats.scene import Bone, Clip, MorphTarget, NodePlace, Scene, Skinned
 
 
 def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> Scene:
-    """Read a file of one scene as `write_glb` writes it.
+    """Read a file with one scene written by `write_glb`.
 
-    Normals and UVs come per corner. A vertex without a face is not in the file: it is at the origin.
+    Normals and UVs are per corner. A vertex without a face is missing in the file and put at the origin.
 
     Parameters
     ----------
     written : sequence of SkinnedMesh
-        The meshes that were written, for the numbers of their vertices.
+        The written meshes, for their vertex order.
 
     Raises
     ------
     FileError
-        If the file is no such file.
+        The file is not of that form.
     """
     file, model = os.fspath(path), read_glb(path, animated=True, morphing=True)
     if len(model.skins) != 1 or len(model.animations) > 1 or len(model.meshes) != len(written):
@@ -65,7 +65,7 @@ def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> 
 
 
 def _mesh(model: GltfModel, mesh: GltfMesh, skin: GltfSkin, written: SkinnedMesh) -> SkinnedMesh:
-    """A mesh with the numbers of its vertices; ValueError where the file has others."""
+    """A mesh with the written vertex order; ValueError if the file's vertices do not match."""
     numbers = [primitive.vertices for primitive in primitives(written)]
     if [len(one) for one in numbers] != [len(primitive.positions) for primitive in mesh.primitives]:
         raise ValueError(f"mesh {mesh.name!r}")
@@ -105,7 +105,7 @@ def _uvs(corners: Sequence[AnyIntArray], mesh: GltfMesh) -> FloatArray:
 
 
 def _morph(mesh: GltfMesh, number: int, numbers: Sequence[AnyIntArray]) -> MorphTarget:
-    """A morph target; a vertex that the file has several times is moved once."""
+    """A morph target; vertices split in the file are merged."""
     found = [primitive.morphs[number] for primitive in mesh.primitives]
     rows = np.concatenate([own[morph.vertex_indices] for own, morph in zip(numbers, found, strict=True)])
     vertices, first = np.unique(rows, return_index=True)
@@ -116,7 +116,7 @@ def _morph(mesh: GltfMesh, number: int, numbers: Sequence[AnyIntArray]) -> Morph
 
 
 def _clip(model: GltfModel, animation: GltfAnimation, row_of: Mapping[int, int], bones: tuple[Bone, ...]) -> Clip:
-    """The clip of an animation; LookupError or ValueError where it lacks rate and length."""
+    """The clip of an animation; LookupError or ValueError if rate or length is missing."""
     fps, times_s = clip_frames(animation)
     frames = len(times_s)
     rotations = np.tile(np.stack([np.asarray(bone.rotation_xyzw, np.float64) for bone in bones]), (frames, 1, 1))
@@ -137,7 +137,7 @@ def _clip(model: GltfModel, animation: GltfAnimation, row_of: Mapping[int, int],
 
 
 def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
-    """Rate of a written animation and the times (F,) of its frames; LookupError or ValueError where it says neither."""
+    """Rate of a written animation and the times (F,) of its frames; LookupError or ValueError if they are missing."""
     fps, frames = Fraction(str(animation.extras["framesPerSecond"])), int(animation.extras["frames"])
     last_s = max((channel.times_s[-1] for channel in (*animation.channels, *animation.weights)), default=0.0)
     if fps <= 0 or not 1 <= frames <= last_s * float(fps) + 1.5:
@@ -146,6 +146,6 @@ def clip_frames(animation: GltfAnimation) -> tuple[Fraction, FloatArray]:
 
 
 def channel_values(channel: GltfChannel, times_s: FloatArray) -> FloatArray:
-    """Values (F, W) of a channel at all frames: its keys, where it has one on each."""
+    """Values (F, W) of a channel at all frames."""
     on_every_frame = len(channel.times_s) == len(times_s) and channel.interpolation == "LINEAR"
     return channel.values if on_every_frame else sampled(channel, times_s)

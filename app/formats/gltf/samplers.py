@@ -1,4 +1,4 @@
-"""The animation of a glTF file: a sampler for every bone's rotation and place, and one for all morphs of a mesh."""
+"""Animation of a glTF file: a sampler for every bone's rotation and translation, and one for all morphs of a mesh."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ METRES = 0.01
 
 
 class Samplers:
-    """The one animation of a file, to which clips are added.
+    """The animation of a file, to which clips are added.
 
     Parameters
     ----------
     document : GlbDocument
     clip : Clip
-        The first of them.
+        The first clip.
     """
 
     def __init__(self, document: GlbDocument, clip: Clip) -> None:
@@ -39,7 +39,7 @@ class Samplers:
         document.gltf.animations.append(self._animation)
 
     def add_clip(self, scene: Scene, clip: Clip, first: int, mesh_nodes: Sequence[int]) -> None:
-        """Add what the bones of a scene, from the node `first` on, and the meshes on their nodes do."""
+        """Add the animation of a scene's bones, whose nodes begin at `first`, and of its meshes' morphs."""
         keys = clip.keys
         slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         for bone in range(len(scene.bones)):
@@ -65,8 +65,9 @@ class Samplers:
         flat: bool = False,
         slopes_fps: float = 0.0,
     ) -> None:
-        """Animate one property; `values` has a row per frame, with keys at some frames or at all; cubic ones at a frame
-        rate, linear ones at none."""
+        """Animate one property; `values` has a row per frame. Keys are at the given frames or all; cubic if a frame
+        rate is given, else linear.
+        """
         interpolation = gltf.ANIM_LINEAR
         if frames is not None:
             seen = values if slopes_fps else values[frames]
@@ -83,7 +84,7 @@ class Samplers:
         self._animation.channels.append(gltf.AnimationChannel(sampler=len(self._animation.samplers) - 1, target=target))
 
     def _input(self, frames: AnyIntArray | None) -> int:
-        """The accessor of the times of keys at some frames, or at all."""
+        """Index of the accessor of key times, at some frames or all."""
         known = b"" if frames is None else frames.tobytes()
         if known not in self._times:
             seconds = self._seconds if frames is None else self._seconds[frames]
@@ -92,8 +93,7 @@ class Samplers:
 
 
 def _with_slopes(values: SingleArray, frames: AnyIntArray, fps: float) -> SingleArray:
-    """Rows (3 K, W) of cubic keys: of each the slope per second that it is reached with, its value, and the slope that
-    it is left with."""
+    """Rows (3 K, W) of cubic keys: in-slope per second, value, and out-slope."""
     slopes = span_slopes(values.astype(np.float64), frames) * fps
     rows = np.zeros((len(frames), 3, values.shape[1]), np.float32)
     rows[:, 1] = values[frames]
@@ -102,11 +102,11 @@ def _with_slopes(values: SingleArray, frames: AnyIntArray, fps: float) -> Single
 
 
 def weights_move(clip: Clip | None, mesh: SkinnedMesh) -> bool:
-    """Return whether a clip has weights of a mesh's morph targets."""
+    """Return whether a clip animates a mesh's morph targets."""
     return clip is not None and any(morph.name in clip.morph_weights for morph in mesh.morphs)
 
 
 def _weights(clip: Clip, names: Iterable[str]) -> SingleArray:
-    """Weights (F, T) of a mesh's targets; those that the clip does not move rest at zero."""
+    """Weights (F, T) of a mesh's targets; 0 for those that the clip does not animate."""
     rest = np.zeros(clip.frames)
     return np.stack([clip.morph_weights.get(name, rest) for name in names], axis=1).astype(np.float32)

@@ -1,7 +1,7 @@
-"""A glTF file with everything it needs in it: what lies beside it becomes data URIs.
+"""Makes glTF files self-contained by converting external files to data URIs.
 
-A document may name its buffers and images by addresses. Followed are those that lead to a file in the document's own
-folder or below it, after links are resolved. Source: Khronos, "glTF 2.0 Specification", section 2.8 (URIs).
+Addresses of buffers and images are followed only to files in the document's folder or below it, after links are
+resolved. Source: Khronos, "glTF 2.0 Specification", section 2.8 (URIs).
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ _SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
 def read_whole(path: str | os.PathLike[str]) -> bytes:
-    """Read a glTF file; the same bytes where it needs no other file, or is none.
+    """Read a glTF file with its external files embedded; unchanged bytes if there are none or it is no glTF file.
 
-    Images that cannot be had are left as they are: only colours come from them.
+    Images that cannot be read are left out, since only colours depend on them.
 
     Raises
     ------
     FileError
-        ``gltf.external`` if a buffer is not in the file's folder; those of reading.
+        A buffer is outside the file's folder, or a file cannot be read.
     """
     file, data = Path(path), read_file(path, MOST_BYTES)
     if b'"uri"' not in data or not (data[:4] == MAGIC or data[:64].lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"):
@@ -68,7 +68,7 @@ def read_whole(path: str | os.PathLike[str]) -> bytes:
 
 
 def _inside(file: Path, uri: str) -> Path:
-    """The file that an address leads to. Raises FileError where that is not in the document's folder or below it."""
+    """The file at an address. Raises FileError if it is outside the document's folder."""
     name = unquote(uri)
     if _SCHEME.match(name) or name.startswith(("/", "\\")) or "\0" in name:
         raise _external(file, uri)
@@ -87,7 +87,7 @@ def _external(file: Path, uri: str) -> FileError:
 
 
 def _joined(document: dict[str, Any], binary: bytes | None) -> bytes:
-    """A document and its binary chunk as a file."""
+    """Join a document and its binary chunk as a GLB file."""
     text = json.dumps(document, ensure_ascii=False).encode()
     if binary is None:
         return text

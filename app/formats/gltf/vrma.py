@@ -1,9 +1,9 @@
-"""VRM Animation 1.0 (.vrma), both ways: the motion of a humanoid, its expressions and its gaze, without a mesh.
+"""Reads and writes VRM Animation 1.0 (.vrma): motion of a humanoid, its expressions and its gaze, without a mesh.
 
-A scene has the humanoid bones under their VRM names, the hips first; all are unturned at rest, so that no two readers
-can disagree about rest rotations, and only the hips leave their place. A bone called `LOOK_AT` is the gaze: it is no
-humanoid bone, and its rotation on the head is where the eyes look. Each morph of the clip is a custom expression;
-further expressions are sums of them. An expression's weight is the X of a node's translation.
+A scene has humanoid bones under their VRM names, hips first; all rest rotations are identity, so that readers cannot
+disagree about them, and only the hips translate. A bone named `LOOK_AT` is the gaze, no humanoid bone: its rotation on
+the head is the direction of view. Each morph of the clip is a custom expression; further expressions are sums of them.
+An expression's weight is the X of a node's translation.
 
 Source: VRM consortium, "VRMC_vrm_animation-1.0" (README.md of 1.0, where the gaze is a rotation).
 """
@@ -47,22 +47,22 @@ _FIRST: Final = 1
 def write_vrma(
     path: str | os.PathLike[str], scene: Scene, sums: Mapping[str, Mapping[str, float]] | None = None
 ) -> None:
-    """Write a scene as a VRM animation, whole or not at all; its meshes stay out.
+    """Write a scene as a VRM animation, atomically; meshes are not written.
 
     Parameters
     ----------
     path : path
     scene : Scene
-        With a clip, on unturned humanoid bones.
+        Scene with a clip, on humanoid bones with identity rest rotations.
     sums : mapping of str to mapping of str to float, optional
-        Further expressions: weights of the clip's morphs that make each.
+        Further expressions, as weights of the clip's morphs.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``.
+        The file cannot be written.
     ValueError
-        The scene is none of a VRM animation.
+        The scene cannot be a VRM animation.
     """
     clip = _checked(scene)
     document = GlbDocument(gltf.GLTF2(asset=gltf.Asset(version="2.0", generator=scene.creator)))
@@ -97,7 +97,7 @@ def write_vrma(
 
 
 def _checked(scene: Scene) -> Clip:
-    """The clip of a scene that a VRM animation can hold."""
+    """The clip of a scene; ValueError if a VRM animation cannot hold it."""
     check_scene(scene)
     clip = scene.clip
     if clip is None or scene.bones[0].name != "hips" or set(clip.translations_cm) - {0}:
@@ -122,7 +122,7 @@ def _bones(scene: Scene) -> dict[str, Any]:
 def _expressions(
     clip: Clip, sums: Mapping[str, Mapping[str, float]]
 ) -> dict[str, tuple[AnyFloatArray, AnyIntArray | None]]:
-    """Weights (F,) of all expressions from 0 to 1, and the frames of their keys, None for all."""
+    """Weights (F,) of all expressions, 0 to 1, and the frames of their keys; None: all frames."""
     keys = clip.keys
     found = {
         name: (np.clip(weights, 0.0, 1.0), None if keys is None else keys.morphs[name])
@@ -142,17 +142,17 @@ def _expressions(
 
 
 def read_vrma(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> Scene:
-    """Read a file as `write_vrma` writes it, with the meshes that follow its bones and expressions.
+    """Read a file written by `write_vrma`, with the meshes that follow its bones and expressions.
 
     Parameters
     ----------
     written : sequence of SkinnedMesh
-        The meshes of the scene that was written.
+        The meshes of the written scene.
 
     Raises
     ------
     FileError
-        If the file is no such file.
+        The file is not of that form.
     """
     file, model = os.fspath(path), read_glb(path, animated=True)
     try:
@@ -178,7 +178,7 @@ def read_vrma(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> S
 
 
 def _clip(animation: GltfAnimation, row_of: Mapping[int, int], faces: Mapping[int, str], known: Set[str]) -> Clip:
-    """The clip of the bones and of the known expressions."""
+    """The clip of the bones and of known expressions."""
     fps, times_s = clip_frames(animation)
     rotations = np.tile(_UNTURNED, (len(times_s), len(row_of), 1))
     translations: dict[int, FloatArray] = {}

@@ -1,13 +1,11 @@
-"""Scenes -> binary glTF 2.0 file (GLB).
+"""Writes scenes as binary glTF 2.0 files (GLB).
 
-Metres, Y up, facing +Z; the bones are nodes below one root, the meshes lie beside it and share one skin. Of several
-scenes each root is below a node of the scene's name at its place. A mesh whose morph targets move is on that node:
-Blender leaves an empty where a node with keys had a mesh, unless it makes the armature of it. Where the node stands
-does not count, since only joints move a skinned mesh. A mesh keeps one primitive per material. Influences beyond the
-fourth are in a second set, the strongest in the first, so that a reader that knows only one set shows the nearest skin
-there is. The clip is one animation with keys on frames at ``n / fps`` seconds; glTF knows times as float32 only, which
-is within 0.12 ms of the frame after an hour. What glTF has no place for, the rate and the number of frames, is in the
-animation's extras.
+Metres, Y up, facing +Z; bones are nodes below one root, meshes are next to it and share one skin. With several scenes
+each root is below a node with the scene's name and place. A mesh with animated morph targets is on that node itself,
+since Blender otherwise leaves an empty for a node with keys; the node's place has no effect on skinned meshes. A mesh
+has one primitive per material. Influences after the fourth are in a second set, so that readers of only one set show
+the closest skin. The clip is one animation with keys on frames at ``n / fps`` seconds; glTF times are float32, within
+0.12 ms after an hour. The rate and number of frames are stored in the animation's extras.
 
 Source: Khronos, "glTF 2.0 Specification", sections 3.6, 3.7, 3.11 and 4.
 """
@@ -39,25 +37,25 @@ _PER_SET = 4
 
 
 def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
-    """Write a scene as a GLB file, whole or not at all; the same scene always gives the same.
+    """Write a scene as a GLB file, atomically and deterministically.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``; also for more than the 4 GB that a GLB file can have.
+        The file cannot be written, or would exceed the 4 GB limit of GLB.
     ValueError
-        If the scene contradicts itself.
+        The scene contradicts itself.
     """
     write_glbs(path, (scene,))
 
 
 def write_glbs(path: str | os.PathLike[str], scenes: Iterable[Scene]) -> None:
-    """Write scenes into one file as `write_glb`; each is let go when the next is asked for."""
+    """Write several scenes into one file as `write_glb`; each scene is released when the next is requested."""
     write_document(path, _document(scenes))
 
 
 def write_document(path: str | os.PathLike[str], document: GlbDocument) -> None:
-    """Write a document as `write_glb` does a scene."""
+    """Write a document as a GLB file, atomically."""
     pieces = _pieces(document)
     if sum(_size(piece) for piece in pieces) > _MOST_BYTES:
         raise FileError("file.cannot_write", file=os.fspath(path), reason="GLB > 4 GB")
@@ -66,7 +64,7 @@ def write_document(path: str | os.PathLike[str], document: GlbDocument) -> None:
 
 
 def glb_pieces(scenes: Iterable[Scene]) -> Pieces:
-    """The file's bytes, one piece after the other."""
+    """The file's bytes in pieces."""
     return _pieces(_document(scenes))
 
 
@@ -113,8 +111,9 @@ def _document(scenes: Iterable[Scene]) -> GlbDocument:
 def _add_figure(
     document: GlbDocument, scene: Scene, roots: list[int], materials: dict[Material, int]
 ) -> tuple[int, list[int]]:
-    """Add the nodes of a scene: one at its place, bones, meshes, in this order; the numbers of the first bone and of
-    the node that each mesh is on."""
+    """Add the nodes of a scene in order: its place, bones, meshes. Returns the indices of the first bone's node and of
+    the node of each mesh.
+    """
     out = document.gltf
     roots.append(len(out.nodes))
     if scene.place is not None:
@@ -143,7 +142,7 @@ def _add_figure(
 
 
 def _rest_transforms(scene: Scene) -> AnyFloatArray:
-    """Transforms (J, 4, 4) of the bones at rest."""
+    """Rest transforms (J, 4, 4) of the bones."""
     world: list[AnyFloatArray] = []
     for bone in scene.bones:
         local = NodePlace(bone.translation_cm, bone.rotation_xyzw).matrix
@@ -218,7 +217,7 @@ def _mesh(document: GlbDocument, mesh: SkinnedMesh, bone_count: int, materials: 
 def _targets(
     document: GlbDocument, morphs: Sequence[MorphTarget], primitive: Primitive, vertex_count: int
 ) -> list[dict[str, int]]:
-    """Targets of a primitive: the same for all primitives of a mesh, if only with zeros."""
+    """Morph targets of a primitive; all primitives of a mesh have the same targets, some with zeros only."""
     with_normals = any(morph.normal_deltas is not None for morph in morphs)
     count = len(primitive.vertices)
     zeros: list[int] = []

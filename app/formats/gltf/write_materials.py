@@ -1,4 +1,4 @@
-"""Materials of a scene in the form glTF stores them, with their textures in the file.
+"""Writes materials of a scene to a glTF document, with embedded textures.
 
 Source: Khronos, "glTF 2.0 Specification", sections 3.8 and 3.9; "KHR_texture_transform".
 """
@@ -19,7 +19,7 @@ _MODES: Final = {"opaque": gltf.OPAQUE, "mask": gltf.MASK, "blend": gltf.BLEND}
 
 
 def add_materials(document: GlbDocument, materials: Iterable[Material]) -> None:
-    """Add materials in their order, and each image of theirs once."""
+    """Add materials in order, and each of their images once."""
     numbers: dict[Texture, int] = {}
     document.gltf.materials = [_material(document, material, numbers) for material in materials]
     if numbers:
