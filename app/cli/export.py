@@ -6,7 +6,7 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -25,11 +25,11 @@ from app.cli.progress import Progress, find_holds
 from app.cli.speech import said, sentence
 from app.cli.status import report_left_out
 from app.cli.summary import project_summary, summary
-from app.cli.terminal import interrupted_by, say
+from app.cli.terminal import interrupted_by, say, warn
 from app.encoding import shown
 from app.errors import UsageError
-from app.export.earlier_exports import other_bars
 from app.export.face_curves import CURVE_NAMES, DEFAULT_FACE, FACE_PARTS, FaceOptions, FacePart
+from app.export.foreseen import foresee_folder, foresee_unreal
 from app.export.formats import FILE_FORMATS, USUAL_FORMATS, Format, names_where, refuse_attachment, requested
 from app.export.request import ExportRequest
 from app.export.rig_options import ATTACHMENTS, DEFAULT_RIG, EYE_TURNS, REST_POSES, ROOT_BONES, RigOptions
@@ -46,6 +46,8 @@ from metadata.load import names
 if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
 
+MOST_NAMED: Final = 3
+"""Files that are named where there are more."""
 SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
 
@@ -174,13 +176,14 @@ def export(arguments: argparse.Namespace) -> int:
     skeleton: SkeletonChoice = arguments.skeleton or ("own" if unreal is None else "ue5")
     folder = arguments.to if unreal is None else unreal.folder
     request = _request(arguments, performance, formats, folder, skeleton)
+    if arguments.piece is None:
+        say_what_is_there(request, arguments.unreal)
     progress = Progress(sys.stderr)
     try:
         with interrupted_by(signal.SIGTERM):
             if unreal is None:
-                remark = other_bars(folder, request.bars)
                 report = write(request, text, progress=progress, shown_in=sentence)
-                reported = [*summary(report, arguments.to), *([] if remark is None else ["", sentence(remark)])]
+                reported = summary(report, arguments.to)
             else:
                 from app.export.unreal.run import export_into
 
@@ -191,6 +194,39 @@ def export(arguments: argparse.Namespace) -> int:
         progress.clear()
     say(*reported)
     return report_left_out((one.player, one.reason) for one in report.left_out)
+
+
+def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
+    """Say which files an export will replace or remove, and what they have otherwise, before anything is written.
+
+    Parameters
+    ----------
+    unreal : path or None
+        An Unreal project, by its file or folder; None: the export goes into the request's folder.
+
+    Raises
+    ------
+    FileError
+        Files of another program are in the way in the Unreal project.
+    """
+    performance, source, bars = request.performance, request.source, request.bars
+    ids = (*(one.id for one in request.players), *(one.id for one in request.dancers))
+    if unreal is not None:
+        seen = foresee_unreal(unreal, performance, ids, source, bars)
+    else:
+        seen = foresee_folder(
+            request.folder, performance, ids, request.formats, source, request.sound, request.stage, bars=bars
+        )
+    for id, files in (("export_report.will_replace", seen.replaced), ("export_report.will_remove", seen.removed)):
+        if files:
+            warn(said(id, folder=str(request.folder), count=len(files), files=_some(files)))
+    for message in seen.remarks:
+        warn(sentence(message))
+
+
+def _some(files: Sequence[str]) -> str:
+    """The first of some files, for a line."""
+    return ", ".join([*files[:MOST_NAMED], *(["…"] if len(files) > MOST_NAMED else [])])
 
 
 def _request(

@@ -95,7 +95,7 @@ def project_summary(written: UnrealExport, project: UnrealProject, skeleton: Ske
         )
     ]
     lines += [said("export_report.removed", path=str(path)) for path in plan.removed]
-    lines += [sentence(message) for message in (*plan.kept, *plan.remarks)]
+    lines += [sentence(message) for message in plan.kept]
     lines += [said("export_report.in_unreal", content=str(plan.layout.content))]
     return [*lines, *_judgement(report)]
 

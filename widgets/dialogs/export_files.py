@@ -14,6 +14,7 @@ from app.editor.exported_bars import WHOLE_PIECE, ExportedBars
 from app.editor.session import Session, Severity
 from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
+from app.export.foreseen import foresee_folder, foresee_unreal
 from app.export.formats import refuse_attachment, requested
 from app.export.request import ExportRequest
 from app.formats.images import TEXTURE_SIZES, USUAL_TEXTURE_PX, TextureSize
@@ -28,7 +29,7 @@ from widgets.common.layouts import Scrolled, begin_with_size, in_column, in_form
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
-from widgets.dialogs.export_destination import Destination, Done, Written, foresee_folder, foresee_unreal, write
+from widgets.dialogs.export_destination import Destination, Done, Written, write
 from widgets.dialogs.export_face import FaceChooser
 from widgets.dialogs.export_formats import FormatChooser
 from widgets.dialogs.export_place import PlaceChooser

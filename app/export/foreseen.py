@@ -1,0 +1,101 @@
+"""Files that an export will write, replace, remove or keep, for the dialog and the command line to say beforehand."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.encoding import shown
+from app.errors import Message
+from app.export.earlier_exports import other_bars
+from app.export.file_names import REPORT, file_names, sound_name, stage_names
+from app.export.formats import Format
+from app.export.unreal.project import UnrealProject, find_project
+from app.export.unreal.run import plan_export
+from app.performance.ensemble import Performance
+
+
+@dataclass(frozen=True)
+class Foreseen:
+    """Files that an export will write, replace, remove or keep.
+
+    Attributes
+    ----------
+    count : int
+        Files that will be written.
+    replaced, removed : tuple of str
+        Names of files that are there.
+    kept : tuple of Message
+    remarks : tuple of Message
+        What an earlier export has otherwise: other bars, or the same music under another name.
+    project : UnrealProject or None
+    """
+
+    count: int
+    replaced: tuple[str, ...] = ()
+    removed: tuple[str, ...] = ()
+    kept: tuple[Message, ...] = ()
+    remarks: tuple[Message, ...] = ()
+    project: UnrealProject | None = None
+
+
+def foresee_unreal(
+    place: Path, performance: Performance, player_ids: tuple[str, ...], source: str, bars: tuple[int, int] | None
+) -> Foreseen:
+    """Foresee an export of some bars (None: all) into an Unreal project, by its file or folder.
+
+    Raises
+    ------
+    FileError
+        There is no project, or files of another program are in the way.
+    """
+    unreal = find_project(place)
+    plan = plan_export(performance, player_ids, source, unreal, by_length=True, bars=bars)
+    return Foreseen(
+        count=len(plan.written),
+        replaced=tuple(shown(path.name) for path in plan.replaced),
+        removed=tuple(shown(path.name) for path in plan.removed),
+        kept=plan.kept,
+        remarks=plan.remarks,
+        project=unreal,
+    )
+
+
+def foresee_folder(
+    folder: Path,
+    performance: Performance,
+    player_ids: tuple[str, ...],
+    formats: frozenset[Format],
+    source: str,
+    sound: bool,
+    stage: bool,
+    *,
+    bars: tuple[int, int] | None = None,
+) -> Foreseen:
+    """Foresee an export into a folder.
+
+    Parameters
+    ----------
+    source : str
+        Name of the piece's file.
+    sound, stage : bool
+        Whether the sound is written too, and the whole stage in one file.
+    bars : (int, int) or None
+        First and last bar that is exported; None: the whole piece.
+    """
+    names = file_names(performance, formats)
+    project = performance.project
+    # Of a musician also the other instruments.
+    everything = [
+        *player_ids,
+        *(one.id for one in project.players if one.doubles in player_ids and project.musician(one) is not one),
+    ]
+    requested = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
+    if sound:
+        requested.append(sound_name(source))
+    if stage:
+        requested += stage_names(performance, formats, source).values()
+    replaced = tuple(name for name in requested if os.path.exists(folder / name))
+    remark = other_bars(folder, bars) if replaced else None
+    return Foreseen(len(requested), replaced, remarks=() if remark is None else (remark,))

@@ -1,0 +1,63 @@
+"""An export on the command line says what it replaces before anything is written, as the dialog does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mido
+import pytest
+
+from app.cli import main
+from app.errors import FileError
+
+
+def piece(path: Path) -> str:
+    """Four bars of a trumpet."""
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name="Trumpet")])
+    for pitch in (67, 69, 71, 72):
+        track += [mido.Message("note_on", note=pitch), mido.Message("note_off", note=pitch, time=1920)]
+    mido.MidiFile(ticks_per_beat=480, tracks=[track]).save(path)
+    return str(path)
+
+
+def test_what_is_there_is_said_before_it_is_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, folder = piece(tmp_path / "x.mid"), tmp_path / "out"
+    command = ["export", file, "--to", str(folder), "--format", "bvh", "--fps", "24"]
+    assert main([*command, "--from-bar", "1", "--to-bar", "2"]) == 0
+    assert "already" not in capsys.readouterr().err
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert set(before) == {"Trumpet.bvh", "report.json"}
+    said = []
+
+    def refuse(*_args: object, **_named: object) -> None:
+        said.append(capsys.readouterr().err)
+        raise FileError("file.cannot_write", file=str(folder), reason="the disk is full")
+
+    monkeypatch.setattr("app.cli.export.write", refuse)
+    assert main(command) != 0
+    assert f"will be replaced in {folder}: 2 (Trumpet.bvh, report.json)" in said[0]
+    assert "the export that was there has bars 1 to 2 only; this one has the whole piece" in said[0]
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_an_unreal_project_is_looked_at_before_it_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, project = piece(tmp_path / "x.mid"), tmp_path / "Concert.uproject"
+    project.write_text('{"FileVersion": 3, "EngineAssociation": "5.6"}')
+    command = ["export", file, "--unreal", str(project), "--fps", "24"]
+    assert main([*command, "--from-bar", "1", "--to-bar", "1"]) == 0
+    assert "already" not in capsys.readouterr().err
+    said = []
+
+    def refuse(*_args: object, **_named: object) -> None:
+        said.append(capsys.readouterr().err)
+        raise FileError("file.cannot_write", file=str(project), reason="the disk is full")
+
+    monkeypatch.setattr("app.export.unreal.run.export_into", refuse)
+    assert main([*command, "--from-bar", "2", "--to-bar", "3"]) != 0
+    assert f"will be replaced in {tmp_path}: " in said[0]
+    assert "SK_Trumpet.fbx" in said[0]
+    assert "the export that was there has bars 1 to 1; this one has bars 2 to 3" in said[0]
