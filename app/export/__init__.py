@@ -1,1 +1,1 @@
-"""One performance to files: characters, instruments and the report."""
+"""Exports a performance as files: characters, instruments and the report."""

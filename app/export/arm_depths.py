@@ -1,8 +1,8 @@
-"""Depths of forearms and hands, with sleeves and all, in the clothes and the skin of the trunk and the thighs.
+"""Measures how deep forearms and hands, including sleeves, penetrate clothes and skin of trunk and thighs.
 
-What is judged is what a viewer sees: the surfaces of the file. Frames come by how near the line from elbow to wrist is
-to the trunk as it was bound, the nearest first, some time apart; only at these the surfaces are worked out. The depth
-is thus found where it is greatest or near it, and never overstated.
+Measures the surfaces in the file. Frames are tried in order of the distance between the line from elbow to wrist and
+the trunk in its bind pose, some time apart; surfaces are computed only for these. The result is at or near the largest
+depth, and never too large.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ _MOST_FRAMES, _APART_S, _SAMPLES, _CHUNK = 12, 0.25, 8, 2048
 
 
 class ArmDepth(msgspec.Struct, frozen=True):
-    """Greatest depth found of an arm in the trunk.
+    """Greatest depth of an arm in the trunk.
 
     Attributes
     ----------
     side : str
-        ``left`` or ``right``; empty where no arm is inside.
+        ``left`` or ``right``; empty if no arm is inside.
     depth_mm : float
     frame : int
     bound_mm : float
@@ -50,7 +50,7 @@ class ArmDepth(msgspec.Struct, frozen=True):
 
     @property
     def kept(self) -> bool:
-        """True if the bound is kept."""
+        """True if the depth is within the bound."""
         return self.depth_mm <= self.bound_mm
 
 
@@ -75,7 +75,7 @@ def arm_depth(joints: JointPlayback) -> ArmDepth:
 
 
 class _TrunkSurface:
-    """The part of a mesh with one material that the trunk holds."""
+    """The part of a mesh, with one material, that moves with the trunk."""
 
     def __init__(self, playback: ScenePlayback, mesh: SkinnedMesh, held: IndexArray, triangles: AnyIntArray) -> None:
         self._surface = Surface(playback, mesh, held)
@@ -83,7 +83,7 @@ class _TrunkSurface:
         self.bound_m = self._surface.skin.positions_m
 
     def normals(self, places_m: FloatArray) -> FloatArray:
-        """Outward normals (V, 3) of the vertices at places."""
+        """Outward normals (V, 3) of the vertices at given positions."""
         a, b, c = (places_m[self._triangles[:, corner]] for corner in range(3))
         across = np.cross(b - a, c - a)
         sums = np.zeros_like(places_m)
@@ -92,7 +92,7 @@ class _TrunkSurface:
         return np.asarray(sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), 1e-12))
 
     def depth_m(self, points_m: FloatArray, world: FloatArray, frame: int) -> float:
-        """Greatest depth of points (P, 3) at a frame, whose transforms are (1, J, 4, 4)."""
+        """Greatest depth in metres of points (P, 3) at a frame, with bone transforms (1, J, 4, 4)."""
         places_m = self._surface.positions_m(world, frame, frame + 1)[0]
         low, high = places_m.min(axis=0), places_m.max(axis=0)
         points_m = points_m[((points_m > low) & (points_m < high)).all(axis=1)]
@@ -105,7 +105,7 @@ class _TrunkSurface:
 
 
 def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurface]:
-    """The surfaces of a mesh that the trunk holds, one for each material: skin, shirt, trousers."""
+    """Surfaces of a mesh that move with the trunk, one for each material: skin, shirt, trousers."""
     held = _share(joints, mesh, _TRUNK) >= _CARRIED
     materials = np.zeros(len(mesh.faces), np.int64) if mesh.face_materials is None else mesh.face_materials
     for material in np.unique(materials):
@@ -118,7 +118,9 @@ def _surfaces(joints: JointPlayback, mesh: SkinnedMesh) -> Iterator[_TrunkSurfac
 
 
 def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> FloatArray:
-    """Part (V,) of every vertex that the bones of some joints hold; bones that are no joint go with the one above."""
+    """Share (V,) of every vertex's weight held by the bones of some joints; other bones count with their parent
+    joint.
+    """
     parents, holds = joints.playback.parents, list[bool]()
     for bone, parent in enumerate(parents):
         own = joints.joint_names.get(bone)
@@ -128,7 +130,7 @@ def _share(joints: JointPlayback, mesh: SkinnedMesh, names: Collection[str]) -> 
 
 
 def _frames(joints: JointPlayback, side: str, trunk: list[_TrunkSurface]) -> list[int]:
-    """Frames in which a forearm is nearest to the trunk, the nearest first."""
+    """Frames in which a forearm is nearest to the trunk, nearest first."""
     playback = joints.playback
     chest = joints.bone("upperChest", "chest", "spine", "hips")
     bones = [chest, joints.bone(f"{side}LowerArm"), joints.bone(f"{side}Hand")]

@@ -1,4 +1,4 @@
-"""Instruments on the sockets of their players: one scene of both, and either as a reader finds them in two files."""
+"""Combines instruments with their player's sockets: as one scene, or from two files as a reader would."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from app.rig import quaternion
 
 
 def own_path(target: TargetSkeleton, motion: Motion) -> Trajectory:
-    """Return where the root bone is in an instrument's own file: in the world, or on the socket, where it does not
-    move."""
+    """Return the path of the root bone in an instrument's own file: in world space, or fixed if attached to a
+    socket.
+    """
     return (
         trajectory_at_origin(motion.frames)
         if target.sockets
@@ -28,14 +29,15 @@ def own_path(target: TargetSkeleton, motion: Motion) -> Trajectory:
 
 
 def attached(character: Scene, instruments: Sequence[Scene], target: TargetSkeleton) -> Scene:
-    """A character and the instruments on its sockets as one scene of one skeleton.
+    """Merge a character and the instruments on its sockets into one scene with one skeleton.
 
     Parameters
     ----------
     character : Scene
-        On the target.
+        Scene of the character on ``target``.
     instruments : sequence of Scene
-        Of the musician, as their own files have them. The root bone of each takes the name of its scene.
+        Scenes of the musician's instruments as in their own files. The root bone of each is renamed to its scene's
+        name.
     target : TargetSkeleton
     """
     for instrument, socket in zip(instruments, socket_names(target), strict=True):
@@ -91,7 +93,7 @@ def _joined(character: Scene, instrument: Scene, before: int) -> Clip:
 
 
 def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:
-    """An instrument's scene that is relative to a socket of a character's, in the world of the character's."""
+    """Convert an instrument's scene from a character's socket to world space."""
     clip, held = character.clip, instrument.clip
     assert clip is not None
     assert held is not None
@@ -100,7 +102,7 @@ def in_world(instrument: Scene, character: Scene, socket: str) -> Scene:
 
 
 def without_place(scene: Scene, place: NodePlace | None) -> Scene:
-    """A scene that stands at a place as if it stood at the origin."""
+    """Move a scene from a place to the origin."""
     if place is None or scene.clip is None:
         return scene
     back = quaternion.conjugate(place.rotation_xyzw)
@@ -109,7 +111,7 @@ def without_place(scene: Scene, place: NodePlace | None) -> Scene:
 
 
 def _carried(scene: Scene, path: Trajectory) -> Scene:
-    """A scene whose root bone goes with a trajectory besides."""
+    """Compose the motion of a scene's root bone with a trajectory."""
     clip = scene.clip
     assert clip is not None
     own = np.asarray(clip.translations_cm.get(0, scene.bones[0].translation_cm), np.float64)

@@ -1,7 +1,7 @@
-"""Bind pose of a skin: the modelled pose, or arms level or down; and the skin of twist bones.
+"""Bind pose of a skin: the modelled pose, or arms level or down; and the weights of twist bones.
 
-Only the arms are posed again: what hangs rigidly on a hand, head or foot moves with it as before, to rounding. Skin
-that several bones of an arm share lies a little otherwise, as linear blending has it.
+Only the arms are posed again; parts rigidly attached to a hand, head or foot move as before, up to rounding. Skin
+shared by several arm bones changes slightly, due to linear blending.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ _DOWN_RAD: Final[Mapping[RestPose, float]] = {"t": 0.0, "a": np.pi / 4.0}
 
 
 def bind_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Transforms of the bones when the body was modelled, ``world_from_bone`` (B, 4, 4), centimetres.
+    """Transforms ``world_from_bone`` (B, 4, 4) of the bones in the modelled pose, centimetres.
 
-    They are with their joints, the others on their parents.
+    A bone of a joint is at that joint; other bones are relative to their parents.
     """
     return _of_bones(character, target, _modelled(character))
 
 
 def rest_transforms(character: Character, target: TargetSkeleton) -> AnyFloatArray:
-    """Return where the bones are in the rest pose that the target asks for; as `bind_transforms`."""
+    """Return the bone transforms in the target's rest pose, in the form of `bind_transforms`."""
     if target.rest_pose == "model":
         return bind_transforms(character, target)
     return _of_bones(character, target, _posed(character, _DOWN_RAD[target.rest_pose]))
@@ -47,7 +47,9 @@ def _modelled(character: Character) -> AnyFloatArray:
 
 
 def _posed(character: Character, down_rad: float) -> AnyFloatArray:
-    """``world_from_joint`` with both arms straight to the side, lowered by an angle; fingers keep to their hands."""
+    """``world_from_joint`` with both arms straight to the side, lowered by an angle; fingers keep their pose relative
+    to the hand.
+    """
     skeleton, before = character.skeleton, _modelled(character)
     world = before.copy()
     for joint, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
@@ -81,7 +83,7 @@ def _of_bones(character: Character, target: TargetSkeleton, world_from_joint: An
 
 
 def _twisted(character: Character, target: TargetSkeleton, world_from_joint: AnyFloatArray, bone: int) -> FloatArray:
-    """Rotation of a twist bone's base with its share of the joint's twist in this pose, (3, 3)."""
+    """World rotation (3, 3) of a twist bone's base with its share of the joint's twist in this pose."""
     twist = target.twists[bone]
     parent = character.skeleton.parents[twist.joint]
     local = world_from_joint[parent, :3, :3].T @ world_from_joint[twist.joint, :3, :3]
@@ -95,8 +97,9 @@ def _twisted(character: Character, target: TargetSkeleton, world_from_joint: Any
 
 
 def bound_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
-    """The meshes of a character in the rest pose of a target, on its bones; a joint without a bone goes with the one
-    above."""
+    """Meshes of a character in the target's rest pose, bound to its bones; a joint without a bone is merged with its
+    parent.
+    """
     bone_of_joint = np.zeros(len(character.skeleton.names), np.int32)
     for joint, parent in enumerate(character.skeleton.parents):
         above = int(bone_of_joint[parent]) if parent >= 0 else 0
@@ -112,7 +115,7 @@ def bound_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ..
 
 
 def _with_twists(character: Character, target: TargetSkeleton, mesh: Mesh) -> Mesh:
-    """Share the weights of upper and lower arms with their twist bones, by how far along a vertex is."""
+    """Distribute the weights of upper and lower arms to their twist bones, by a vertex's position along the limb."""
     joints_m = np.linalg.inv(character.joint_from_mesh)[:, :3, 3]
     bones = mesh.joints
     columns, weights = [bones], [mesh.weights.astype(np.float64)]
@@ -144,13 +147,13 @@ def _with_twists(character: Character, target: TargetSkeleton, mesh: Mesh) -> Me
 
 
 def _along(target: TargetSkeleton, bone: int) -> float:
-    """Return how far along its limb (0..1) a twist bone has its place."""
+    """Return the position of a twist bone along its limb, 0..1."""
     share = target.twists[bone].share
     return share if share >= 0.0 else 1.0 + share
 
 
 def _moved(mesh: Mesh, moved: AnyFloatArray) -> Mesh:
-    """A mesh where its bones take it that are moved (B, 4, 4), metres, to be bound there."""
+    """Deform a mesh by its bones' transforms (B, 4, 4), metres, and bind it there."""
     blended = np.einsum("vk,vkij->vij", mesh.weights.astype(np.float64), moved[mesh.joints])
     turned = blended[:, :3, :3]
     positions_m = np.einsum("vij,vj->vi", turned, mesh.positions_m) + blended[:, :3, 3]

@@ -1,10 +1,9 @@
-"""Axes that the bones of a file turn about: those of the anatomy, in the space of each bone.
+"""Anatomical rotation axes of the bones of a file, in each bone's space.
 
-Formats with angles turn a bone about three axes one after another. Where the middle one of them is a quarter turn away,
-the other two turn about the same line and their curves jump; so the middle one is an axis that a body turns little
-about, and the first, wherever there is one, a hinge. The skeleton's table (`metadata.skeleton_profile`) has the order
-of each kind of joint; the nearest axes of the bone have it in the file. Nothing depends on a motion, so that all files
-on one skeleton have the same orders.
+Formats with Euler angles rotate about three axes in order. At a quarter turn about the middle one, the other two
+coincide and curves jump; so the middle axis is one with little rotation, and the first one a hinge where possible. The
+skeleton's table (`metadata.skeleton_profile`) has the order for each kind of joint; the file uses the nearest axes of
+the bone. The result does not depend on a motion, so all files on one skeleton agree.
 """
 
 from __future__ import annotations
@@ -26,13 +25,14 @@ OBJECT_AXES: FloatArray = np.eye(3)[[1, 2, 0]]
 
 
 def bone_axes(target: TargetSkeleton, skeleton: Skeleton) -> tuple[FloatArray | None, ...]:
-    """Axes (3, 3) of each bone of a target, as of `app.formats.scene.Bone`; None of one that is no joint.
+    """Rotation axes (3, 3) of each bone of a target, in the form of `app.formats.scene.Bone`; None for a bone that is
+    no joint.
 
     Parameters
     ----------
     target : TargetSkeleton
     skeleton : Skeleton
-        The character's, whose joints the target's bones are.
+        Skeleton of the character, whose joints correspond to the target's bones.
     """
     profile = load_skeleton()
     result: list[FloatArray | None] = []
@@ -50,7 +50,7 @@ def bone_axes(target: TargetSkeleton, skeleton: Skeleton) -> tuple[FloatArray | 
 
 
 def _in_bone(axes: JointAxes, turns: tuple[Turn, ...], joint_from_bone: FloatArray) -> FloatArray:
-    """Axes of a joint in the space of its bone, in an order."""
+    """Axes of a joint in the space of its bone, in the given order."""
     rows = np.array([getattr(axes, turn) for turn in turns], np.float64)
     turned: FloatArray = quaternion.rotate(quaternion.conjugate(joint_from_bone), rows)
     return turned

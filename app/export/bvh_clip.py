@@ -1,5 +1,6 @@
-"""A character's scene as a BVH clip: the joints from the one that moves on, in centimetres; and the names that
-other programs give its bones."""
+"""Converts a character's scene to a BVH clip with joints from the hips on, in centimetres, optionally with bone names
+of other programs.
+"""
 
 from __future__ import annotations
 
@@ -29,20 +30,20 @@ _SHORTEST_CM = 1.0
 def scene_bvh(
     scene: Scene, names: Mapping[int, str] = MappingProxyType({}), t_pose: AnyFloatArray | None = None
 ) -> BvhClip:
-    """The skeleton from the bone that is moved (the hips) on, with the motion of all bones above it in its own.
+    """Convert the skeleton from the translating bone (the hips) on; motion of the bones above is included in it.
 
-    BVH moves its root only, so that what another bone is moved by is left out, and a bone that is but moved, such as a
-    socket, altogether. It has no rest but the pose in which all angles are 0, and no frames but the world's in that
-    pose, so bones have new frames: those of the world in the T-pose.
+    Only the root of a BVH file translates, so translations of other bones are lost, and bones that only translate, such
+    as sockets, are left out. The rest pose of BVH has zero angles and unrotated bones, so bones get new frames: those
+    of the world in the T-pose.
 
     Parameters
     ----------
     scene : Scene
-        With a clip.
+        Scene with a clip.
     names : mapping of int to str
-        By bone, for those that are to have another name than in the scene.
+        Names for bones, where they differ from the scene's.
     t_pose : ndarray, shape (B, 4), optional
-        Rotations of the bones on their parents in the T-pose; absent: the scene's rest.
+        Rotations of the bones relative to their parents in the T-pose; None: the scene's rest.
     """
     clip = scene.clip
     if clip is None:
@@ -81,7 +82,7 @@ def scene_bvh(
 
 
 def _frames(scene: Scene, t_pose: AnyFloatArray | None) -> FloatArray:
-    """Rotations (B, 4) of the bones in the world, in the pose in which a file's angles are 0."""
+    """World rotations (B, 4) of the bones in the pose in which the file's angles are 0."""
     rests = [bone.rotation_xyzw for bone in scene.bones]
     local = np.asarray(rests if t_pose is None else t_pose, np.float64)
     _, frames = world_placements([bone.parent for bone in scene.bones], np.zeros((len(local), 3)), local)
@@ -89,14 +90,14 @@ def _frames(scene: Scene, t_pose: AnyFloatArray | None) -> FloatArray:
 
 
 def _first(scene: Scene, clip: Clip) -> int:
-    """The lowest bone that is moved and has most of the skeleton below it: what moves a hand or a prop is none."""
+    """Lowest translating bone with more than half of the skeleton below it; this excludes hands and props."""
     below = {bone: len(_below(scene, bone)) for bone in clip.translations_cm}
     trunk = [bone for bone, count in below.items() if 2 * count > len(scene.bones)]
     return max(trunk, default=0)
 
 
 def _below(scene: Scene, first: int) -> list[int]:
-    """A bone and all that hang on it, parents first."""
+    """A bone and all its descendants, parents first."""
     chosen = {first}
     for index, bone in enumerate(scene.bones):
         if bone.parent in chosen:
@@ -105,13 +106,13 @@ def _below(scene: Scene, first: int) -> list[int]:
 
 
 def _without_props(scene: Scene, clip: Clip, bones: list[int], first: int) -> list[int]:
-    """Bones without those that nothing hangs on and that leave their place."""
+    """Remove bones without children that translate, such as props."""
     parents = {bone.parent for bone in scene.bones}
     return [bone for bone in bones if bone == first or bone in parents or bone not in clip.translations_cm]
 
 
 def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]:
-    """Place (F, 3) and rotation (F, 4) of a bone in the world."""
+    """World position (F, 3) and rotation (F, 4) of a bone."""
     place, rotation = np.zeros((clip.frames, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (clip.frames, 1))
     while bone >= 0:
         own = np.asarray(clip.rotations_xyzw[:, bone], np.float64)
@@ -123,8 +124,9 @@ def _world(scene: Scene, clip: Clip, bone: int) -> tuple[FloatArray, FloatArray]
 
 
 def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
-    """Return where the bones without a child end, in the bone's frame: as far along the way to the bone as the surface
-    that it carries goes."""
+    """Return end points of bones without children, in the bone's frame: along the bone's direction as far as its
+    surface reaches.
+    """
     parents = [bone.parent for bone in scene.bones]
     world_from_rest = world_transforms(
         tuple(parents),
@@ -145,7 +147,7 @@ def _end_sites_cm(scene: Scene, chosen: list[int]) -> dict[int, FloatArray]:
 
 
 def _own_points_cm(scene: Scene, bones: Sequence[int]) -> dict[int, list[FloatArray]]:
-    """Vertices that each of some bones carries, in its frame, of every mesh that has some."""
+    """Vertices of all meshes that each bone mainly holds, in the bone's frame, by bone."""
     found: dict[int, list[FloatArray]] = {bone: [] for bone in bones}
     requested = np.zeros(len(scene.bones), bool)
     requested[list(bones)] = True
@@ -166,8 +168,9 @@ SPINE = ("spine", "chest", "upperChest")
 
 
 def joint_names(table: BoneNames) -> dict[str, str]:
-    """The name of every joint that a table knows: of several the first. Of the bones between hips and neck the lowest
-    are ours."""
+    """Bone name for every joint in a table; the first one if there are several. Of the bones between hips and neck the
+    lowest ones are matched.
+    """
     result = {joint: names[0] for joint, names in table.middle.items()}
     result |= {joint: names[0] for joint, names in zip(SPINE, table.spine, strict=False)}
     for side, words in (("left", table.left), ("right", table.right)):
@@ -176,7 +179,7 @@ def joint_names(table: BoneNames) -> dict[str, str]:
 
 
 def profile_names(profile: str, target: TargetSkeleton, skeleton: Skeleton) -> dict[int, str]:
-    """Names by bone for a skeleton that is written on; a bone that is no joint of the profile keeps its own.
+    """Bone names of a profile for a target skeleton; a bone that is no joint of the profile keeps its name.
 
     Parameters
     ----------
@@ -184,7 +187,7 @@ def profile_names(profile: str, target: TargetSkeleton, skeleton: Skeleton) -> d
         Name of a table of bone names.
     target : TargetSkeleton
     skeleton : Skeleton
-        The character's, whose joints the target's bones are.
+        Skeleton of the character, whose joints correspond to the target's bones.
     """
     names = joint_names(load_bone_names()[profile])
     joints = {joint: names[name] for joint, name in enumerate(skeleton.names) if name in names}

@@ -1,4 +1,6 @@
-"""A character and its motion as the scene of a file: centimetres, one root, the player at the origin facing +Z."""
+"""Converts a character and its motion to the scene of a file: centimetres, one root, the player at the origin facing
++Z.
+"""
 
 from __future__ import annotations
 
@@ -47,24 +49,24 @@ def character_scene(
     ----------
     character : Character
     motion : Motion
-        Of this character's skeleton.
+        Motion of this character's skeleton.
     name : str
-        Of the armature and the animation; the meshes' names begin with it.
+        Name of armature and animation, and prefix of mesh names.
     creator : str
-        Program and version.
+        Program and version for the file.
     target : TargetSkeleton, optional
-        The skeleton to write on; ours if absent.
+        Skeleton to write on; by default the normalised skeleton.
     held : sequence of Trajectory
-        Of the musician's instruments, where the target has sockets for several; none: the motion's.
+        Trajectories of the musician's instruments, if the target has sockets for several; none: the motion's own.
     face_parts : tuple of FacePart
-        Parts of the face that have curves.
+        Parts of the face with curves.
 
     Returns
     -------
     Scene
-        On the skeleton of the character's own file: that file's meshes and morphs. On any other one mesh of all the
-        character's meshes, vertices in their order (so that landmarks hold in the file), with every morph target of
-        the character. The clip weighs the morphs that the motion moves.
+        On the skeleton of the character's own file: that file's meshes and morphs. On any other skeleton one mesh of
+        all meshes with vertices in order (so landmarks stay valid) and all morph targets. The clip animates the morphs
+        that the motion uses.
     """
     target = normalised_target(character.skeleton) if target is None else target
     eyes = eyes_of_file(character, motion, target)
@@ -99,7 +101,7 @@ _LIT: Final[IdentityCache[Mesh]] = IdentityCache(128)
 
 
 def _shaped(character: Character, eyes: str) -> Character:
-    """A character with all that shapes do in a file."""
+    """The character with all effects of morphs needed in a file."""
     if eyes == "shapes":
         character = with_turned_balls(character)
     return replace(character, meshes=tuple(map(with_morph_normals, character.meshes)))
@@ -143,7 +145,7 @@ def character_clip(
 
 
 def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[SkinnedMesh, ...]:
-    """The meshes of a figure, bound where its bones are at rest."""
+    """Meshes of a figure, bound at the rest pose of its bones."""
     binds = matrices(*world_placements(target.parents, target.offsets_m * CENTIMETRES, target.rest))
     added = len(target.names) - len(target.added) - len(figure.bone_names)
     names = mesh_names([f"{name}_{mesh.name or 'mesh'}" for mesh in figure.meshes], target.names)
@@ -156,7 +158,7 @@ def _own_meshes(figure: Figure, target: TargetSkeleton, name: str) -> tuple[Skin
 
 
 def _joined_mesh(character: Character, target: TargetSkeleton, name: str) -> SkinnedMesh:
-    """All meshes of a character as one, on the bones of a target; a joint without a bone goes with the one above."""
+    """All meshes of a character joined, on the bones of a target; a joint without a bone is merged with its parent."""
     binds = rest_transforms(character, target)
     meshes = [
         skinned_mesh(mesh, mesh.name, mesh.joints, mesh.weights, binds) for mesh in bound_meshes(character, target)
@@ -171,7 +173,7 @@ def skinned_mesh(
     weights: SingleArray,
     world_from_bone_bind: AnyFloatArray,
 ) -> SkinnedMesh:
-    """A mesh bound to bones. Texture coordinates turn from glTF's (v down) to FBX's (v up)."""
+    """A mesh bound to bones. UVs are converted from v down (glTF) to v up (FBX)."""
     uvs = mesh.uvs.astype(np.float64)
     uvs[:, 1] = 1.0 - uvs[:, 1]
     return SkinnedMesh(
@@ -195,5 +197,5 @@ def skinned_mesh(
 
 
 def mesh_names(names: Iterable[str], bones: Iterable[str]) -> tuple[str, ...]:
-    """Names no other mesh and no bone has: Unreal and Blender distinguish objects by name alone."""
+    """Mesh names that differ from each other and from bone names, since Unreal and Blender identify objects by name."""
     return numbered(names, bones)

@@ -1,8 +1,7 @@
-"""The skeleton of an export against the one of an asset, bone by bone.
+"""Compares an export's skeleton with that of an asset, bone by bone.
 
-Unreal matches bones by name. A root of another name, a bone below another parent or a length in another unit spoils an
-animation; what a bone does that the asset lacks is dropped silently. Those differences are severe, the others are
-to be known.
+Unreal matches bones by name. Another root name, parent or unit of length corrupts an animation, and animation of bones
+missing in the asset is dropped silently: these differences are severe, all others informative.
 """
 
 from __future__ import annotations
@@ -35,19 +34,19 @@ UNIT: Final = (0.2, 5.0)
 
 
 class SkeletonDifference(msgspec.Struct, frozen=True):
-    """A difference between a skeleton and that of an asset.
+    """A difference between the export's skeleton and an asset's.
 
     Attributes
     ----------
     kind : DifferenceKind
     bone : str
-        Empty where it is about all.
+        Name of the bone; empty if it concerns the whole skeleton.
     severe : bool
-        The animation would be dropped or spoilt.
+        Whether the animation would be dropped or corrupted.
     ours, theirs : str
-        The root or the parent on either side; empty for other kinds.
+        Name of the root or parent on either side; empty for other kinds.
     amount : float
-        Millimetres, degrees, or the factor of the lengths; 0 for other kinds.
+        Difference in millimetres or degrees, or the factor of lengths; 0 for other kinds.
     """
 
     kind: DifferenceKind
@@ -59,13 +58,13 @@ class SkeletonDifference(msgspec.Struct, frozen=True):
 
 
 def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDifference, ...]:
-    """Differences between the skeleton of an export and an asset's, the most severe first.
+    """Differences between the skeleton of an export and an asset's, most severe first.
 
     Parameters
     ----------
     target : TargetSkeleton
     asset : Figure
-        As its file has it.
+        The asset as in its file.
     """
     asset = without_armature(asset)
     ours = {name: bone for bone, name in enumerate(target.names)}
@@ -105,7 +104,7 @@ def check_skeleton(target: TargetSkeleton, asset: Figure) -> tuple[SkeletonDiffe
 
 
 def without_armature(asset: Figure) -> Figure:
-    """The bones that Unreal has of a file, without the object that Blender keeps a skeleton in."""
+    """The bones that Unreal imports from a file, without Blender's armature object."""
     if not has_armature(asset):
         return asset
     translations, rotations = asset.translations_m[1:].copy(), asset.rotations[1:].copy()
@@ -122,7 +121,9 @@ def without_armature(asset: Figure) -> Figure:
 
 
 def reported(differences: Sequence[SkeletonDifference]) -> tuple[Message, ...]:
-    """The differences in words, the most severe first: how many there are of a kind, and which, or the largest."""
+    """Messages about the differences, most severe first: number of each kind with the bones' names, or the largest
+    difference.
+    """
     messages = [
         _severe(difference) for difference in differences if difference.severe and difference.kind != "additional"
     ]
@@ -164,7 +165,7 @@ def _roots(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
 
 
 def _unit(target: TargetSkeleton, asset: Figure) -> list[SkeletonDifference]:
-    """Return whether lengths as a whole are of another unit, by the bones that both have."""
+    """Difference of units, found by comparing the lengths of common bones; empty if the units agree."""
     theirs = {name: bone for bone, name in enumerate(asset.bone_names)}
     both = [
         (bone, theirs[name]) for bone, name in enumerate(target.names) if name in theirs and target.parents[bone] >= 0

@@ -1,4 +1,4 @@
-"""A dancer's files, written and then measured as a reader plays them back."""
+"""Writes a dancer's files and measures them after reading them back."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from app.rig.sole import SIDES, foot_tip_m
 
 
 def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, standing: BoolArray) -> DancerMeasures:
-    """Measure a file that was read back."""
+    """Measure a dancer's file that was read back."""
     assert scene.clip is not None
     playback = ScenePlayback(scene, scene.clip)
     joints = JointPlayback(playback, target, character)
@@ -56,7 +56,7 @@ def measure_dancer(scene: Scene, character: Character, target: TargetSkeleton, s
 
 
 def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, reported: Progress) -> DancerReport:
-    """Write and measure the files of a dancer; parameters as of `app.export.player.export_player`."""
+    """Write and measure the files of a dancer; parameters as in `app.export.player.export_player`."""
     dancer, dancing, span = cast.dancer, cast.dancing, request.span
     files, rows = file_names(request.performance, request.formats)[dancer.id], requested(request.formats)
     reported(0.0)

@@ -1,4 +1,4 @@
-"""Remarks on what earlier exports left at a destination: other bars, or the same music under another name."""
+"""Remarks about earlier exports at a destination: with other bars, or of the same music under another name."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_PIECES: Final = 64
 
 
 class _EarlierReport(msgspec.Struct, frozen=True):
-    """Bars of an export, as its ``report.json`` has them; None: the whole piece."""
+    """Bars of an export in its ``report.json``; None: the whole piece."""
 
     bars: tuple[int, int] | None
 
@@ -43,7 +43,7 @@ class _EarlierMetre(msgspec.Struct, frozen=True):
 
 
 class _EarlierPerformance(msgspec.Struct, frozen=True):
-    """Part of a ``performance.json`` by which a piece is recognised."""
+    """The part of a ``performance.json`` that identifies a piece."""
 
     players: tuple[_Named, ...]
     ticks_per_quarter: int
@@ -71,9 +71,9 @@ def other_bars(folder: Path, bars: tuple[int, int] | None) -> Message | None:
 
 
 def same_music(project_folder: Path, layout: Layout, project: Project) -> Message | None:
-    """Return a remark if an Unreal project has the music of a piece under another name, and not under its own.
+    """Return a remark if an Unreal project contains the same music under another name, and not under its own.
 
-    Music is the same if tempo map, metres and at least one player (name and instrument) are.
+    Music is the same if tempo map, metres and at least one player (name and instrument) are equal.
     """
     sources = project_folder / SOURCES
     if os.path.exists(sources / layout.piece / DESCRIPTION) or not os.path.isdir(sources):

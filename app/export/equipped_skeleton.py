@@ -1,4 +1,4 @@
-"""A skeleton to write on, equipped as requested: a root bone that goes along, IK targets, sockets, twist bones."""
+"""Adds optional bones to a target skeleton: root motion, IK targets, sockets, twist bones."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _KEPT: Final = {
 
 @dataclass
 class _Growing:
-    """Bones of a target with those that are added behind them; places in the world, at rest and in the T-pose."""
+    """A target skeleton with bones being added; positions and rotations in world space, at rest and in the T-pose."""
 
     target: TargetSkeleton
     names: list[str] = field(default_factory=list)
@@ -65,7 +65,7 @@ class _Growing:
     def add(
         self, name: str, parent: int, position: FloatArray, turn: FloatArray, in_t: FloatArray, own: FloatArray
     ) -> int:
-        """Add a bone at a place in the world; its number."""
+        """Add a bone at a place in world space, and return its index."""
         self.names += numbered([name], self.names)
         self.parents.append(parent)
         self.rest.append((position, turn))
@@ -74,7 +74,7 @@ class _Growing:
         return len(self.names) - 1
 
     def grown(self) -> TargetSkeleton:
-        """The target with the bones that were added."""
+        """The target with the added bones."""
         target, before = self.target, len(self.target.names)
         positions, turned = (np.stack(part) for part in zip(*self.rest, strict=True))
         offsets, rest = local_placements(self.parents, positions, turned)
@@ -96,11 +96,10 @@ class _Growing:
 
 
 def equipped(target: TargetSkeleton, character: Character, rig: Rig) -> TargetSkeleton:
-    """A target as requested.
+    """Add the requested bones to a target.
 
-    The skeleton of a character's own file keeps its rest pose, its twist bones and, where that is a joint of the body,
-    its root bone: ``skeleton.kept_rest_pose``, ``skeleton.kept_twist_bones`` and ``skeleton.kept_root`` (character) say
-    so.
+    The skeleton of a character's own file keeps its rest pose, its twist bones and, if that is a joint of the body, its
+    root bone; messages report this.
     """
     if rig.options == DEFAULT_RIG:
         return target
@@ -135,7 +134,7 @@ def equipped(target: TargetSkeleton, character: Character, rig: Rig) -> TargetSk
 
 
 def _add_twists(growing: _Growing, skeleton: Skeleton) -> None:
-    """A bone half-way along each upper and lower arm."""
+    """Add a twist bone half-way along each upper and lower arm."""
     target, joints = growing.target, rest_positions(skeleton)
     for base_name, end_name in LIMBS.items():
         if "Arm" not in base_name:
@@ -150,7 +149,7 @@ def _add_twists(growing: _Growing, skeleton: Skeleton) -> None:
 
 
 def _add_ik_targets(growing: _Growing, skeleton: Skeleton) -> dict[str, int]:
-    """The IK targets, those that the skeleton has among them; all by their names."""
+    """Add missing IK targets, and return all of them by name."""
     target = growing.target
     found: dict[str, int] = {}
     for name, (parent, joint) in IK_BONES.items():
@@ -166,7 +165,7 @@ def _add_ik_targets(growing: _Growing, skeleton: Skeleton) -> dict[str, int]:
 
 
 def _add_sockets(growing: _Growing, skeleton: Skeleton, rig: Rig, hands: Mapping[str, int]) -> None:
-    """A bone for each instrument on the hand that bears it, at rest where the instrument lies in the hand."""
+    """Add a socket for each instrument on the hand that holds it, at rest where the instrument is in the hand."""
     for number, grip in enumerate(rig.grips):
         hand = growing.target.bone_of_joint[skeleton.index(f"{grip.side}Hand")]
         parent = hands[grip.side]
@@ -185,5 +184,5 @@ def _add_sockets(growing: _Growing, skeleton: Skeleton, rig: Rig, hands: Mapping
 
 
 def socket_names(target: TargetSkeleton) -> Sequence[str]:
-    """Names of the sockets, one for each instrument of the musician; none where they are free."""
+    """Names of the sockets, one for each instrument of the musician; empty if instruments are not attached."""
     return [target.names[bone] for bone, _ in sorted(target.sockets.items(), key=lambda item: item[1])]

@@ -1,7 +1,7 @@
-"""Eyes of a file: each is turned once, by ARKit's eyeLook shapes or by its bone.
+"""Splits the rotation of eyes between ARKit's eyeLook shapes and eye bones, so that it is applied once.
 
-Programs add what a bone and what a shape does. Where shapes turn the ball, a bone turns it by what they leave, which is
-nothing for shapes of ours; a format without shapes has the whole turn on the bone.
+Programs add the effects of bones and shapes. If shapes rotate the eyeball, the bone only adds the rest, which is
+nothing for this program's shapes; in formats without shapes the bone has the whole rotation.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class EyesOfFile:
     turned: Mapping[str, FloatArray]
 
     def whole(self, target: TargetSkeleton, character: Character, rotations: AnyFloatArray) -> dict[int, FloatArray]:
-        """Rotations (F, 4) on their parents of the bones whose turn is partly made by shapes, with all of it."""
+        """Full rotations (F, 4) relative to the parent for the bones that are partly rotated by shapes."""
         found = {}
         for name, turn in self.turned.items():
             bone = target.bone_of_joint.get(character.skeleton.index(name), -1)
@@ -57,7 +57,7 @@ class EyesOfFile:
 
 
 def eyes_of_file(character: Character, motion: Motion, target: TargetSkeleton) -> EyesOfFile:
-    """Share the turn of the eyes between shapes and bones."""
+    """Split the rotation of the eyes between shapes and bones."""
     own = character.own if target.choice == "own" else None
     joints = {side: character.skeleton.index(eye_joint(side)) for side in EYE_SIDES if _has(character, side)}
     if own is None:
@@ -81,7 +81,7 @@ def eyes_of_file(character: Character, motion: Motion, target: TargetSkeleton) -
 
 
 def with_turned_balls(character: Character) -> Character:
-    """A character whose eyeLook shapes turn the balls of its eyes too."""
+    """Make the eyeLook shapes of a character also rotate its eyeballs."""
     if not any(_has(character, side) for side in EYE_SIDES):
         return character
     return replace(character, meshes=tuple(_turned_mesh(character, mesh) for mesh in character.meshes))
@@ -108,7 +108,7 @@ def _turned_mesh(character: Character, mesh: Mesh) -> Mesh:
 
 
 def _added(morph: Morph | None, name: str, vertices: np.ndarray, moved: FloatArray, count: int) -> Morph:
-    """A morph that also moves some vertices."""
+    """Extend a morph by the movement of some vertices."""
     if morph is None:
         return Morph(name, vertices.astype(np.int32), moved.astype(np.float32), None)
     deltas_m = np.zeros((count, 3))
@@ -127,7 +127,7 @@ def _without(morphs: Mapping[str, SingleArray], names: set[str]) -> dict[str, Si
 
 
 def _made(ways: Mapping[str, FloatArray], side: EyeSide, morphs: Mapping[str, SingleArray], frames: int) -> FloatArray:
-    """Direction (F, 3), unit, into which shapes bring an eye that looks ahead."""
+    """Unit direction (F, 3) of an eye that looks ahead, after shapes are applied."""
     place = np.tile(_AHEAD, (frames, 1))
     for way, turn in ways.items():
         weights = morphs.get(shape_name(side, way))
@@ -138,13 +138,13 @@ def _made(ways: Mapping[str, FloatArray], side: EyeSide, morphs: Mapping[str, Si
 
 
 def _between(start: FloatArray, end: FloatArray) -> FloatArray:
-    """The shortest rotations (F, 4) from unit directions to others."""
+    """Shortest rotations (F, 4) from unit directions to others."""
     across, along = np.cross(start, end), 1.0 + np.sum(start * end, axis=1)
     return quaternion.normalize(np.concatenate([across, along[:, None]], axis=1))
 
 
 def _turns_of(own: OwnSkeleton, joint: int, side: EyeSide) -> dict[str, FloatArray]:
-    """Rotation (4,) by which each of a figure's own shapes turns the ball of an eye; those of lids are left out."""
+    """Rotation (4,) of the eyeball by each of a figure's own shapes; shapes that only move lids are left out."""
     bone = own.bone_of_joint[joint]
     found: dict[str, FloatArray] = {}
     for way in SHAPES_RAD:
@@ -157,7 +157,7 @@ def _turns_of(own: OwnSkeleton, joint: int, side: EyeSide) -> dict[str, FloatArr
 
 
 def _turn_of_ball(figure: Figure, bone: int, recipe: Mapping[str, float]) -> FloatArray:
-    """The rotation about a bone that comes nearest to what morphs do to the vertices that hang on it."""
+    """Rotation about a bone that best fits the displacement of its vertices by morphs."""
     places_m, _ = world_placements(figure.parents, figure.translations_m, figure.rotations)
     before, after = [np.zeros((0, 3))], [np.zeros((0, 3))]
     for mesh in figure.meshes:

@@ -1,7 +1,7 @@
-"""Curves of a face in exported files: which parts of a face have them, and what they are called.
+"""Selects and names the face curves of exported files.
 
-A studio may take some parts of a face from a capture, and others from here: brows of an actor, lips of a player. And
-faces of other makers call the same shapes otherwise:
+A studio may combine parts of the face from a capture with others from this program. Other face rigs use other names for
+the same shapes:
 
 - ``arkit``: as Apple does (ARFaceAnchor.BlendShapeLocation, 52 names), which Live Link Face, Ready Player Me and
   Character Creator read too;
@@ -52,7 +52,7 @@ class FaceOptions(msgspec.Struct, frozen=True):
     ----------
     names : CurveNames
     parts : tuple of FacePart
-        Those whose curves are written.
+        Parts of the face whose curves are written.
     """
 
     names: CurveNames = "arkit"
@@ -63,19 +63,19 @@ DEFAULT_FACE: Final = FaceOptions()
 
 
 def part_of(shape: str) -> FacePart | None:
-    """The part of a face that a shape moves; None of one that is not ARKit's, as of the breath in a trunk."""
+    """The part of a face that a shape moves; None for shapes other than ARKit's, such as breathing of the trunk."""
     if shape not in ARKIT_MORPHS:
         return None
     return next(part for beginning, part in _BEGINNINGS.items() if shape.startswith(beginning))
 
 
 def written_weights(weights: Mapping[str, SingleArray], parts: tuple[FacePart, ...]) -> dict[str, SingleArray]:
-    """Weights of ARKit's shapes without those of the other parts of a face."""
+    """Weights of ARKit shapes restricted to some parts of the face; other shapes are kept."""
     return {shape: values for shape, values in weights.items() if part_of(shape) in (None, *parts)}
 
 
 def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
-    """Curves by ARKit's shape, each with its share of the shape's weight."""
+    """Curve names for each ARKit shape, each with its share of the shape's weight."""
     if names == "arkit":
         return {shape: {shape: 1.0} for shape in ARKIT_MORPHS}
     if names == "audio2face":
@@ -85,10 +85,10 @@ def curve_names(names: CurveNames) -> Mapping[str, Mapping[str, float]]:
 
 
 def with_curve_names(scene: Scene, names: CurveNames) -> Scene:
-    """Rename a scene's face curves and morph targets; the mesh moves as before.
+    """Rename a scene's face curves and morph targets, so that the mesh moves as before.
 
-    A shape may move several curves, and a curve may serve several shapes: its weights are added up, and the mesh's
-    targets are those with which the curves together make the shapes again.
+    A shape may drive several curves, and a curve several shapes: curve weights are summed, and the mesh's targets are
+    chosen such that the curves together reproduce the shapes.
     """
     if names == "arkit" or scene.clip is None:
         return scene
@@ -108,8 +108,7 @@ _SMALLEST_SHARE: Final = 1e-9
 
 
 def _shares_of_shapes(table: Mapping[str, Mapping[str, float]]) -> dict[str, dict[str, float]]:
-    """For each shape, the share of its vertex offsets that the target of each curve gets: the pseudo-inverse of the
-    table, so that the table's weights of these targets give the shapes."""
+    """Share of each shape's vertex offsets for the target of each curve: the pseudo-inverse of the table."""
     curves = list(dict.fromkeys(curve for shares in table.values() for curve in shares))
     weights = np.array([[shares.get(curve, 0.0) for shares in table.values()] for curve in curves])
     inverse = np.linalg.pinv(weights)
@@ -128,7 +127,7 @@ def _renamed(mesh: SkinnedMesh, shares: Mapping[str, Mapping[str, float]]) -> Sk
 
 
 def _summed(name: str, parts: Sequence[tuple[MorphTarget, float]]) -> MorphTarget:
-    """Add up morph targets, each times a factor."""
+    """Sum of morph targets, each with a factor."""
     if len(parts) == 1:
         morph, share = parts[0]
         normals = None if morph.normal_deltas is None else morph.normal_deltas * share

@@ -1,4 +1,6 @@
-"""Scenes of the characters and instruments of an export, on the skeletons and with the keys that were asked for."""
+"""Makes the scenes of an export's characters and instruments, on the requested skeletons and with the requested
+keys.
+"""
 
 from __future__ import annotations
 
@@ -25,14 +27,14 @@ from app.rig.model import Character
 def musician_scene(
     request: ExportRequest, musician: CastMusician, motion: Motion, kind: FileFormat | None = None
 ) -> Scene:
-    """The scene of a musician's character, with the sockets where the instruments are.
+    """The scene of a musician's character, with sockets for the instruments.
 
     Parameters
     ----------
     motion : Motion
-        Of the first instrument's player.
+        Motion of the player of the first instrument.
     kind : FileFormat, optional
-        The kind of file, which may have a skeleton of its own.
+        File format, which may require its own skeleton.
     """
     name, target = figure_stems(request.performance)[musician.player.id]["character"], musician.target
     if kind is not None and kind.humanoid:
@@ -55,14 +57,14 @@ def musician_scene(
 
 
 def held_scene(request: ExportRequest, musician: CastMusician, performer: Performer, motion: Motion) -> Scene:
-    """The scene of one of a musician's instruments, by the motion of its player."""
+    """The scene of one of a musician's instruments, from the motion of its player."""
     name, path = figure_stems(request.performance)[performer.player.id]["instrument"], own_path(musician.target, motion)
     scene = instrument_scene(performer.instrument, performer.model, motion, name, request.creator, path)
     return keyed_instrument(scene, request.keys, request.formats)
 
 
 def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind: FileFormat | None = None) -> Scene:
-    """The scene of a dancer's character; `kind` as of a musician."""
+    """The scene of a dancer's character; `kind` as in `musician_scene`."""
     name, character = figure_stems(request.performance)[cast.dancer.id]["character"], cast.character
     if kind is not None and kind.humanoid:
         return _animation_scene(request, character, motion, name, cast.target_in(kind))

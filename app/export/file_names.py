@@ -1,4 +1,4 @@
-"""Names of an export's files, and of the figures in them."""
+"""Names of an export's files and figures."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ Stems = dict[str, dict[FileContent, str]]
 
 
 def figure_stems(performance: Performance) -> Stems:
-    """Names of everyone's character and instrument; the same for any selection of players.
+    """Names of every character and instrument; independent of the selection of players.
 
-    Who doubles has an instrument alone, named after the musician.
+    A doubling player only has an instrument, named after the musician.
     """
     project = performance.project
     everyone: list[Player | Dancer] = [*project.players, *project.dancers]
@@ -39,7 +39,7 @@ def figure_stems(performance: Performance) -> Stems:
 
 
 def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
-    """Names of the files of every player and dancer: by id, then by what they hold."""
+    """Names of the files of every player and dancer, by id and by content."""
     return {
         id: {kind.key(held): f"{stems[held]}{kind.suffix}" for kind, held in files_of(formats) if held in stems}
         for id, stems in figure_stems(performance).items()
@@ -47,13 +47,13 @@ def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str
 
 
 def sound_name(source: str) -> str:
-    """Name of the sound's file, after the piece's."""
+    """Name of the sound file, after the piece's."""
     (stem,) = file_stems([Path(source).stem])
     return f"{stem}.wav"
 
 
 def stage_names(performance: Performance, formats: frozenset[Format], source: str) -> dict[Format, str]:
-    """Names of the files of the whole stage, after the piece's; no figure's file has the same."""
+    """Names of the stage's files, after the piece's, different from all figures' files."""
     figures = [stem for stems in figure_stems(performance).values() for stem in stems.values()]
     *_, stem = file_stems([*figures, f"{Path(source).stem}_stage"])
     return {kind.id: f"{stem}{kind.suffix}" for kind in requested(formats) if kind.stage}

@@ -1,4 +1,4 @@
-"""A set of files that appears in a folder whole or not at all."""
+"""Writes a set of files into a folder atomically."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from app.formats.files import cannot_write
 
 @contextlib.contextmanager
 def files_into(folder: Path) -> Iterator[Path]:
-    """A folder to write into, whose files move to ``folder`` when the block is done.
+    """Yield a temporary folder whose files move to ``folder`` at the end of the block.
 
-    If the block raises, KeyboardInterrupt included, nothing has changed: folders made for it are taken away again.
+    If the block raises, including KeyboardInterrupt, nothing is changed, and folders created for it are removed.
 
     Parameters
     ----------
     folder : path
-        Made if it is not there. Files of the same names are replaced, others are left alone.
+        Created if it does not exist. Files of the same names are replaced, others are kept.
 
     Yields
     ------
@@ -31,7 +31,7 @@ def files_into(folder: Path) -> Iterator[Path]:
     Raises
     ------
     FileError
-        ``file.cannot_write`` if the system refuses; see `app.export.tree.tree_into`.
+        The system refuses; see `app.export.tree.tree_into`.
     """
     made: list[Path] = []
     try:
@@ -49,7 +49,7 @@ def files_into(folder: Path) -> Iterator[Path]:
 
 
 def _make(folder: Path, made: list[Path]) -> None:
-    """Make a folder and those above it; ``made`` gets the new ones."""
+    """Create a folder and its parents; new ones are appended to ``made``."""
     if os.path.isdir(folder):
         return
     if os.path.exists(folder):

@@ -1,4 +1,4 @@
-"""The kinds of file that a player's character and instrument are written to: a row each, with its writer."""
+"""File formats for players' characters and instruments: a table row each, with its writer."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ class WriteOptions:
     Attributes
     ----------
     sound : str or None
-        Name of a sound file in the same folder that starts with frame 0.
+        Name of a sound file in the same folder that starts at frame 0.
     bone_names : mapping of int to str
-        Other names than the scene's, by bone, for files that are chosen by the names of their bones.
+        Bone names that differ from the scene's, for formats that allow this.
     expressions : mapping of str to mapping of str to float
-        Further expressions of a face, by weights of the scene's morphs.
+        Further facial expressions, as weights of the scene's morphs.
     meshes : bool
-        Whether files that can do without have meshes.
+        Whether to write meshes in formats that can omit them.
     texture_px : int
         Longest side of textures; 0: none.
     t_pose : ndarray, shape (B, 4), or None
-        Rotations of the scene's bones on their parents in the T-pose.
+        Rotations of the scene's bones relative to their parents in the T-pose.
     """
 
     sound: str | None = None
@@ -51,45 +51,45 @@ class WriteOptions:
 
 @dataclass(frozen=True)
 class FileFormat:
-    """A kind of file.
+    """A file format.
 
     Attributes
     ----------
     id, label : str
-        As typed in a command, and as shown, in every language.
+        Id as typed in a command, and label shown in every language.
     suffix : str
-        With its dot.
+        Suffix with its dot.
     holds : tuple of str
-        Whose scenes it can hold, each in a file of its own.
+        Kinds of scenes that it can hold, each in a separate file.
     held_in : Format
-        The format of the instruments' files beside it, where it cannot hold them; empty: they have none.
+        Format of the instrument files, if it cannot hold instruments; empty: none are written.
     humanoid : bool
-        Whether characters are written on the humanoid of VRM, whatever skeleton was chosen.
+        Whether characters are always written on VRM's humanoid skeleton.
     work : float
-        How long a player's files take to write, beside those of the other formats.
+        Relative time to write a player's files.
     write : callable
-        Writes scenes that have clips, as they are made: one, or a stage of several, each with a name and a place.
+        Writes scenes with clips as they are generated: one, or several of a stage with names and places.
     stage : bool
         Whether it can hold several scenes.
     read : callable or None
-        Reads a file of one scene again, with the numbers that vertices have in the meshes that were written; the first
-        requested format that has it is the one that is measured.
+        Reads a file with one scene back, with the vertex order of the written meshes; the first requested format with a
+        reader is measured.
     usual : bool
         Whether it is written by default.
     reduces_keys : bool
-        Whether it can have fewer keys than one on every frame.
+        Whether it allows fewer keys than one on every frame.
     keys_by_pose : bool
-        Whether all bones share their keys in it.
+        Whether all bones share their keys.
     without_meshes : bool
-        Whether its meshes can be left out (`WriteOptions.meshes`).
+        Whether meshes can be omitted (`WriteOptions.meshes`).
     textured : bool
-        Whether its surfaces have textures.
+        Whether surfaces have textures.
     bones_by_name : bool
-        Whether bones may get other names in it (`WriteOptions.bone_names`).
+        Whether bones can be renamed (`WriteOptions.bone_names`).
     package : str
-        What `refuse` finds missing.
+        Package that `refuse` checks for.
     refuse : callable
-        Raises UsageError where what writes this kind of file is not installed.
+        Raises UsageError if the required package is not installed.
     """
 
     id: Format
@@ -112,7 +112,7 @@ class FileFormat:
     refuse: Callable[[], None] = lambda: None
 
     def key(self, held: FileContent) -> str:
-        """The name under which a report lists a file: ``character_fbx``."""
+        """The key of a file in a report: ``character_fbx``."""
         return f"{held}_{self.id}"
 
 
@@ -120,7 +120,7 @@ class FileFormat:
 
 
 def _shown(scenes: Iterable[Scene], options: WriteOptions) -> Iterator[Scene]:
-    """Scenes with the meshes and textures that are asked for."""
+    """Yield scenes with the requested meshes and textures."""
     for scene in scenes:
         yield with_textures(scene, options.texture_px) if options.meshes else without_meshes(scene)
 
@@ -241,13 +241,13 @@ USUAL_FORMATS: Final = tuple(row.id for row in FILE_FORMATS.values() if row.usua
 
 
 def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[FileFormat, FileContent], ...]:
-    """The files that are written of each character and instrument, in their order: their formats and contents.
+    """The files to write for each character and instrument, in order, as formats and contents.
 
     Parameters
     ----------
     formats : collection of str
     reads : bool
-        Only those that are read again, to be measured.
+        Only those that are read back for measuring.
     """
     rows = requested(formats)
     if reads:
@@ -260,17 +260,17 @@ def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[Fi
 
 
 def requested(formats: Collection[Format]) -> tuple[FileFormat, ...]:
-    """The rows of some formats."""
+    """Table rows of some formats."""
     return tuple(row for id, row in FILE_FORMATS.items() if id in formats)
 
 
 def refuse_attachment(formats: Collection[Format], attachment: Attachment) -> None:
-    """Raise UsageError where instruments are to hang on bones that files of some format do not have."""
+    """Raise UsageError if instruments are to be attached to bones that files of some format lack."""
     without = [row.label for row in requested(formats) if row.humanoid]
     if without and attachment != "free":
         raise UsageError("attachment.formats", formats=", ".join(without))
 
 
 def names_where(true: Callable[[FileFormat], bool]) -> str:
-    """Ids of the formats that something is true of, as a list in a text."""
+    """Comma-separated ids of the formats for which a condition is true."""
     return ", ".join(row.id for row in FILE_FORMATS.values() if true(row))

@@ -1,4 +1,4 @@
-"""Blocks of frames of a player's and its instrument's files, read once for all measures."""
+"""Reads a player's and an instrument's file in blocks of frames, once for all measures."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _HANDS = ("left.hand", "right.hand")
 
 
 class Walk:
-    """Both files, read some frames at a time.
+    """Reader of a player's and an instrument's file in blocks of frames.
 
     Parameters
     ----------
@@ -58,8 +58,9 @@ class Walk:
         self._torso = np.empty((2, frames))
 
     def read(self, first: int, last: int, chosen: BoolArray) -> list[SingleArray]:
-        """Read the frames ``first`` .. ``last - 1``; returned is ``world_from_joint`` (N, J, 3, 4) of what carries each
-        hand, at those that are ``chosen`` (F,)."""
+        """Read the frames ``first`` .. ``last - 1``; returns ``world_from_joint`` (N, J, 3, 4) of the joints that move
+        each hand, at the ``chosen`` frames (F,).
+        """
         at = np.flatnonzero(chosen[first:last]) + first
         # In memory (N, 3, J, 4), as depths are computed.
         found = [np.empty((len(at), 3, len(rows), 4), np.float32) for rows in self._carriers]
@@ -79,11 +80,11 @@ class Walk:
         return [joints.swapaxes(1, 2) for joints in found]
 
     def morphs(self, frames: AnyIntArray) -> dict[str, AnyFloatArray]:
-        """Weights (N,) of the morphs at some frames."""
+        """Weights (N,) of morphs at some frames."""
         return {name: np.asarray(weights)[frames] for name, weights in self._player.clip.morph_weights.items()}
 
     def nodes(self, frames: AnyIntArray) -> dict[str, FloatArray]:
-        """``world_from_node`` (N, 4, 4) at some frames that were read."""
+        """``world_from_node`` (N, 4, 4) of the instrument's nodes at some of the frames that were read."""
         result = np.zeros((len(self._nodes), len(frames), 4, 4))
         result[:, :, :3] = self._placed[..., frames].transpose(0, 3, 1, 2)
         result[:, :, 3, 3] = 1.0
@@ -91,19 +92,19 @@ class Walk:
 
     @property
     def torso_rad(self) -> FloatArray:
-        """Angles of the torso (F, 2)."""
+        """Angles of the torso (F, 2) in radians, sideways and forward."""
         return self._torso.T
 
     @property
     def traces(self) -> Traces:
-        """Places of the traced points in all frames read."""
+        """Positions of the tracked points in all frames read."""
         marks_m = {name: self._marks_m[row].T for row, name in enumerate(self._middles.names)}
         nodes = {name: self._placed[row].transpose(2, 0, 1) for row, name in enumerate(self._nodes)}
         return Traces(marks_m, nodes)
 
 
 def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict[str, Skin]:
-    """The landmarks of these names that the character has, as the file's meshes have them."""
+    """Landmarks of the character with these names, on the file's meshes."""
     meshes: dict[int, tuple[SkinnedMesh, dict[str, IntArray]]] = {}
     for name in sorted(names & character.landmarks.keys()):
         mesh, vertices = joints.surface(character.landmarks[name])
@@ -118,8 +119,7 @@ def _skins(joints: JointPlayback, character: Character, names: Set[str]) -> dict
 
 
 def bone_deviation_m(joints: JointPlayback) -> FloatArray:
-    """Return how much longer or shorter than at rest the bone is that changes most (F,): only those with a curve
-    can."""
+    """Return the largest change of any bone's length relative to rest (F,); only animated bones can change."""
     player = joints.playback
     result = np.zeros(player.clip.frames)
     for bone in player.clip.translations_cm:

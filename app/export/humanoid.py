@@ -1,7 +1,8 @@
-"""The humanoid of a VRM animation: VRM's bones, unturned at rest where the character's own file rests.
+"""Target skeleton of a VRM animation: VRM's humanoid bones, unrotated in the rest pose of the character's own file.
 
-A viewer turns a VRM's bones away from its rest pose as the animation's bones turn from theirs. So the rest pose is that
-of the VRM file a character came from, which need not be our T-pose to the degree; any other character has our T-pose.
+A viewer applies the rotations of the animation's bones relative to their rest to a VRM's bones relative to its rest. So
+the rest pose must be that of the character's VRM file, which may differ slightly from the T-pose; characters without
+one use the T-pose.
 """
 
 from __future__ import annotations
@@ -33,15 +34,15 @@ _VRM = "vrm"
 
 
 def humanoid_target(character: Character, place: NodePlace | None = None) -> TargetSkeleton:
-    """The bones of a character's VRM animation, and last the gaze, in the middle between the eyes.
+    """Bones of a character's VRM animation, and last the gaze bone in the middle between the eyes.
 
-    A joint that the character's own file lacks has no bone: what it turns by goes to the bones below.
+    A joint missing in the character's own file has no bone; its rotation is passed to the bones below.
 
     Parameters
     ----------
     character : Character
     place : NodePlace or None
-        Where the hips' path stands on the stage; None: at the origin.
+        Stage transform of the hips' path; None: at the origin.
     """
     skeleton, own = character.skeleton, character.own
     known = {joint.name for joint in load_skeleton("vrm1").joints} - {"root", *EYES}
@@ -93,7 +94,7 @@ def humanoid_target(character: Character, place: NodePlace | None = None) -> Tar
 
 
 def humanoid_scene(character: Character, motion: Motion, name: str, creator: str, target: TargetSkeleton) -> Scene:
-    """The scene of a VRM animation on a `humanoid_target`, with the mesh that shows what a viewer would."""
+    """The scene of a VRM animation on a `humanoid_target`, with a mesh that shows how a viewer displays it."""
     scene = character_scene(character, motion, name, creator, target)
     clip = scene.clip
     assert clip is not None
@@ -107,7 +108,9 @@ def humanoid_scene(character: Character, motion: Motion, name: str, creator: str
 
 
 def gaze(character: Character, motion: Motion) -> FloatArray:
-    """Rotations (F, 4) on the head that turn +Z to where both eyes look: about the vertical, then about the level."""
+    """Rotations (F, 4) relative to the head that turn +Z to the direction of both eyes: about the vertical axis, then
+    up or down.
+    """
     skeleton = character.skeleton
     ways = sum(quaternion.rotate(quaternion.normalize(motion.rotations[:, skeleton.index(eye)]), AHEAD) for eye in EYES)
     x, y, z = np.asarray(ways, np.float64).T
@@ -118,10 +121,10 @@ def gaze(character: Character, motion: Motion) -> FloatArray:
 
 
 def vrm_expressions(character: Character) -> Mapping[str, Mapping[str, float]]:
-    """Expressions beside ARKit's own names, as weights of ARKit's shapes.
+    """Expressions other than ARKit's names, as weights of ARKit shapes.
 
-    VRM's presets; but a shape for which the character's VRM file has an expression of ARKit's name, however it is
-    spelled, goes to that one alone, so that nothing moves the face twice.
+    VRM's presets; but a shape for which the character's VRM file has an expression of ARKit's name, in any spelling, is
+    used only for that one, so that nothing moves the face twice.
     """
     own, shapes = character.own, {name.casefold(): name for name in ARKIT_MORPHS}
     spelled = {

@@ -1,7 +1,7 @@
-"""Four influences per vertex, as many as games read, wherever nothing is seen of the others.
+"""Reduces skin weights to four influences per vertex, as game engines read, where the difference is invisible.
 
-A vertex on more bones gets new weights on four of them: those that leave it nearest to where all of them take it, by
-least squares over poses of the clip. It keeps its own where it would ever be further away than `FEW_MM`.
+A vertex with more influences gets new weights on four bones, fitted by least squares to its positions in poses of the
+clip. It keeps all influences if it would ever deviate by more than `FEW_MM`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _RIDGE = 1e-9
 
 
 def with_few_influences(scene: Scene) -> Scene:
-    """A scene with a clip, whose meshes have at most four influences per vertex where that is not seen."""
+    """Reduce the influences of a scene's meshes; the scene must have a clip."""
     counts = [np.count_nonzero(mesh.weights, axis=1).max(initial=0) for mesh in scene.meshes]
     if scene.clip is None or max(counts, default=0) <= MOST_INFLUENCES:
         return scene
@@ -57,7 +57,7 @@ def _with_few(mesh: SkinnedMesh, playback: ScenePlayback) -> SkinnedMesh:
 
 
 def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
-    """Return the distance that the shapes of a clip may move each vertex (V,) by."""
+    """Return the largest distance by which morphs of a clip move each vertex (V,)."""
     result = np.zeros(len(mesh.vertices_cm))
     for morph in mesh.morphs:
         most = np.abs(playback.clip.morph_weights.get(morph.name, np.zeros(1))).max()
@@ -66,7 +66,7 @@ def _shaped_mm(mesh: SkinnedMesh, playback: ScenePlayback) -> FloatArray:
 
 
 class _Skinned:
-    """Vertices (V,) that more than four bones (V, K) carry, the strongest first."""
+    """Vertices (V,) held by more than four bones (V, K), strongest first."""
 
     def __init__(
         self, mesh: SkinnedMesh, vertices: IntArray, joints: AnyIntArray, weights: FloatArray, playback: ScenePlayback
@@ -82,13 +82,15 @@ class _Skinned:
         self._own_cm = np.einsum("vkab,vb->vka", bone_from_bind, np.pad(places_cm, ((0, 0), (0, 1)), constant_values=1))
 
     def _world(self, first: int, last: int) -> FloatArray:
-        """World transforms (B, 3, 4, f), centimetres, of the bones that carry any of them, at some frames."""
+        """World transforms (B, 3, 4, f), centimetres, of the bones that hold these vertices, at some frames."""
         world = self._bones.world(first, last)[self._rows]
         world[:, :, 3] /= METRES
         return world
 
     def fewer(self) -> tuple[FloatArray, BoolArray]:
-        """Weights (V, K) of which four at most count, and whether these are near enough at all frames."""
+        """Weights (V, K) with at most four non-zero ones, and a mask of vertices for which they are accurate at all
+        frames.
+        """
         assert self._playback.clip is not None
         frames = self._playback.clip.frames
         places = np.unique(np.linspace(0, frames - 1, _POSES).astype(int)).tolist()
@@ -106,7 +108,7 @@ class _Skinned:
         return best, worst + self._off_shaped_mm(best) <= FEW_MM
 
     def _fitted(self, carried: FloatArray, chosen: tuple[int, ...]) -> FloatArray:
-        """Weights (V, K) of some bones that leave the vertices nearest to their places."""
+        """Least-squares weights (V, K) on some bones for the vertices' positions."""
         first, *others = chosen
         # The weights' sum is 1: those of the others say that of the first.
         ways = carried[:, :, others] - carried[:, :, [first]]
@@ -125,7 +127,7 @@ class _Skinned:
         return result
 
     def _off_mm(self, world: FloatArray, weights: FloatArray) -> AnyFloatArray:
-        """Return the distance by which vertices (V,) are off with some weights, at the worst of some frames."""
+        """Return the largest deviation of vertices (V,) with some weights over some frames."""
         points = np.zeros((len(weights), len(world), 4))
         changed = (weights - self._weights)[..., None] * self._own_cm
         np.add.at(points, (np.arange(len(weights))[:, None], self._carriers), changed)
@@ -133,6 +135,6 @@ class _Skinned:
         return np.asarray(10.0 * np.sqrt(np.einsum("vaf,vaf->vf", off_cm, off_cm).max(axis=-1)))
 
     def _off_shaped_mm(self, weights: FloatArray) -> FloatArray:
-        """Return how far vertices (V,) may be off besides, as their bones turn what shapes move them by."""
+        """Return the additional deviation of vertices (V,) possible because bones also rotate morph displacements."""
         off: FloatArray = np.abs(weights - self._weights).sum(axis=1) * self._shaped_mm
         return off

@@ -1,7 +1,7 @@
-"""An instrument and its moving parts as the scene of a file, in the same space as its player.
+"""Converts an instrument with its moving parts to the scene of a file, in the space of its player.
 
-The root bone is the instrument's place in the world; every moving part is a bone below it that bears the name of the
-control that moves it, or of its own node where it only moves along.
+The root bone is the instrument's place in the world; every moving part is a bone below it, named after its control, or
+after its node if it only moves along.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ def instrument_scene(
     ----------
     instrument : InstrumentMap
     model : InstrumentModel
-        The model the map names.
+        The model named in the map.
     motion : Motion
-        Of the player who holds it.
+        Motion of the player who holds it.
     name, creator : str
-        Of the armature and the animation, with which the mesh's name begins; program and version.
+        Name of armature and animation and prefix of the mesh's name; program and version.
     path : Trajectory, optional
-        Where the root bone is; absent: where the instrument is.
+        Path of the root bone; by default that of the instrument.
     """
     bones = instrument_bones(instrument, model)
     binds = np.tile(np.eye(4), (len(bones), 1, 1))
@@ -58,7 +58,7 @@ def instrument_scene(
 
 
 def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple[Bone, ...]:
-    """One bone per node; a node that a control moves is named after the control."""
+    """One bone per node, named after its control if there is one."""
     by_node = {part.node: part.name for part in instrument.moving_parts}
     unturned = np.array([0.0, 0.0, 0.0, 1.0])
     root_m = model.node_positions_m[0]
@@ -77,7 +77,7 @@ def instrument_bones(instrument: InstrumentMap, model: InstrumentModel) -> tuple
 def instrument_clip(
     instrument: InstrumentMap, model: InstrumentModel, motion: Motion, name: str, path: Trajectory | None = None
 ) -> Clip:
-    """Return where the instrument is and what its parts do."""
+    """Return the clip of an instrument's place and moving parts."""
     rotations = np.zeros((motion.frames, len(model.node_names), 4))
     rotations[..., 3] = 1.0
     path = instrument_path(motion) if path is None else path

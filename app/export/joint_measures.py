@@ -1,4 +1,4 @@
-"""Measures of a file's joints: human ranges and accelerations."""
+"""Measures joint angles and angular accelerations in a file against human limits."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _AXES = ("flexion", "sideways", "twist")
 
 
 class JointMeasure(msgspec.Struct, frozen=True):
-    """The joint that comes nearest to its bound, or goes beyond it."""
+    """The joint closest to its limit, or furthest beyond it."""
 
     joint: str
     value: float
@@ -32,8 +32,9 @@ class JointMeasure(msgspec.Struct, frozen=True):
 def measure_joints(
     joints: JointPlayback, body: Body, profile: SkeletonProfile, fps: float
 ) -> tuple[JointMeasure, JointMeasure]:
-    """The joint angle that goes furthest beyond its range, degrees (negative: inside all ranges by that much), and the
-    angular acceleration that comes nearest to its human bound."""
+    """Return the joint angle furthest beyond its range in degrees (negative: all angles are inside, by at least that
+    much), and the angular acceleration closest to its limit.
+    """
     frames, limits = joints.playback.clip.frames, _limits(joints, body, profile)
     bounds = np.array([limit.acceleration_rad_s2 for limit in limits.values()])[:, None]
     low, high = _ranges_deg(limits.values())
@@ -66,7 +67,7 @@ def _limits(joints: JointPlayback, body: Body, profile: SkeletonProfile) -> Mapp
 
 
 def _ranges_deg(limits: Iterable[JointLimits]) -> FloatArray:
-    """Least and greatest angles (2, 3, J)."""
+    """Smallest and largest angles (2, 3, J) in degrees."""
     rows = [(one.flexion_deg, one.sideways_deg, one.twist_deg) for one in limits]
     return np.array(rows).reshape(-1, len(_AXES), 2).T
 

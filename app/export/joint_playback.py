@@ -1,4 +1,4 @@
-"""Motion of the normalised character's joints in a file, whatever its skeleton."""
+"""Motion of the normalised skeleton's joints in a file with any skeleton."""
 
 from __future__ import annotations
 
@@ -19,17 +19,18 @@ _TRUNK = ("spine", "chest", "upperChest", "neck", "head")
 
 
 class JointPlayback:
-    """Joints read from the bones of a file: ``world_from_joint = world_from_bone * inverse(joint_from_bone)``.
+    """Motion of joints derived from the bones of a file: ``world_from_joint = world_from_bone *
+    inverse(joint_from_bone)``.
 
-    Bones are found by their names in the file. A joint that no bone shows does not turn on its parent; of the trunk's
-    joints, which a file may show as fewer bones, those that go as one have equal shares of what it turns.
+    Bones are matched by name. A joint without a bone does not rotate; joints of the trunk that the file merges into one
+    bone share its rotation equally.
 
     Parameters
     ----------
     playback : ScenePlayback
-        Of the file.
+        Motion of the file's bones.
     target : TargetSkeleton
-        What its bones mean.
+        Correspondence of bones and joints.
     character : Character
     """
 
@@ -51,11 +52,11 @@ class JointPlayback:
 
     @cached_property
     def joint_names(self) -> Mapping[int, str]:
-        """Names of the joints that the file's bones are."""
+        """Names of the joints represented by the file's bones, by bone."""
         return {bone: self.names[joint] for joint, bone in self._bones.items()}
 
     def bone(self, *joints: str) -> int:
-        """The file's bone of the first of these joints that has one; KeyError where none has."""
+        """Bone of the first of these joints that has one; KeyError if none has."""
         for name in joints:
             if name in self.names and self.names.index(name) in self._bones:
                 return self._bones[self.names.index(name)]
@@ -63,18 +64,18 @@ class JointPlayback:
 
     @cached_property
     def rigid(self) -> BoolArray:
-        """Bones (B,) whose length must stay: all but roots, the hips and what follows something else."""
+        """Mask (B,) of bones whose length must be constant: all except roots, the hips and bones with constraints."""
         parents = self.playback.parents
         return np.array([parent >= 0 and bone not in self._moved for bone, parent in enumerate(parents)])
 
     def rotations(self, first: int, last: int) -> FloatArray:
-        """``parent_from_joint`` (n, J, 4) of all joints at the frames ``first`` .. ``last - 1``."""
+        """``parent_from_joint`` (n, J, 4) of all joints at frames ``first`` .. ``last - 1``."""
         if self._target.choice == "suisou" and self.playback.bone_names == self.names:
             return self.playback.rotations(first, last)
         return self._joint_rotations(slice(first, last))
 
     def curve(self, morph: str) -> FloatArray:
-        """Weight (F,) of a morph by its ARKit name; zeros where nothing in the file shows it."""
+        """Weight (F,) of a morph by its ARKit name; zeros if the file does not have it."""
         curves = self.playback.clip.morph_weights
         frames = self.playback.clip.frames
         parts: Mapping[str, float] = {morph: 1.0}
@@ -84,9 +85,9 @@ class JointPlayback:
         return np.minimum(np.max(shown, axis=0), 1.0) if shown else np.zeros(frames)
 
     def surface(self, landmark: Landmark) -> tuple[SkinnedMesh, IntArray]:
-        """The file's mesh that a landmark is on, and the landmark's vertices there.
+        """The mesh of the file with a landmark, and the landmark's vertices in it.
 
-        A file on the character's own skeleton has its meshes one by one, any other has them joined, in their order.
+        A file on the character's own skeleton has separate meshes, any other has them joined in order.
         """
         meshes, start = self.playback.scene.meshes, 0
         own: OwnSkeleton | None = self._character.own if self._target.choice == "own" else None
@@ -118,7 +119,7 @@ class JointPlayback:
         return result
 
     def _together(self, joint: int) -> list[int]:
-        """A joint and those of the trunk above it that the file shows by the same bone."""
+        """A joint with all trunk joints above it that share its bone in the file."""
         found = [joint]
         if self.names[joint] in _TRUNK:
             above = self._character.skeleton.parents[joint]

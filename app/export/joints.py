@@ -1,4 +1,4 @@
-"""Quantities of joints: world transforms, human ranges, angular accelerations."""
+"""Computes world transforms, joint angles and angular accelerations."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _LEAST, _SMALL = 1e-24, 1e-9
 
 
 def world_transforms(parents: Sequence[int], translations: FloatArray, rotations: FloatArray) -> FloatArray:
-    """World transforms of a hierarchy.
+    """Compute the world transforms of a hierarchy.
 
     Parameters
     ----------
     parents : sequence of int
-        Parent of each joint, -1 for a root; a parent stands before its children.
+        Parent of each joint, -1 for a root; parents come first.
     translations : (F, J, 3) float64
-        In the parent's frame.
+        Translation in the parent's frame.
     rotations : (F, J, 4) float64
         ``parent_from_joint``, unit quaternions xyzw.
 
@@ -42,16 +42,16 @@ def world_transforms(parents: Sequence[int], translations: FloatArray, rotations
 
 
 def world_rows(parents: Sequence[int], local: Sequence[FloatArray], world: FloatArray) -> None:
-    """World transforms of a hierarchy, component after component: a few long products per joint.
+    """Compute the world transforms of a hierarchy component by component, with few long products per joint.
 
     Parameters
     ----------
     parents : sequence of int
-        As of `world_transforms`.
+        As in `world_transforms`.
     local : sequence of (3, 4, F) or (3, 4, 1) float64
-        ``parent_from_joint`` of each joint, without the last row; one value of those that are still.
+        ``parent_from_joint`` of each joint without the last row; a single frame for constant ones.
     world : (J, 3, 4, F) float64
-        To be filled.
+        Array to be filled.
     """
     product = np.empty(world.shape[1:])
     for joint, (parent, own) in enumerate(zip(parents, local, strict=True)):
@@ -66,8 +66,9 @@ def world_rows(parents: Sequence[int], local: Sequence[FloatArray], world: Float
 
 
 def matrix_rows(turns: FloatArray, rows: FloatArray) -> None:
-    """Rotation matrices of quaternions (4, ...) of any length, into rows (3, 3, ...); a zero quaternion is the
-    identity."""
+    """Write rotation matrices of quaternions (4, ...) of any length into rows (3, 3, ...); a zero quaternion is the
+    identity.
+    """
     x, y, z, w = turns
     twice = 2.0 / np.maximum(x * x + y * y + z * z + w * w, _LEAST)
     sx, sy, sz = twice * x, twice * y, twice * z
@@ -81,19 +82,19 @@ def matrix_rows(turns: FloatArray, rows: FloatArray) -> None:
 
 
 def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
-    """Flexion, sideways and twist angles of joints' local rotations, ``rotation = swing * twist``.
+    """Flexion, sideways and twist angles of local joint rotations, ``rotation = swing * twist``.
 
     Parameters
     ----------
     turns : (4, J, F) float64
         Unit quaternions xyzw.
     axes : (J, 3, 3) float64
-        Of each joint in that order unit axes at right angles (`metadata.model.JointAxes`).
+        Orthogonal unit axes of each joint in that order (`metadata.model.JointAxes`).
 
     Returns
     -------
     (3, J, F) float64
-        Radians, in that order.
+        Angles in radians, in that order.
     """
     across, twist = axes[:, :2], axes[:, 2:]
     sums = np.concatenate([across, np.cross(twist, across), twist], axis=1) @ turns[:3].transpose(1, 0, 2)
@@ -115,7 +116,7 @@ def anatomical_angles(turns: FloatArray, axes: FloatArray) -> FloatArray:
 
 
 def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
-    """Size of the angular acceleration of local rotations, by second difference.
+    """Magnitude of the angular acceleration of local rotations, by second difference.
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
     Returns
     -------
     (J, max(F - 2, 0)) float64
-        rad/s2, at the frames 1 .. F - 2.
+        Acceleration in rad/s2 at frames 1 .. F - 2.
     """
     (ax, ay, az, aw), (bx, by, bz, bw) = turns[..., :-1], turns[..., 1:]
     # From each frame to the next: the first one's inverse, times the second.
@@ -146,6 +147,6 @@ def angular_accelerations(turns: FloatArray, fps: float) -> FloatArray:
 
 
 def _angle_per_sine(sine: FloatArray, cosine: FloatArray) -> FloatArray:
-    """The angle of a turn by the sine of its half, from that and the cosine; 2 where nothing turns."""
+    """Ratio of a rotation's angle to the sine of its half, from sine and cosine; 2 for no rotation."""
     small = sine < _SMALL
     return np.where(small, 2.0, 2.0 * np.arctan2(sine, cosine) / np.where(small, 1.0, sine))

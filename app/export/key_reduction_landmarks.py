@@ -1,4 +1,4 @@
-"""Places of a scene that must stay where they are when keys are left out: landmarks, joints, corners of parts."""
+"""Points of a scene whose positions must be preserved by key reduction: landmarks, joints, corners of parts."""
 
 from __future__ import annotations
 
@@ -20,17 +20,18 @@ _NO_SHAPES: AnyFloatArray = np.zeros((0, 0, 3))
 
 @dataclass(frozen=True, eq=False)
 class BoneMarks:
-    """Contribution of a bone to marks: ``rotation @ (points + weights @ shapes) + shares * place``.
+    """Contribution of a bone to points: ``rotation @ (points + weights @ shapes) + shares * place``.
 
     Attributes
     ----------
     marks : (K,) int
+        Indices of the points.
     points_m : (K, 3)
-        In the bone's frame, times the shares.
+        Points in the bone's frame, times the bone's shares.
     shares : (K,)
-        Of the mark that the bone carries.
+        Share of the point that the bone holds.
     shapes_m : (M, K, 3)
-        What each morph of `SkinnedMarks.morphs` adds to the points.
+        Displacement of the points by each morph of `SkinnedMarks.morphs`.
     """
 
     marks: IndexArray
@@ -41,15 +42,15 @@ class BoneMarks:
 
 @dataclass(frozen=True, eq=False)
 class SkinnedMarks:
-    """Points on a character or instrument, moved by linear blend skinning; the first are the joints of all bones.
+    """Points on a character or instrument, moved by linear blend skinning; the joints of all bones come first.
 
     Attributes
     ----------
     count : int
     carried : mapping of int to BoneMarks
-        By bone, of the marks after the joints.
+        Contributions by bone, for the points after the joints.
     morphs : tuple of str
-        Those that move any of the marks.
+        Morphs that move any of the points.
     """
 
     count: int
@@ -57,7 +58,7 @@ class SkinnedMarks:
     morphs: tuple[str, ...] = ()
 
     def hang_on(self, parents: Sequence[int]) -> BoolArray:
-        """Return whether what a bone does moves a mark: (K, B)."""
+        """Return whether a bone's rotation moves a point, as mask (K, B)."""
         above = np.eye(len(parents), dtype=bool)
         for bone, parent in enumerate(parents):
             if parent >= 0:
@@ -71,7 +72,7 @@ class SkinnedMarks:
 
 @dataclass
 class _Gathered:
-    """Marks while they are gathered: by bone their number, point and share, and by morph what it adds."""
+    """Points being collected: index, position and share by bone, and displacement by morph."""
 
     count: int
     rows: dict[int, list[tuple[int, AnyFloatArray, float, dict[str, AnyFloatArray]]]] = field(default_factory=dict)
@@ -80,7 +81,7 @@ class _Gathered:
         self.rows.setdefault(bone, []).append((self.count, point_m, share, shapes_m))
 
     def add_box(self, bone: int, points_m: AnyFloatArray) -> None:
-        """Add the corners of the box around some points of a bone's frame."""
+        """Add the corners of the bounding box of some points in a bone's frame."""
         low, high = points_m.min(axis=0), points_m.max(axis=0)
         for corner in np.ndindex(2, 2, 2):
             self.add(bone, np.where(corner, high, low))
@@ -104,14 +105,14 @@ class _Gathered:
 def character_marks(
     joints: JointPlayback, character: Character, hanging: Mapping[int, Sequence[Mesh]] | None = None
 ) -> SkinnedMarks:
-    """The landmarks of a character in a file, all joints, and corners of boxes around what hangs on bones.
+    """Points of a character in a file: landmarks, all joints, and corners of the bounding boxes of attached objects.
 
     Parameters
     ----------
     joints : JointPlayback
     character : Character
     hanging : mapping of int to sequence of Mesh, optional
-        By bone, in its frame: an instrument, as it is at rest.
+        Meshes of attached instruments at rest, by bone, in its frame.
     """
     gathered = _Gathered(len(joints.playback.bone_names))
     meshes: dict[int, tuple[SkinnedMesh, list[IntArray]]] = {}
@@ -129,9 +130,9 @@ def character_marks(
 
 
 def part_marks(playback: ScenePlayback) -> SkinnedMarks:
-    """The corners of the box around whatever each bone carries, and all joints.
+    """Corners of the bounding box of everything each bone holds, and all joints.
 
-    What is rigid is nowhere farther off than one of its corners, so these stand for the whole surface of an instrument.
+    A rigid body deviates most at a corner, so these represent the whole surface of an instrument.
     """
     gathered = _Gathered(len(playback.bone_names))
     for mesh in playback.scene.meshes:
@@ -162,18 +163,18 @@ def _add_mean(gathered: _Gathered, skin: Skin) -> None:
 
 @dataclass(frozen=True, eq=False)
 class BoneLink:
-    """Fixed transform from a moving bone to its next moving ancestor.
+    """Constant transform from a moving bone to its next moving ancestor.
 
     Attributes
     ----------
     above : int
-        Row of that one; -1 where there is none.
+        Row of the ancestor; -1: none.
     turn : (3, 3) float32 or None
-        Rotation of the bone's parent on it; None where the parent is that one.
+        Rotation of the bone's parent relative to the ancestor; None if the parent is the ancestor.
     offset_m : (3,) float32
-        Place of the parent on it.
+        Position of the parent relative to the ancestor.
     place_m : (3,) float32
-        Of the bone on its parent, where it does not leave it.
+        Position of the bone relative to its parent, if constant.
     """
 
     above: int
@@ -185,23 +186,24 @@ class BoneLink:
 def rigid_links(
     marks: SkinnedMarks, parents: Sequence[int], moving: AnyIntArray, turns: AnyFloatArray, places_m: AnyFloatArray
 ) -> tuple[list[BoneLink], dict[int, BoneMarks]]:
-    """The links of bones that move, and the marks on them; bones that are still on their parents move with these.
+    """Links of the moving bones, and the points they hold; points of bones that are static relative to their parents
+    count with these.
 
     Parameters
     ----------
     marks : SkinnedMarks
     parents : sequence of int
     moving : (N,) int
-        The bones that move.
+        Indices of the moving bones.
     turns, places_m : (B, 3, 3) and (B, 3) float64
-        Of all bones on their parents, in a frame.
+        Rotations and positions of all bones relative to their parents, at one frame.
 
     Returns
     -------
     list of BoneLink
-        Of the moving bones, in single precision, which is good for some thousandths of a millimetre.
+        Links of the moving bones in single precision, accurate to some thousandths of a millimetre.
     dict of int to Carried
-        By row of the moving bone; -1: what is still in the world.
+        Contributions by row of the moving bone; -1: static points.
     """
     row_of = {bone: row for row, bone in enumerate(moving.tolist())}
     at: list[tuple[int, AnyFloatArray, AnyFloatArray]] = []
@@ -225,7 +227,7 @@ def rigid_links(
 
 
 def _joined(parts: Sequence[BoneMarks], morphs: int, count: int) -> BoneMarks:
-    """Contribution of one bone, where several that move with it add to the same marks."""
+    """Sum of the contributions of several bones that move together."""
     points_m, shares, shapes_m = np.zeros((count, 3)), np.zeros(count), np.zeros((morphs, count, 3))
     for part in parts:
         points_m[part.marks] += part.points_m

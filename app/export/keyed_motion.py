@@ -1,4 +1,4 @@
-"""Motion of a scene's bones and of the marks on them, as it is meant and as programs show it from a few keys."""
+"""Motion of a scene's bones and points, exact and as interpolated from a few keys."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ _STILL = 1e-7
 
 
 class KeyedMotion:
-    """Motion of a scene's bones and of the marks on them.
+    """Exact motion of a scene's bones and of its points.
 
     Attributes
     ----------
     moving : (N,) int
-        Bones that do anything; the rows of the other arrays are of these.
+        Bones that move; rows of the other arrays correspond to these.
     rotations : (N, F, 4) float32
     angles : (N, F, 3) float32
-        Degrees, as in FBX.
+        Euler angles in degrees, as in FBX.
     places_m : mapping of int to (F, 3) float64
-        By row; of the bones that leave their place.
+        Positions of bones that translate, by row.
     curved : bool
-        Whether cubics join the keys.
+        Whether keys are joined by cubics.
     """
 
     def __init__(self, scene: Scene, clip: Clip, marks: SkinnedMarks, most_m: float, curved: bool = False) -> None:
@@ -79,7 +79,7 @@ class KeyedMotion:
     # How much each bone may be off
 
     def _reach_m(self) -> AnyFloatArray:
-        """Return how far marks are from each moving bone (N,) that they hang on."""
+        """Return the distance of the farthest point moved by each moving bone (N,)."""
         frames = np.unique(np.linspace(0, self.frames - 1, _SAMPLES).astype(int))
         marks_m = self.places_of_marks(*self.meant(frames))
         result = np.zeros(len(self.moving))
@@ -89,7 +89,7 @@ class KeyedMotion:
         return result
 
     def scaled(self) -> list[tuple[AnyIntArray, SingleArray]]:
-        """Rows of bones, and their numbers (n, F, D) over what each may be off; those that leave their place apart."""
+        """Rows of bones with their values (n, F, D) divided by the tolerances; translating bones are separate."""
         turns = np.concatenate([2.0 * self.rotations, np.radians(self.angles)], axis=2)
         over, within = (_CURVED_CHAIN, _CURVED_BOX) if self.curved else (_CHAIN, _BOX)
         changes = _changes(turns) / _BOX
@@ -121,16 +121,16 @@ class KeyedMotion:
     def places_of_marks(
         self, turned: AnyFloatArray, places_m: Mapping[int, AnyFloatArray], weights: AnyFloatArray
     ) -> AnyFloatArray:
-        """Places of the marks (K, f, 3) at some frames, metres.
+        """Positions of the points (K, f, 3) in metres at some frames.
 
         Parameters
         ----------
         turned : (N, f, 4)
             Rotations of the moving bones.
         places_m : mapping of int to (f, 3)
-            By row, of those that leave their place.
+            Positions of translating bones, by row.
         weights : (M, f)
-            Of the marks' morphs.
+            Weights of the points' morphs.
         """
         local = matrices(turned).astype(np.float32)
         placed_m = {row: values.astype(np.float32) for row, values in places_m.items()}
@@ -165,14 +165,14 @@ class KeyedMotion:
         return KeyedPoses(self.rotations[:, frames].astype(np.float64), places_m, self.weights[:, frames])
 
     def shown(self, frames: AnyIntArray, spans: KeySpans, by_angles: bool) -> KeyedPoses:
-        """Motion at some frames between keys in a program that interpolates angles or quaternions."""
+        """Motion at some frames as a program shows it that interpolates angles or quaternions between keys."""
         angles = spans.straight(self.angles) if by_angles else None
         turned = spans.turned(self.rotations) if angles is None else curve_rotations(self._turning, angles)
         places_m = {row: spans.row(row).straight(values[None])[0] for row, values in self.places_m.items()}
         return KeyedPoses(turned, places_m, self._face_weights[:, frames])
 
     def draw(self, kept: BoolArray, rows: AnyIntArray) -> None:
-        """Draw the cubics of some bones through their keys among all (N, F); nothing where lines join them."""
+        """Fit the cubics of some bones through their keys in (N, F); does nothing for linear keys."""
         if not self.curved:
             return
         if not self._drawn:
@@ -184,7 +184,7 @@ class KeyedMotion:
                 self._drawn_m[row] = curved_values(self.places_m[row][None], kept[row, None])[0]
 
     def drawn(self, frames: AnyIntArray, by_angles: bool) -> KeyedPoses:
-        """Motion at some frames as the drawn cubics have it; parameters as of `shown`."""
+        """Motion at some frames from the fitted cubics; parameters as in `shown`."""
         turned = self._drawn[by_angles][:, frames]
         if by_angles:
             turned = curve_rotations(self._turning, turned)
@@ -195,7 +195,7 @@ class KeyedMotion:
 
 
 class KeyedPoses(NamedTuple):
-    """Rotations (N, f, 4) and, by row, places (f, 3) of the moving bones, and weights (M, f) of the marks' morphs."""
+    """Rotations (N, f, 4) and positions (f, 3) by row of the moving bones, and weights (M, f) of the points' morphs."""
 
     turned: AnyFloatArray
     places_m: Mapping[int, AnyFloatArray]
@@ -203,7 +203,7 @@ class KeyedPoses(NamedTuple):
 
 
 def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
-    """Join poses along their frames."""
+    """Concatenate poses along their frames."""
     return KeyedPoses(
         np.concatenate([one.turned for one in shown], axis=1),
         {row: np.concatenate([one.places_m[row] for one in shown]) for row in shown[0].places_m},
@@ -212,15 +212,16 @@ def together(shown: Sequence[KeyedPoses]) -> KeyedPoses:
 
 
 def _applied(turns: AnyFloatArray, vectors: AnyFloatArray) -> AnyFloatArray:
-    """Vectors (..., f, 3), or (3,), turned."""
+    """Rotate vectors (..., f, 3), or (3,)."""
     if vectors.ndim == 1 and turns.ndim == 3:
         return np.asarray((turns.reshape(-1, 3) @ vectors).reshape(-1, 3))
     return np.asarray(np.einsum("...ij,...j->...i", turns, vectors))
 
 
 def _changes(values: AnyFloatArray) -> AnyFloatArray:
-    """Return how many keys curves (N, F, D) need: the mean root of how much they change direction from frame to
-    frame."""
+    """Return a relative estimate of the number of keys that curves (N, F, D) need: the mean square root of their second
+    differences.
+    """
     if values.shape[1] < 3:
         return np.zeros(len(values))
     seconds = np.diff(values, 2, axis=1)

@@ -1,11 +1,11 @@
-"""The core bones of Unreal Engine 5's mannequin as a target, with the proportions of the character.
+"""Target skeleton with the core bones of Unreal Engine 5's mannequin, in the proportions of a character.
 
-Axes are an asset's, where a file of it is given: then a rotation means the same on both, and an animation of
-one can be played on the other. Without a file the axes are those the mannequin has by convention (its table in
-`metadata`), which are near but not the same; Unreal's IK retargeter is the way to the asset then.
+Bone axes are those of an asset's file if one is given, so that its animations are interchangeable. Without a file the
+conventional axes of the mannequin (its table in `metadata`) are used, which are close but not equal; Unreal's IK
+retargeter then transfers to the asset.
 
-The mannequin has neither eyes nor a jaw: ``eye_l`` and ``eye_r`` are added to the head where the character has eyes;
-what a jaw carries goes with the head.
+The mannequin has no eyes and no jaw: ``eye_l`` and ``eye_r`` are added to the head if the character has eyes; parts on
+the jaw move with the head.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ TABLE: Final = ROOT / "mannequin.toml"
 
 
 class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A bone of the mannequin: it is a joint, or stands ``along`` the way between two, or is tied to another bone."""
+    """A bone of the mannequin: at a joint, at a position ``along`` the way between two joints, or attached to another
+    bone.
+    """
 
     name: str
     parent: str = ""
@@ -46,14 +48,13 @@ class _Bone(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     tied: str = ""
 
     def of_side(self, x: str, side: str) -> _Bone:
-        """The left or the right one of a bone that stands for both."""
+        """Return the left or right variant of a bone defined for both sides."""
         said = msgspec.json.encode(self).decode().replace("{x}", x).replace("{side}", side)
         return msgspec.json.decode(said, type=_Bone)
 
 
 class _Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The file: bones before those of the sides, of both sides, and after them, and those that are added; axes X and Z
-    by their name."""
+    """Contents of the table: bones before, of, and after the two sides, added bones, and named axes X and Z."""
 
     trunk: tuple[_Bone, ...]
     sides: tuple[_Bone, ...]
@@ -77,12 +78,12 @@ _STRAIGHT: Final = ("root", "foot_l", "foot_r")
 
 @dataclass(frozen=True, eq=False)
 class MannequinAxes:
-    """Rotations of an asset's bones, by their names.
+    """Rotations of an asset's bones by name.
 
     Attributes
     ----------
     rest : mapping of str to (4,) float64
-        ``parent_from_bone`` at rest.
+        ``parent_from_bone`` in the rest pose.
     t_pose : mapping of str to (4,) float64
         ``world_from_bone`` in the T-pose.
     """
@@ -92,7 +93,7 @@ class MannequinAxes:
 
 
 def mannequin_axes(asset: Figure) -> MannequinAxes:
-    """The rotations of a figure that has the mannequin's bones; none where it has not even those of a body."""
+    """Rotations of the mannequin's bones in a figure; empty if it lacks even the bones of a body."""
     names = {name: bone for bone, name in enumerate(asset.bone_names) if name in MANNEQUIN}
     bones = {bone.joint: names[bone.name] for bone in _BONES if bone.joint and bone.name in names}
     if any(joint not in bones for joint in REQUIRED_JOINTS):
@@ -119,7 +120,7 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
     ----------
     skeleton : Skeleton
     asset : MannequinAxes, optional
-        Of the mannequin it is for; bones that the asset lacks have the axes of the convention.
+        Axes of the mannequin for which it is made; bones missing there use the conventional axes.
     """
     names = tuple(MANNEQUIN)
     parents = tuple(names.index(bone.parent) if bone.parent else -1 for bone in _BONES)
@@ -159,7 +160,7 @@ def mannequin_target(skeleton: Skeleton, asset: MannequinAxes | None = None) -> 
 def _with_added(
     target: TargetSkeleton, skeleton: Skeleton, places: FloatArray, turned: FloatArray, asset: MannequinAxes
 ) -> TargetSkeleton:
-    """The target with the bones that the mannequin lacks, of the joints that a character has."""
+    """Add bones for those joints of the character that the mannequin lacks."""
     added = [bone for bone in _ADDED if bone.joint in skeleton.names]
     if not added:
         return target
@@ -203,7 +204,7 @@ def _places(skeleton: Skeleton, joint_of_bone: tuple[int, ...], tied: Mapping[in
 
 
 def _axes_of(bone: _Bone) -> tuple[FloatArray, FloatArray]:
-    """X and Z of a bone by the convention."""
+    """Conventional X and Z axes of a bone."""
     x, z = np.array(_TABLE.axes[bone.axes])[:, [0, 2, 1]]  # Unreal's Y is our Z.
     return x, z
 
@@ -215,7 +216,7 @@ def _axes(bone: _Bone) -> FloatArray:
 
 
 def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
-    """World rotations (B, 4) of the bones in the T-pose by the axes of the convention."""
+    """World rotations (B, 4) of the bones in the T-pose with conventional axes."""
     names = tuple(MANNEQUIN)
     turned = np.tile(quaternion.IDENTITY, (len(_BONES), 1))
     for index, bone in enumerate(_BONES):
@@ -231,7 +232,7 @@ def _conventional(places: FloatArray, tied: Mapping[int, int]) -> FloatArray:
 
 
 def _way(bone: _Bone, places: FloatArray, names: tuple[str, ...]) -> FloatArray | None:
-    """The direction a bone lies along: to the next one of its chain; a last one goes on as the one before."""
+    """Direction of a bone: to the next one of its chain; for the last one the previous bone's direction."""
     index = names.index(bone.name)
     chain = [
         child

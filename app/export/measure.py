@@ -1,7 +1,7 @@
-"""Measures of the written files: contacts, controls, joints, feet and breaths, as our reader reads them back.
+"""Measures exported files after reading them back: contacts, controls, joints, feet and breaths.
 
-Nothing here looks at the motion the files were made from; only the plan (what should happen) and the map (where things
-are) are known beside the files.
+The generated motion is not used; besides the files only the plan (intended events) and the instrument map (positions)
+are known.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ _CHUNK = 4096
 
 
 class BreathMeasure(msgspec.Struct, frozen=True):
-    """Planned breaths and how many of them show."""
+    """Number of planned breaths and of visible ones."""
 
     planned: int
     jaw_open: int
@@ -70,11 +70,10 @@ class BreathMeasure(msgspec.Struct, frozen=True):
 
 
 class PlayerMeasures(msgspec.Struct, frozen=True):
-    """Section by section what one player's files hold.
+    """Measurements of one player's files, by section.
 
-    ``hovering`` is how far fingers that work nothing are from the nearest of their keys and holes; ``guides`` how far
-    parts that cannot bend are from where they would touch: reported, not judged. ``arms`` is how deep a forearm runs
-    into trunk and clothes.
+    ``hovering``: distance of unused fingers from their nearest keys and holes. ``guides``: distance of rigid parts from
+    their intended contact; reported without a bound. ``arms``: depth of a forearm in trunk and clothes.
     """
 
     sounding_frames: int
@@ -95,8 +94,9 @@ class PlayerMeasures(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, eq=False)
 class PlayerMeasurement:
-    """Measures of one player, with the angles of its torso (F, 2) in radians (sideways, forward), for comparison of
-    players."""
+    """Measurements of one player, with the torso's angles (F, 2) in radians (sideways, forward) for comparing
+    players.
+    """
 
     measures: PlayerMeasures
     torso_rad: FloatArray
@@ -104,22 +104,22 @@ class PlayerMeasurement:
 
 @dataclass(frozen=True, eq=False)
 class PlayerJudge:
-    """References that a player's files are measured against.
+    """References for measuring a player's files.
 
     Attributes
     ----------
     performer : Performer
-        With the character of the file, for its landmarks: numbers of vertices of the meshes in it.
+        Performer with the character whose landmarks refer to vertices of the file's meshes.
     plan : PlayerPlan
-        Of the whole piece; what lies outside the file's frames is not judged.
+        Plan of the whole piece; events outside the file's frames are ignored.
     target : TargetSkeleton or None
-        The skeleton the player's file is on; ours if absent.
+        Skeleton of the player's file; by default the normalised one.
     changing : sequence of (float, float)
-        When the player changes instruments: a breath may be drawn then, with nothing at the lips.
+        Spans of instrument changes, in which breaths may be taken without an instrument at the lips.
     out_of_reach : set of str
-        Ids of the notes that are (`app.contacts.reach`).
+        Ids of the notes that cannot be reached (`app.contacts.reach`).
     danced : DancedFeet
-        Moves of the feet of a player who dances.
+        Foot movements of a player who dances.
     """
 
     performer: Performer
@@ -136,16 +136,16 @@ class PlayerJudge:
         first_frame_s: float,
         progress: Progress = lambda share: None,
     ) -> PlayerMeasurement:
-        """Measure what was read back of one player's two files.
+        """Measure a player's two files after reading them.
 
         Parameters
         ----------
         player_scene, instrument_scene : Scene
-            Both with a clip.
+            Scenes with a clip.
         first_frame_s : float
             Time of the files' first frame.
         progress : callable
-            Called with the share 0..1 that is done; what it raises stops the work.
+            Called with the share done, 0..1; its exceptions stop the work.
         """
         if player_scene.clip is None or instrument_scene.clip is None:
             raise ValueError("a file without a clip cannot be measured")
@@ -189,7 +189,7 @@ class PlayerJudge:
         )
 
     def _lips(self, traces: Traces, notes: NoteFrames) -> dict[str, Any]:
-        """Distances of the lips from the mouthpiece in notes, and of the upper lip in breaths."""
+        """Distances of the lips from the mouthpiece during notes, and of the upper lip during breaths."""
         instrument, breaths = self.performer.instrument, self.plan.breaths
         # A catch breath comes out of a note's tail: the note sounds on, but the lips have stopped.
         blowing = notes.sounding & ~notes.within((event.start_s, event.end_s) for event in breaths)
@@ -202,7 +202,7 @@ class PlayerJudge:
         }
 
     def _touches(self, traces: Traces, notes: NoteFrames, held: ScenePlayback) -> dict[str, Any]:
-        """Measures of the touching fingers, of the hovering ones, and of the controls."""
+        """Measures of touching fingers, hovering fingers and controls."""
         instrument = self.performer.instrument
         values = _control_values(instrument, held) | hole_values(instrument, traces)
         closing = notes.within(map(tuple, bell_closing(self.plan.mutes, instrument.stopped).spans_s.tolist()))
@@ -224,7 +224,7 @@ class PlayerJudge:
 
 
 def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]:
-    """Largest correlation of each player's curve (F,) with any other player's; 0 for a player who does not move."""
+    """Largest correlation of each player's curve (F,) with that of another player; 0 for a player without motion."""
     greatest = dict.fromkeys(players, -1.0)
     for (name, curve), (other, others) in itertools.combinations(players.items(), 2):
         moves = np.ptp(curve) > 0.0 and np.ptp(others) > 0.0
@@ -235,8 +235,9 @@ def greatest_correlations(players: Mapping[str, FloatArray]) -> dict[str, float]
 
 
 def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progress: Progress) -> FloatArray:
-    """Walk over all frames, a chunk at a time, while something else is done beside it: the depths in the sounding
-    frames, lower bounds but for the deepest, which are reported."""
+    """Depths in the sounding frames, computed in chunks while ``beside`` runs; lower bounds except for the deepest
+    ones, which are reported.
+    """
     frames = len(sounding)
     played = np.flatnonzero(sounding)
     depth_m = np.zeros(len(played))
@@ -267,7 +268,7 @@ def _depths_m(walk: Walk, sounding: BoolArray, beside: Callable[[], None], progr
 def slid_m(
     sole_m: FloatArray, times_s: FloatArray, plan: PlayerPlan, name: str, body: Body, danced: DancedFeet = NOT_DANCED
 ) -> FloatArray:
-    """Return how far a sole is from where it was put down last, in the frames in which it stands."""
+    """Return the distance of a sole from where it was last put down, in the frames in which it stands."""
     foot: Foot = "left" if name.startswith("left") else "right"
     steps = [event for event in plan.gestures if event.kind == "step" and foot_of(event) == foot]
     put = np.zeros(len(times_s), np.int64)
@@ -283,7 +284,7 @@ def slid_m(
 
 
 def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str, FloatArray]:
-    """Value of every control that moves (F,), from where its bone is in the file."""
+    """Value (F,) of every moving control, from the position of its bone in the file."""
     result = {}
     for control in instrument.controls:
         if control.motion is None:
@@ -302,8 +303,9 @@ def _control_values(instrument: InstrumentMap, held: ScenePlayback) -> dict[str,
 def _breaths(
     events: Sequence[BreathEvent], times_s: FloatArray, jaw: FloatArray, torso_rad: FloatArray, mouth: bool
 ) -> BreathMeasure:
-    """Return whether during each breath the jaw opens and the torso leans back against what was just before; without a
-    ``mouth`` that opens, the torso alone shows it."""
+    """Count the planned breaths during which the jaw opens and the torso leans back compared with just before; without
+    a ``mouth`` that opens, the torso suffices.
+    """
     planned = opened = back = shown = 0
     for event in events:
         first, last = np.searchsorted(times_s, [event.start_s - 1e-9, event.end_s + 1e-9])

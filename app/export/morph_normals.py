@@ -1,8 +1,8 @@
-"""Normals of morph targets: how a surface that a target deforms is lit, where its file does not say it.
+"""Computes the normal changes of morph targets whose files lack them.
 
-Normals are compared with those that the triangles have, before and after, weighted by the angles of their corners
-(Thürmer and Wüthrich, 1998). Vertices at one place with one normal are a corner of one smooth surface; others at that
-place are beyond a hard edge, and keep to their own side.
+Compares triangle normals before and after, weighted by corner angles (Thürmer and Wüthrich, 1998). Vertices with equal
+position and normal belong to one smooth surface; others at the position are separated by a hard edge and treated
+separately.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _LEAST: Final = 1e-3
 
 
 def with_morph_normals(mesh: Mesh) -> Mesh:
-    """A mesh whose morphs all say how normals change."""
+    """Complete the normal changes of all morphs of a mesh."""
     if all(morph.normal_deltas is not None for morph in mesh.morphs):
         return mesh
     surface = _Surface(mesh)
@@ -34,7 +34,7 @@ def with_morph_normals(mesh: Mesh) -> Mesh:
 
 
 class _Surface:
-    """The triangles of a mesh between corners of smooth surfaces."""
+    """Triangles of a mesh, connected at corners of smooth surfaces."""
 
     def __init__(self, mesh: Mesh) -> None:
         self._places_m = mesh.positions_m.astype(np.float64)
@@ -47,7 +47,7 @@ class _Surface:
         self._of_triangles = self._corner[self._triangles]
 
     def with_normals(self, morph: Morph) -> Morph:
-        """A morph with the change of normals, of the vertices beside those that it moves too."""
+        """Add normal changes to a morph, including vertices next to the moved ones."""
         moved_m = np.zeros_like(self._places_m)
         moved_m[morph.vertices] = morph.deltas_m
         moving = np.zeros(len(moved_m), bool)
@@ -66,7 +66,7 @@ class _Surface:
         return _with(morph, vertices[deltas.any(axis=1)], deltas[deltas.any(axis=1)])
 
     def _sums(self, triangles: IntArray, places_m: FloatArray) -> FloatArray:
-        """Unit normals (C, 3) of the corners by the triangles around them; zeros elsewhere."""
+        """Unit normals (C, 3) of corners from the surrounding triangles; zeros elsewhere."""
         at = places_m[triangles]
         face = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
         face /= np.maximum(np.linalg.norm(face, axis=1, keepdims=True), 1e-20)
@@ -83,7 +83,7 @@ class _Surface:
 
 
 def _with(morph: Morph, vertices: IntArray, normals: FloatArray) -> Morph:
-    """A morph with changes of some normals."""
+    """Add some normal changes to a morph."""
     every = np.union1d(morph.vertices, vertices).astype(np.int32)
     deltas_m, normal_deltas = np.zeros((len(every), 3), np.float32), np.zeros((len(every), 3), np.float32)
     deltas_m[np.searchsorted(every, morph.vertices)] = morph.deltas_m

@@ -1,4 +1,4 @@
-"""The skeleton of a character's own file as a target: names, hierarchy and rest pose as they are there."""
+"""Target skeleton from a character's own file: its names, hierarchy and rest pose."""
 
 from __future__ import annotations
 
@@ -38,9 +38,8 @@ _TWISTS_AT_ITS_END: Final = ("LowerArm", "LowerLeg")
 def own_target(character: Character) -> TargetSkeleton:
     """The skeleton of a character's own file; the character must have one.
 
-    Unreal takes one root only: where the file has several, a bone ``root`` at the origin is put above them, and
-    ``skeleton.root_added`` says so. The object that Blender writes above its bones is left out, as Unreal's importer
-    does (``skeleton.armature_left_out``).
+    Unreal requires a single root: if the file has several, a bone ``root`` at the origin is added. Blender's armature
+    object is left out, as in Unreal's importer. Messages report both.
     """
     own = character.own
     if own is None:
@@ -77,10 +76,9 @@ def own_target(character: Character) -> TargetSkeleton:
 
 
 def has_armature(figure: Figure) -> bool:
-    """Return whether the figure's root is the object that Blender keeps a skeleton in, which Unreal does not take for a
-    bone.
+    """Return whether the figure's root is Blender's armature object, which Unreal does not import as a bone.
 
-    It is called Armature, carries nothing and has the one root bone below it.
+    It is named Armature, holds no vertices and has the only root bone below it.
     """
     if figure.bone_names[0].casefold() != ARMATURE or figure.parents.count(-1) != 1 or figure.parents.count(0) != 1:
         return False
@@ -88,7 +86,7 @@ def has_armature(figure: Figure) -> bool:
 
 
 def own_weights(morphs: Mapping[str, SingleArray], own: OwnSkeleton) -> dict[str, SingleArray]:
-    """Curves of a figure's own morphs that make the curves of ARKit's: sums, from 0 to 1."""
+    """Weights of a figure's own morphs, 0 to 1, as sums of ARKit weights."""
     sums: dict[str, SingleArray] = {}
     there = set(own.figure.morph_names)
     for name, curve in morphs.items():
@@ -99,7 +97,7 @@ def own_weights(morphs: Mapping[str, SingleArray], own: OwnSkeleton) -> dict[str
 
 
 def _twists(own: OwnSkeleton, skeleton: Skeleton, joint_of_bone: list[int]) -> dict[int, Twist]:
-    """The twist bones of the figure's limbs; how far along the limb one stands is its share of the twist."""
+    """Twist bones of the figure's limbs; the position along the limb is the share of the twist."""
     figure = own.figure
     positions, _ = world_placements(figure.parents, figure.translations_m, own.t_pose)
     found = {}
@@ -126,7 +124,7 @@ def _twists(own: OwnSkeleton, skeleton: Skeleton, joint_of_bone: list[int]) -> d
 
 
 def limb_twist(skeleton: Skeleton, base: int, end: int, axis: FloatArray, along: float) -> Twist:
-    """The twist of a bone that stands ``along`` (0..1) a limb from ``base`` to ``end``."""
+    """Twist of a bone at the position ``along`` (0..1) of a limb from ``base`` to ``end``."""
     if skeleton.names[base].endswith(_TWISTS_AT_ITS_END):
         return Twist(base, end, axis, along)
     return Twist(base, base, axis, along - 1.0)

@@ -1,4 +1,4 @@
-"""Pictures to PNG files: one for each, or all of them on a contact sheet."""
+"""Writes pictures as PNG files: separately, or together on a contact sheet."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _COMPRESSION: Final = 3
 
 
 class PictureWriter(Protocol):
-    """Takes pictures one after the other."""
+    """Receives pictures one after the other."""
 
     def write(self, picture: Picture) -> None:
         """Add a picture."""
@@ -59,7 +59,7 @@ class SheetWriter:
         self._count = 0
 
     def write(self, picture: Picture) -> None:
-        """Put the next picture with its caption onto the sheet."""
+        """Add the next picture with its caption."""
         caption = self._captions[self._count]
         row, column = divmod(self._count, self._columns)
         height, width = picture.shape[:2]
@@ -71,25 +71,25 @@ class SheetWriter:
 
 
 def frame_name(number: int) -> str:
-    """The file of a frame, counted from the beginning of the whole performance."""
+    """File name of a frame, numbered from the start of the whole performance."""
     return f"frame_{number:05d}.png"
 
 
 @contextlib.contextmanager
 def frames_into(folder: Path, first: int, count: int) -> Iterator[FrameWriter]:
-    """A folder of PNG files that appear together when the block is done, or not at all.
+    """Write a folder of PNG files atomically at the end of the block.
 
     Parameters
     ----------
     folder : path
-        Made if it is not there. Frames of the same numbers are replaced, other files are left alone.
+        Created if it does not exist. Frames with the same numbers are replaced, other files are kept.
     first, count : int
-        Number of the first frame, and of frames.
+        Number of the first frame, and number of frames.
 
     Raises
     ------
     FileError
-        ``picture.other_frames``; ``file.cannot_write``; see `app.export.folder.files_into`.
+        The folder has frames of another film, or a file cannot be written; see `app.export.folder.files_into`.
     """
     require_no_other_frames(folder, first, count)
     with files_into(folder) as new:
@@ -100,7 +100,7 @@ def frames_into(folder: Path, first: int, count: int) -> Iterator[FrameWriter]:
 
 
 def require_no_other_frames(folder: Path, first: int, count: int) -> None:
-    """Raise ``picture.other_frames`` where frames would stay between those of another film."""
+    """Raise FileError if frames of another film would remain among the new ones."""
     coming = {frame_name(number) for number in range(first, first + count)}
     try:
         there = {path.name for path in folder.iterdir() if _FRAME.fullmatch(path.name)}
@@ -112,7 +112,7 @@ def require_no_other_frames(folder: Path, first: int, count: int) -> None:
 
 @contextlib.contextmanager
 def sheet_into(path: Path, size: tuple[int, int], columns: int, captions: Sequence[Picture]) -> Iterator[SheetWriter]:
-    """A contact sheet that appears when the block is done, or not at all.
+    """Write a contact sheet atomically at the end of the block.
 
     Parameters
     ----------
@@ -122,12 +122,12 @@ def sheet_into(path: Path, size: tuple[int, int], columns: int, captions: Sequen
         Width and height of each picture.
     columns : int
     captions : sequence of Picture
-        What stands under each picture: as wide as it, all of the same height.
+        Captions below the pictures: as wide as a picture, all of equal height.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``
+        The file cannot be written.
     """
     width, height = sheet_size(size, len(captions[0]), columns, len(captions))
     with atomic_write(path) as stream:
@@ -138,13 +138,13 @@ def sheet_into(path: Path, size: tuple[int, int], columns: int, captions: Sequen
 
 
 def sheet_size(size: tuple[int, int], caption_px: int, columns: int, count: int) -> tuple[int, int]:
-    """Width and height of a contact sheet."""
+    """Width and height of a contact sheet in pixels."""
     rows = -(-count // columns)
     return GAP_PX + columns * (size[0] + GAP_PX), GAP_PX + rows * (size[1] + caption_px + GAP_PX)
 
 
 def usual_columns(count: int, every_s: Fraction) -> int:
-    """A row for each second where that is 4 to 12 pictures; else about as many columns as rows."""
+    """Number of columns: a row for each second if that is 4 to 12 pictures, else about as many columns as rows."""
     in_a_second = 1 / every_s
     if in_a_second.denominator == 1 and 4 <= in_a_second <= 12:
         return min(int(in_a_second), count)

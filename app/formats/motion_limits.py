@@ -1,4 +1,4 @@
-"""Limits of the motion in a file: few keys can stand for many frames, so frames are counted before any is made."""
+"""Limits on the motion in a file; checked before sampling, since few keys can span many frames."""
 
 from __future__ import annotations
 
@@ -21,28 +21,30 @@ MOST_TRANSFORMS: Final = 2**23
 
 
 def longest_motion_s(fps: float, nodes: int, size_bytes: int) -> float:
-    """Return how long a motion of a file of this size may be, sampled at a rate and kept at no less than `KEPT_FPS`."""
+    """Return the longest allowed motion in seconds for a file of this size, sampled at a rate and stored at `KEPT_FPS`
+    or more.
+    """
     most_frames = FREE_FRAMES + FRAMES_PER_KB * size_bytes // 1000
     most_transforms = min(MOST_TRANSFORMS, FREE_TRANSFORMS + TRANSFORMS_PER_KB * size_bytes // 1000)
     return min((most_frames - 1) / max(fps, float(KEPT_FPS)), (most_transforms // max(nodes, 1) - 1) / fps)
 
 
 def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes: int) -> None:
-    """Refuse a motion that would have more frames than its file is good for.
+    """Refuse a motion with too many frames for the size of its file.
 
     Parameters
     ----------
     seconds, fps : float
-        Its duration, and the rate at which it is to be sampled.
+        Duration, and sampling rate.
     nodes : int
-        Nodes that are sampled in each frame.
+        Number of nodes sampled in each frame.
     size_bytes : int
-        Of the file.
+        Size of the file.
 
     Raises
     ------
     FileError
-        ``motion.too_long``.
+        The motion is too long.
     """
     most_s = longest_motion_s(fps, nodes, size_bytes)
     # A comparison that a NaN fails.
@@ -52,7 +54,7 @@ def require_frames(file: str, seconds: float, fps: float, nodes: int, size_bytes
 
 
 def require_rate(fps: Fraction, file: str) -> None:
-    """Refuse a frame rate that no motion has. Raises FileError (``motion.rate_impossible``)."""
+    """Raise FileError for a frame rate outside `FPS`."""
     slowest, fastest = FPS
     if not slowest <= fps <= fastest:
         frame_s = float(f"{float(1 / fps):.6g}")

@@ -1,7 +1,7 @@
-"""MPEG audio (MP1, MP2, MP3) without a header: its length by counting frames, and the delay of its codec.
+"""Length and codec delay of MPEG audio files (MP1, MP2, MP3) without a header, found by counting frames.
 
-A header is a first frame without sound that Xing's, LAME's and Fraunhofer's encoders write: it says how many frames
-there are and, in most files, what to take off the beginning.
+A header is a first frame without sound, written by the encoders of Xing, LAME and Fraunhofer: it contains the number of
+frames and usually the samples to remove at the start.
 
 Sources: ISO/IEC 11172-3, 2.4.1.3 and 2.4.2.3, and 13818-3 for the lower rates; the header of Xing and LAME as described
 at gabriel.mp3-tech.org/mp3infotag.html.
@@ -45,12 +45,11 @@ class MpegAudio:
     ----------
     rate_hz : int
     samples : int
-        Per channel, of all whole frames.
+        Samples per channel in all complete frames.
     breaks_off : bool
-        The last frame is cut.
+        Whether the last frame is incomplete.
     delay_samples : int
-        How much later than it was recorded the sound comes, by encoder and decoder. A header would say it, and decoders
-        then take it off.
+        Delay of the sound by encoder and decoder. With a header, decoders remove it.
     """
 
     rate_hz: int
@@ -70,7 +69,7 @@ class _Frame:
 
 
 def mpeg_audio(data: bytes | mmap) -> MpegAudio | None:
-    """Count the frames of a file that has no header; None where there is one, or no frames that follow one another."""
+    """Count the frames of a file without a header; None if it has one, or no consecutive frames."""
     found = _frames(data)
     at, first = next(found, (0, None))
     if first is None or at != tag_bytes(data[:10]) or _frame(data, at + first.length) is None:
@@ -101,7 +100,7 @@ def _frames(data: bytes | mmap) -> Iterator[tuple[int, _Frame]]:
 
 
 def _resumed(data: bytes | mmap, at: int, key: int | None) -> int | None:
-    """Return where two frames follow one another again, after something else."""
+    """Return the offset at which two consecutive frames are found again after other data."""
     end = min(at + _RESYNC, len(data) - 4)
     at = data.find(b"\xff", at + 1, end)
     while at >= 0:
@@ -115,7 +114,7 @@ def _resumed(data: bytes | mmap, at: int, key: int | None) -> int | None:
 
 
 def _frame(data: bytes | mmap, at: int) -> _Frame | None:
-    """The frame whose header is at a byte."""
+    """Parse the frame header at an offset; None if there is none."""
     head = data[at : at + 4]
     if len(head) < 4 or head[0] != 0xFF or head[1] & 0xE0 != 0xE0:
         return None

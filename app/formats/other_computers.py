@@ -1,8 +1,8 @@
-r"""Paths on other computers, which are not touched before the user agrees.
+r"""Protects against paths on other computers, which are not accessed before the user agrees.
 
-Where a path names another computer (``\\host\share\take.wav``), asking whether the file is there already makes Windows
-sign in to that computer with the user's account. A path that a file brings along is therefore refused until its host
-was agreed to: in the window, by choosing or dropping a file there, or by naming a path there on the command line.
+On Windows even checking for a file on another computer (``\\host\share\take.wav``) signs in there with the user's
+account. Such paths from files are therefore refused until the user agrees to their host: in the window, by choosing or
+dropping a file there, or by giving a path there on the command line.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ _LOCAL_DEVICE: Final = re.compile(r"(?:[a-z]:|volume\{[^/]*)(?:/|$)", re.IGNOREC
 
 
 def host_of(path: str | os.PathLike[str]) -> str:
-    r"""Return the computer that a path names, in lower case; empty for a path on this one.
+    r"""Return the host of a path, in lower case; empty for a path on this computer.
 
-    The text alone decides, on every system alike: ``\\host\share``, ``//host/share``, ``\\?\UNC\host\share``, other
-    paths of the Windows device namespace (``\\?\GLOBALROOT\...``), and URLs such as ``file://host/share``.
+    Only the text is examined, identically on every system: ``\\host\share``, ``//host/share``, ``\\?\UNC\host\share``,
+    other paths of the Windows device namespace (``\\?\GLOBALROOT\...``), and URLs such as ``file://host/share``.
     """
     text = os.fspath(path).replace("\\", "/")
     if url := _URL.match(text):
@@ -49,7 +49,7 @@ def host_of(path: str | os.PathLike[str]) -> str:
 
 
 def agree(path: str | os.PathLike[str]) -> None:
-    """Allow files on the computer of a path until the program ends; a path on this computer changes nothing."""
+    """Allow access to the host of a path until the program ends; paths on this computer change nothing."""
     host = host_of(path)
     if host and host not in _agreed():
         os.environ[AGREED] = "\n".join((*_agreed(), host))
@@ -60,17 +60,17 @@ def _agreed() -> tuple[str, ...]:
 
 
 def may_touch(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path may be looked at: it is on this computer, or its host was agreed to."""
+    """Return whether a path may be accessed: it is on this computer, or the user agreed to its host."""
     host = host_of(path)
     return not host or host in _agreed()
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
-    """Return whether a file is there; False without a look on a computer that was not agreed to."""
+    """Return whether a file exists; False without access for hosts the user has not agreed to."""
     return may_touch(path) and os.path.isfile(path)
 
 
 def refuse_others(path: str | os.PathLike[str]) -> None:
-    """Raise FileError (``file.other_computer``) for a path that may not be touched."""
+    """Raise FileError for a path that may not be accessed."""
     if not may_touch(path):
         raise FileError("file.other_computer", file=os.fspath(path), host=host_of(path))

@@ -1,4 +1,4 @@
-"""Arrays of a file, deflated one by one after a table of their kinds and shapes.
+"""Reads array files: a table of types and shapes, then each array deflated separately.
 
 ``resources/build/character_arrays.py`` writes them.
 """
@@ -47,7 +47,7 @@ class PackedArrays:
 
 
 def read_arrays(path: Path) -> PackedArrays:
-    """Read a file of arrays. Raises FileError ``model.invalid``."""
+    """Read an array file. Raises FileError if it is invalid."""
     content = read_file(path, MOST_FILE_BYTES)
     start = len(MAGIC) + 4
     length = int.from_bytes(content[len(MAGIC) : start], "little")
@@ -66,7 +66,7 @@ def read_arrays(path: Path) -> PackedArrays:
 
 
 def _size(path: Path, row: _Row) -> int:
-    """Bytes of an array."""
+    """Size of an array in bytes. Raises FileError if its type or shape is invalid."""
     if row.kind not in KINDS or len(row.shape) > 4 or row.bytes < 0 or any(side < 0 for side in row.shape):
         raise _invalid(path, f"the array {row.name!r} has no known shape")
     return math.prod(row.shape) * np.dtype(row.kind).itemsize

@@ -10,14 +10,15 @@ LEAST_ACCURACY: Final = 2e-3
 
 
 def exact_rate(fps: float, accuracy: float = 0.0) -> Fraction:
-    """The rate that a rounded number means: whole, a whole number / 1.001, or else the nearest simple fraction.
+    """The exact frame rate for a rounded number: a whole number, a whole number / 1.001, or the nearest simple
+    fraction.
 
     Parameters
     ----------
     fps : float
         Frames per second, above zero.
     accuracy : float
-        How far the number may be off, as a part of it, because it was written with few digits; at least 1e-6.
+        Relative error due to rounding of the number; at least 1e-6.
     """
     accuracy = min(max(accuracy, 1e-6), LEAST_ACCURACY)
     for candidate in (Fraction(round(fps)), Fraction(round(fps * 1.001) * 1000, 1001)):

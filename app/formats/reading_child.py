@@ -1,7 +1,6 @@
-"""Reading of files by libraries in C, each in a process of its own.
+"""Runs C libraries that read files in separate processes.
 
-What a damaged file does to a library is a status here and no crash of this process; what it may cost says a row of
-`app.child_limits.LIMITS`.
+A crash on a damaged file becomes an exit status; time and memory are limited by a row of `app.child_limits.LIMITS`.
 """
 
 from __future__ import annotations
@@ -21,26 +20,26 @@ _LIMITS: Final = frozenset(-number for name in ("SIGXCPU", "SIGKILL") if (number
 
 
 def read_by_child(module: str, limits: str, data: bytes, file: str, *arguments: str) -> tuple[int, bytes]:
-    """Hand bytes to a module of ours that runs as a process.
+    """Pass bytes to a module of this program that runs as a process.
 
     Parameters
     ----------
     limits : str
-        Row of `app.child_limits.LIMITS`, which the module sets for itself too.
+        Row of `app.child_limits.LIMITS`, which the module also applies to itself.
     file : str
-        For messages.
+        File name for messages.
 
     Returns
     -------
     int
-        Status: 0, or one of those above; `NO_MEMORY` too where the child exceeded a limit.
+        Exit status: 0, or one of the constants above; `NO_MEMORY` also if the child exceeded a limit.
     bytes
-        What it printed.
+        Output of the process.
 
     Raises
     ------
     FileError
-        No process can be started.
+        The process cannot be started.
     """
     try:
         process: subprocess.Popen[bytes]

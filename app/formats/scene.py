@@ -1,7 +1,7 @@
-"""Contents of an animation file, as plain values: bones, skinned meshes, morphs, materials, one clip; or several such
-scenes, each at its place.
+"""Contents of an animation file as plain values: bones, skinned meshes, morphs, materials, one clip; a file may hold
+several such scenes, each with a place.
 
-Space: centimetres, right-handed, Y up. Quaternions are xyzw, matrices act on column vectors. Nothing is scaled.
+Centimetres, right-handed, Y up. Quaternions are xyzw, matrices apply to column vectors. There is no scaling.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ class Bone:
     Attributes
     ----------
     parent : int
-        Index of a bone before this one; -1 for the one root.
+        Index of a previous bone; -1 for the only root.
     translation_cm : ndarray, shape (3,)
     rotation_xyzw : ndarray, shape (4,)
-        Rest pose, relative to the parent. What the clip does not move stays here.
+        Rest rotation relative to the parent; used if the clip does not animate the bone.
     axes : ndarray, shape (3, 3), or None
-        Axes that the bone turns about, in its own space and in their order from the parent on, for formats with angles:
-        first a hinge, in the middle what turns least. None: they mean nothing.
+        Rotation axes in the bone's space, outermost first, for formats with Euler angles: a hinge first, the axis with
+        least rotation in the middle. None: no preferred axes.
     """
 
     name: str
@@ -43,7 +43,7 @@ class Bone:
 
     @property
     def order(self) -> str:
-        """Order of its angles, as in `app.formats.euler`."""
+        """Euler order of the bone, as in `app.formats.euler`."""
         return order_along(self.axes)
 
 
@@ -54,11 +54,11 @@ class MorphTarget:
     Attributes
     ----------
     name : str
-        A name may come once per mesh; the clip's weight of that name drives all of them.
+        Name, unique within a mesh; the clip's weight of this name drives all morphs of that name.
     vertex_indices : ndarray of int, shape (K,)
     position_deltas_cm : ndarray, shape (K, 3)
     normal_deltas : ndarray, shape (K, 3), or None
-        None: the normals stay.
+        None: the normals do not change.
     """
 
     name: str
@@ -69,16 +69,16 @@ class MorphTarget:
 
 @dataclass(frozen=True)
 class Material:
-    """A metallic-roughness surface as in glTF 2.0: linear base colour RGBA, metallic and roughness from 0 to 1.
+    """A metallic-roughness material as in glTF 2.0: linear base colour RGBA, metallic and roughness from 0 to 1.
 
     Attributes
     ----------
     textures : MaterialTextures
-        What is multiplied with these, where the mesh has UVs.
+        Textures that are multiplied with these values, if the mesh has UVs.
     alpha : AlphaMode or None
-        None: blended where the base colour lets light through, opaque otherwise.
+        None: blended if the base colour is transparent, opaque otherwise.
     alpha_cutoff : float
-        Least alpha that is seen of a ``mask``.
+        Smallest visible alpha in mode ``mask``.
     """
 
     name: str
@@ -92,35 +92,35 @@ class Material:
 
     @property
     def alpha_mode(self) -> AlphaMode:
-        """The alpha mode that is meant."""
+        """The effective alpha mode."""
         return self.alpha or ("blend" if self.base_color[3] < 1.0 else "opaque")
 
 
 @dataclass(frozen=True, eq=False)
 class SkinnedMesh:
-    """A mesh that the bones deform, in world space in its bind pose.
+    """A mesh deformed by bones, in world space in its bind pose.
 
     Attributes
     ----------
     name : str
-        Not a bone's.
+        Name, different from all bone names.
     vertices_cm : ndarray, shape (V, 3)
     faces : ndarray of int, shape (T, N)
         Triangles, or polygons of N corners each, counter-clockwise seen from outside.
     normals : ndarray, shape (V, 3) or (T * N, 3)
-        Per vertex or per corner. A mesh with as many corners as vertices counts as given per vertex.
+        Normals per vertex or per corner; per vertex if both counts are equal.
     uvs : ndarray, shape (V, 2) or (T * N, 2), or None
-        Per vertex or per corner; v points up (glTF's points down).
+        Per vertex or per corner; v points up (in glTF down).
     materials : tuple of Material
-        At least one.
+        At least one material.
     face_materials : ndarray of int, shape (T,), or None
-        Index into `materials`; None: all faces have the first.
+        Index into `materials`; None: all faces have the first one.
     joint_indices : ndarray of int, shape (V, K)
     weights : ndarray, shape (V, K)
-        Any number of influences; entries with weight 0 do not count, a joint named twice adds up.
+        Any number of influences; weights of 0 are ignored, and repeated joints are added.
     world_from_bone_bind : ndarray, shape (J, 4, 4)
-        Where every bone of the scene was when the mesh was bound; the same for all meshes of a scene, and not
-        necessarily the bones' rest pose.
+        Transform of every bone when the mesh was bound; equal for all meshes of a scene, and possibly different from
+        the rest pose.
     """
 
     name: str
@@ -138,22 +138,22 @@ class SkinnedMesh:
 
 @dataclass(frozen=True, eq=False)
 class Clip:
-    """A baked animation: values of every frame, the first at time zero.
+    """A baked animation: values at every frame, the first at time zero.
 
     Attributes
     ----------
     frames : int
-        Number of frames F, at least 1; the clip lasts ``(F - 1) / fps`` seconds.
+        Number of frames F, at least 1; the duration is ``(F - 1) / fps`` seconds.
     rotations_xyzw : ndarray, shape (F, J, 4)
-        Relative to the parent.
+        Rotation relative to the parent.
     translations_cm : mapping of int to ndarray, shape (F, 3)
-        By bone index, relative to the parent; only the bones that move.
+        Translation relative to the parent, by bone index; only bones that translate.
     morph_weights : mapping of str to ndarray, shape (F,)
-        By morph name, 0 to 1.
+        Weight 0 to 1 by morph name.
     whole_turns : mapping of int to ndarray, shape (F, 4)
-        Rotations of the bones whose turn is partly made by morphs, with all of it: for formats without morphs.
+        Full rotations of bones that are partly rotated by morphs, for formats without morphs.
     keys : Keys or None
-        The frames whose values are written, where the format can leave out others; None: all of them.
+        The frames written as keys, in formats that support fewer keys; None: every frame.
     """
 
     name: str
@@ -167,7 +167,7 @@ class Clip:
 
     @property
     def kind(self) -> tuple[str, Fraction, int]:
-        """Name, rate and length, which all clips of a file share."""
+        """Name, rate and length, equal for all clips of a file."""
         return self.name, self.fps, self.frames
 
 
@@ -189,19 +189,19 @@ class NodePlace:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A character or an instrument, and what it does.
+    """A character or an instrument with its animation.
 
     Attributes
     ----------
     bones : tuple of Bone
-        Parents first; exactly one root, the first.
+        Bones, parents first; the first one is the only root.
     creator : str
-        Program and version that made the file.
+        Program and version for the file.
     name : str
-        What programs call the armature; empty: as the clip, or else as the root bone.
+        Name of the armature in other programs; empty: the clip's, or else the root bone's.
     place : NodePlace or None
-        Of a node of that name above the root bone. None: no such node, since Unreal may make a bone of whatever is
-        above the root; the name then shows only where the format has a place for it.
+        Transform of a node of that name above the root bone. None: no such node, since Unreal may turn it into a bone;
+        the name is then used only where the format allows.
     """
 
     bones: tuple[Bone, ...]
@@ -213,22 +213,22 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """The name, or what stands for it."""
+        """The name, or the name used instead."""
         return self.name or (self.bones[0].name if self.clip is None else self.clip.name)
 
 
 def without_meshes(scene: Scene) -> Scene:
-    """The motion of a scene alone; its weights are of morphs that are elsewhere."""
+    """The scene without meshes; its morph weights refer to morphs in other files."""
     return replace(scene, meshes=())
 
 
 def check_scene(scene: Scene) -> None:
-    """Refuse a scene that no file could hold.
+    """Raise ValueError for a scene that no file can hold.
 
     Raises
     ------
     ValueError
-        Naming what contradicts what: this is a mistake of the caller, not of a user.
+        The scene contradicts itself, which is a programming error.
     """
     bone_count = len(scene.bones)
     if not bone_count or scene.bones[0].parent != -1:
@@ -252,12 +252,13 @@ def check_scene(scene: Scene) -> None:
 
 
 def checked_scenes(scenes: Iterable[Scene]) -> Iterator[Scene]:
-    """The scenes of one file, one after another, each checked when it comes.
+    """Yield the scenes of one file, checking each.
 
     Raises
     ------
     ValueError
-        As `check_scene`; several without a place and a name of their own; clips of different names, rates or lengths.
+        As `check_scene`; several scenes without their own place and name; or clips of different names, rates or
+        lengths.
     """
     names: set[str] = set()
     before: Clip | None = None

@@ -1,4 +1,4 @@
-"""Skin weights for formats that list a fixed number of influences for every vertex."""
+"""Converts skin weights for formats with a fixed number of influences per vertex."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from app.formats.scene import SkinnedMesh
 
 
 def influences(mesh: SkinnedMesh) -> tuple[IntArray, FloatArray]:
-    """Bones and weights (V, K) of every vertex, the strongest first.
+    """Bone indices and weights (V, K) of every vertex, strongest first.
 
-    A bone comes once per vertex and the weights of a vertex sum to 1; slots that are not needed have bone 0 and
-    weight 0. A vertex that nothing moves goes with the root. K is as small as the mesh allows.
+    Each bone occurs once per vertex and weights sum to 1; unused slots have bone 0 and weight 0. A vertex without
+    weights follows the root. K is as small as possible.
     """
     count, width = mesh.weights.shape
     joints = np.where(mesh.weights > 0, mesh.joint_indices, -1).astype(np.int64)

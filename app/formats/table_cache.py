@@ -1,4 +1,4 @@
-"""Cache of parsed bundled tables in the user's folder: ten times as fast as parsing them."""
+"""Disk cache of parsed bundled tables, ten times as fast as parsing them."""
 
 from __future__ import annotations
 
@@ -25,19 +25,18 @@ MOST_BYTES: Final = 2**24
 
 
 def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T], make: Callable[[], T]) -> T:
-    """A value made of bundled tables, from the cache if it is there.
+    """Return a value made from bundled tables, from the cache if possible.
 
     Parameters
     ----------
     kind, name : str
-        Of the cache's folder and the file in it.
+        Name of the cache's folder and of the file in it.
     folder : Path
-        The tables, in folders of it too, and the code that reads and checks them: when one of these files changes, the
-        value is made again.
+        Folder with the tables and the code that reads them; when a file in it changes, the value is made again.
     decoder : Decoder
-        Of the value.
+        Decoder of the value.
     make : callable
-        What it raises is passed on.
+        Makes the value; its exceptions are passed on.
     """
     path = cache_folder(kind) / f"{name}-{digest_of(folder)}.msgpack"
     try:
@@ -56,7 +55,7 @@ def kept(kind: str, name: str, folder: Path, decoder: msgspec.msgpack.Decoder[T]
 
 @cache
 def digest_of(folder: Path) -> str:
-    """Digest of the tables in a folder and the code in it, as of its first call."""
+    """Hash of the tables and code in a folder, computed at the first call."""
     digest = hashlib.blake2b(program_version().encode(), digest_size=16)
     for path in sorted((*folder.rglob("*.toml"), *folder.glob("*.py"))):
         content = path.read_bytes()

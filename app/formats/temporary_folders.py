@@ -1,6 +1,6 @@
-"""Temporary folders in known places: what a killed process leaves there, the next start removes.
+"""Temporary folders that are deleted at the next start if their process was killed.
 
-Each has a locked file in it for as long as its process lives; the system takes the lock away, however that ends.
+Each contains a locked file while its process runs; the system releases the lock at the end of the process.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ _LOCK: Final = "lock"
 
 
 def scratch_places() -> tuple[Path, ...]:
-    """Return where the folders are: the second where the first refuses."""
+    """Return the parent folders to use; the second one if the first cannot be written."""
     user = os.getuid() if os.name == "posix" else ""
     return cache_folder("scratch"), Path(tempfile.gettempdir()) / f"suisou-{user}"
 
 
 @contextlib.contextmanager
 def scratch_folder() -> Iterator[Path]:
-    """A new folder that is gone when the block is done.
+    """Create a folder that is deleted at the end of the block.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``: no place takes it.
+        No folder can be created.
     """
     folder, stream = _new_folder()
     try:
@@ -48,8 +48,9 @@ def scratch_folder() -> Iterator[Path]:
 
 
 def abandoned_folders() -> Iterator[Path]:
-    """The folders of processes that were killed. Each is removed when the next one is requested; until then no other
-    process is given it."""
+    """Yield the folders of killed processes. Each is deleted when the next one is requested; until then no other
+    process uses it.
+    """
     for place in scratch_places():
         try:
             found = [path for path in place.iterdir() if _NAME.fullmatch(path.name)] if _is_ours(place) else []
@@ -74,7 +75,7 @@ def abandoned_folders() -> Iterator[Path]:
 
 
 def _is_ours(place: Path) -> bool:
-    """Return whether a place is not another user's, made first in a folder that all may write."""
+    """Return whether a folder belongs to the current user, as others may create it first in a shared folder."""
     found = place.stat(follow_symlinks=os.name != "posix")
     return os.name != "posix" or found.st_uid == os.getuid()
 

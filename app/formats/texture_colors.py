@@ -1,4 +1,4 @@
-"""Colours of textured surfaces at points and in the mean: for where textures are not shown."""
+"""Colours of textured surfaces at points and on average, for uses without textures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OPAQUE: Final = 0.5
 
 
 def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
-    """Values (N, 4) from 0 to 1 of a texture at texture coordinates (N, 2), v down; None where it cannot be read."""
+    """Texture values (N, 4), 0 to 1, at texture coordinates (N, 2), v down; None if it cannot be read."""
     pixels = small(use.texture)
     if pixels is None:
         return None
@@ -32,14 +32,14 @@ def sampled(use: TextureUse, uvs: AnyFloatArray) -> FloatArray | None:
 
 
 def linear(srgb: FloatArray) -> FloatArray:
-    """Linear values of sRGB ones (IEC 61966-2-1)."""
+    """Convert sRGB values to linear ones (IEC 61966-2-1)."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
 def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
-    """A material without textures: with the mean colour and roughness of them at some texture coordinates, v down.
+    """Return the material without textures, with their mean colour and roughness at some texture coordinates, v down.
 
-    It is neither cut out nor blended by what its texture leaves out.
+    The result is neither cut out nor blended.
     """
     if material.textures == NO_TEXTURES:
         return material
@@ -67,7 +67,7 @@ def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
 
 
 def with_textures(scene: Scene, most_px: int) -> Scene:
-    """A scene whose textures have no longer side; none at all where that is 0."""
+    """Scale down the textures of a scene to a longest side; 0 removes them."""
     return replace(scene, meshes=tuple(_with_textures(mesh, most_px) for mesh in scene.meshes))
 
 
@@ -79,7 +79,7 @@ def _with_textures(mesh: SkinnedMesh, most_px: int) -> SkinnedMesh:
 
 
 def without_textures(mesh: SkinnedMesh) -> SkinnedMesh:
-    """A mesh of `plain_material`s."""
+    """Replace the materials of a mesh by `plain_material`s."""
     if all(material.textures == NO_TEXTURES for material in mesh.materials):
         return mesh
     owners = np.zeros(len(mesh.faces), np.int64) if mesh.face_materials is None else mesh.face_materials

@@ -1,4 +1,4 @@
-"""Textures beside the files that show them: in one folder, each of them once, however many files name it."""
+"""Writes textures as separate files in one folder, each once, shared by all files of an export."""
 
 from __future__ import annotations
 
@@ -14,28 +14,28 @@ TEXTURES_FOLDER: Final = "Textures"
 
 
 def texture_files(folder: Path) -> tuple[str, ...]:
-    """Paths of the textures that were written into a folder, from it, with slashes."""
+    """Relative paths, with slashes, of the textures in a folder's texture folder."""
     return tuple(sorted(f"{TEXTURES_FOLDER}/{path.name}" for path in folder.glob(f"{TEXTURES_FOLDER}/*")))
 
 
 class TextureFiles:
-    """Textures of files that are being put together."""
+    """Collects the textures of files that are being written."""
 
     def __init__(self) -> None:
         self._named: dict[str, Texture] = {}
 
     def path(self, texture: Texture) -> str:
-        """The path of a texture from the files that name it, with slashes; it is written by `write`."""
+        """Register a texture, and return its relative path with slashes; `write` writes the file."""
         self._named[texture.file_name] = texture
         return f"{TEXTURES_FOLDER}/{texture.file_name}"
 
     def write(self, folder: Path) -> None:
-        """Write all that were asked for into a folder's folder of textures; those that are there already stay.
+        """Write all registered textures into a folder's texture folder; existing files are kept.
 
         Raises
         ------
         FileError
-            ``file.cannot_write``.
+            A file cannot be written.
         """
         for name, texture in self._named.items():
             target = folder / TEXTURES_FOLDER / name

@@ -1,4 +1,4 @@
-"""Textures of surfaces, as plain values: encoded images and how a material uses them."""
+"""Textures as plain values: encoded images, and their use in materials."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _UNSAFE: Final = re.compile(r"[^A-Za-z0-9_-]+")
 
 @dataclass(frozen=True)
 class Texture:
-    """An image as the bytes of a PNG or JPEG file. Textures of the same bytes are equal, whatever they are called.
+    """An image as the bytes of a PNG or JPEG file. Textures with equal bytes are equal, regardless of name.
 
     Attributes
     ----------
     digest : str
-        Of the content, 32 hexadecimal digits.
+        Hash of the content, 32 hexadecimal digits.
     """
 
     digest: str
@@ -32,13 +32,14 @@ class Texture:
 
     @property
     def mime_type(self) -> str:
-        """Kind of the content, as the internet names it."""
+        """Media type of the content, ``image/png`` or ``image/jpeg``."""
         return "image/png" if self.content.startswith(PNG_MAGIC) else "image/jpeg"
 
     @property
     def file_name(self) -> str:
-        """Name of its file, the same for the same content and name: letters, digits, ``_`` and ``-`` of its name, and
-        the start of its digest."""
+        """File name, determined by content and name: letters, digits, ``_`` and ``-`` of the name, and the start of the
+        digest.
+        """
         plain = unicodedata.normalize("NFKD", self.name).encode("ascii", "ignore").decode()
         stem = _UNSAFE.sub("_", plain).strip("_")[:_MOST_NAME] or "texture"
         return f"{stem}_{self.digest[:8]}{'.png' if self.mime_type == 'image/png' else '.jpg'}"
@@ -46,12 +47,12 @@ class Texture:
 
 @dataclass(frozen=True)
 class TextureUse:
-    """A texture as a material has it; it is repeated in both directions.
+    """A texture in a material; it repeats in both directions.
 
     Attributes
     ----------
     scale, offset : (float, float)
-        The image's coordinates are ``scale * uv + offset``, v down, as in glTF's ``KHR_texture_transform``.
+        Image coordinates are ``scale * uv + offset``, v down, as in glTF's ``KHR_texture_transform``.
     """
 
     texture: Texture
@@ -60,24 +61,24 @@ class TextureUse:
 
     @property
     def offset_up(self) -> tuple[float, float]:
-        """The offset where v points up, in the mesh and in the image alike."""
+        """The offset for coordinates in which v points up, in mesh and image."""
         return self.offset[0], 1.0 - self.scale[1] - self.offset[1]
 
 
 @dataclass(frozen=True)
 class MaterialTextures:
-    """Textures of a metallic-roughness surface, as in glTF 2.0: each is multiplied with the material's own value.
+    """Textures of a metallic-roughness material, as in glTF 2.0; each is multiplied with the material's value.
 
     Attributes
     ----------
     color : TextureUse or None
-        sRGB; its alpha counts where the material is no opaque one.
+        sRGB; its alpha is used unless the material is opaque.
     normal : TextureUse or None
         Tangent space, green up (OpenGL).
     metallic_roughness : TextureUse or None
-        Linear: green is roughness, blue metallic.
+        Linear: green is roughness, blue is metallic.
     occlusion : TextureUse or None
-        Linear: red.
+        Linear, red channel.
     normal_scale, occlusion_strength : float
     """
 
@@ -90,7 +91,7 @@ class MaterialTextures:
 
     @property
     def uses(self) -> tuple[TextureUse, ...]:
-        """The textures that the material has."""
+        """All textures of the material."""
         found = (self.color, self.normal, self.metallic_roughness, self.occlusion)
         return tuple(use for use in found if use is not None)
 
@@ -102,6 +103,6 @@ _known: Final[WeakValueDictionary[tuple[str, str], Texture]] = WeakValueDictiona
 
 
 def texture_of(name: str, content: bytes) -> Texture:
-    """The texture of a PNG or JPEG file's bytes, which are not looked at."""
+    """Make a texture from the bytes of a PNG or JPEG file, without checking them."""
     digest = hashlib.blake2b(content, digest_size=16).hexdigest()
     return _known.setdefault((digest, name), Texture(digest, name, content))

@@ -1,8 +1,8 @@
-"""TOML files, both ways: tables of texts, numbers, truth values, lists and tables of such.
+"""Reads and writes TOML: tables of texts, numbers, booleans, lists and nested tables.
 
-Reading is meant for files of any origin. What the format allows and no table of ours needs is refused: numbers beyond
-64 bits, nan and infinity, names and tables nested deeper than any real file. Besides being wrong, each of them makes
-some step behind the parser fail, or take longer than the square of the file's size.
+Safe for untrusted files: TOML features that this program's tables do not need are refused (numbers beyond 64 bits, nan
+and infinity, deeply nested names and tables), since they make later steps fail or take time quadratic in the file's
+size.
 """
 
 from __future__ import annotations
@@ -37,25 +37,25 @@ _LONG_NUMBER = re.compile(r"[0-9][0-9_]{4000}", re.ASCII)
 
 
 def read_toml(path: str | os.PathLike[str], file: str | None = None) -> dict[str, Any]:
-    """The table in a file.
+    """Parse a TOML file.
 
     Parameters
     ----------
     file : str, optional
-        What the file is called in messages, by default its path.
+        File name for messages; by default its path.
 
     Raises
     ------
     FileError
-        The file cannot be read, is no ordinary file, or too large.
+        The file cannot be read, is not a regular file, or is too large.
     MapError
-        It is no TOML, or not what a table of ours may hold.
+        It is no valid TOML, or uses unsupported features.
     """
     return parse_toml(toml_text(path, file), os.fspath(path) if file is None else file)
 
 
 def toml_text(path: str | os.PathLike[str], file: str | None = None) -> str:
-    """The text of a file, line ends as ``\\n``. Raises FileError, MapError ``table.not_utf8``."""
+    """Text of a file, with line ends ``\\n``. Raises FileError, or MapError if it is not UTF-8."""
     try:
         return read_file(path, MOST_BYTES).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
@@ -63,12 +63,12 @@ def toml_text(path: str | os.PathLike[str], file: str | None = None) -> str:
 
 
 def parse_toml(text: str, file: str) -> dict[str, Any]:
-    """The table in a text.
+    """Parse a TOML text.
 
     Raises
     ------
     MapError
-        ``table.syntax``: with the line and column, counted from 1; ``table.invalid``: with the key path.
+        It is no valid TOML (reported with line and column, from 1), or uses unsupported features (with the key path).
     """
     deep = _LONG_NAME.search(text)
     if deep is not None:
@@ -93,7 +93,7 @@ def parse_toml(text: str, file: str) -> dict[str, Any]:
 
 
 def shaped(table: object, kind: type[T], file: str) -> T:
-    """A table as a typed value. Raises MapError ``table.invalid`` with the key path."""
+    """Convert a table to a typed value. Raises MapError with the key path of the fault."""
     try:
         return msgspec.convert(table, kind)
     except msgspec.ValidationError as error:
@@ -105,12 +105,12 @@ def shaped(table: object, kind: type[T], file: str) -> T:
 
 
 def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
-    """A table as TOML; None is left out.
+    """Format a table as TOML; None values are omitted.
 
     Parameters
     ----------
     above : tuple of str
-        Keys of the tables that it is in.
+        Keys of the enclosing tables.
     """
     plain = {key: value for key, value in table.items() if not isinstance(value, Mapping) and value is not None}
     text = "".join(f"{_key(key)} = {_value(value)}\n" for key, value in plain.items())
@@ -122,7 +122,7 @@ def toml(table: Mapping[str, Any], above: tuple[str, ...] = ()) -> str:
 
 
 def header(path: tuple[str, ...], *, many: bool = False) -> str:
-    """Text between the outer brackets of a table's head; ``many``: of one in a list of tables."""
+    """Text between the outer brackets of a table's header; ``many``: the table is an element of a list."""
     name = ".".join(map(_key, path))
     return f"[{name}]" if many else name
 
@@ -134,7 +134,9 @@ def _syntax(text: str, file: str, at: int, detail: str) -> MapError:
 
 
 def _deepest(text: str) -> int:
-    """Return where more brackets are open than a table of ours has; those in texts count, for it is only reported."""
+    """Return the offset of the first bracket nested too deep, counting brackets in strings too, since it is only used
+    for messages.
+    """
     depth = 0
     for found in re.finditer(r"[\[\]{}]", text):
         depth += 1 if found.group() in "[{" else -1
@@ -144,7 +146,7 @@ def _deepest(text: str) -> int:
 
 
 def _not_allowed(table: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """Values that no table of ours may hold, by key path. Walked without recursion: a table may be of any depth."""
+    """Yield unsupported values by key path, without recursion, since tables may be nested to any depth."""
     pending: list[tuple[tuple[str | int, ...], Any]] = [((), table)]
     while pending:
         keys, value = pending.pop()

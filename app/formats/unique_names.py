@@ -1,4 +1,4 @@
-"""Names made different from each other."""
+"""Makes names unique by numbers."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterable
 def numbered(
     names: Iterable[str], taken: Iterable[str] = (), key: Callable[[str], str] = str.casefold
 ) -> tuple[str, ...]:
-    """The names in their order, each with the first free number behind it where it is not the first of its kind.
+    """The names in order; repetitions get the first free number appended.
 
     Parameters
     ----------
     taken : iterable of str
-        Names that are not free.
+        Names that are already in use.
     key : callable
-        What of two names must differ; by default the name, whatever its case.
+        Function whose results must differ; by default the name ignoring case.
     """
     used = {key(name) for name in taken}
     last: dict[str, int] = {}

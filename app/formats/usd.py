@@ -1,10 +1,10 @@
-"""Scenes -> OpenUSD file: a SkelRoot with its skeleton, skinned meshes, blend shapes and their animation; several
-scenes lie below one prim of the clip's name, each at its place, and share materials.
+"""Writes scenes as OpenUSD files: a SkelRoot with skeleton, skinned meshes, blend shapes and animation; several scenes
+are below one prim with the clip's name, each at its place, and share materials.
 
-Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that USD does not allow for a prim
-are made valid, and stay whole as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
-tokens. Textures are files beside it. The package usd-core (module ``pxr``) is loaded when a file is written and at no
-other time; it is optional.
+Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that are invalid for prims are
+changed, and kept unchanged as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
+tokens. Textures are separate files. The optional package usd-core (module ``pxr``) is imported only when a file is
+written.
 
 Source: OpenUSD documentation, "UsdSkel: Skeleton Schema", "UsdPreviewSurface Specification", "UsdMedia".
 """
@@ -44,9 +44,9 @@ class UsdSound:
     Attributes
     ----------
     file : str
-        Its name, or its path from the USD file's folder, with slashes.
+        File name, or path relative to the USD file's folder, with slashes.
     start_s : float
-        When it begins, counted from frame 0; below zero it has begun before.
+        Start in seconds relative to frame 0; negative if it starts earlier.
     """
 
     file: str
@@ -58,29 +58,29 @@ ONE_AT_A_TIME: Final = Lock()
 
 
 def write_usd(path: str | os.PathLike[str], scene: Scene, sound: UsdSound | None = None) -> None:
-    """Write a scene as a USD file, whole or not at all; the same scene always gives the same bytes.
+    """Write a scene as a USD file, atomically and deterministically.
 
     Parameters
     ----------
     path : str or path-like
         ``.usdc`` (binary) or ``.usda`` (text).
     sound : UsdSound, optional
-        Played along.
+        Sound to be played with it.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``.
+        The file cannot be written.
     UsageError
-        ``usd.missing``.
+        The package usd-core is not installed.
     ValueError
-        If the scene contradicts itself.
+        The scene contradicts itself.
     """
     write_usds(path, (scene,), sound)
 
 
 def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: UsdSound | None = None) -> None:
-    """Write scenes into one file as `write_usd`; each is let go when the next is asked for."""
+    """Write several scenes into one file as `write_usd`; each scene is released when the next is requested."""
     refuse_without_usd()
     with ONE_AT_A_TIME:
         open_libraries()
@@ -106,7 +106,7 @@ def write_usds(path: str | os.PathLike[str], scenes: Iterable[Scene], sound: Usd
 
 
 def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None, files: TextureFiles) -> Any:
-    """The whole file; ``files`` gets the textures that it names."""
+    """Build the whole file in memory; the used textures are added to ``files``."""
     from pxr import Kind, Sdf, Usd, UsdGeom
 
     layer: Any = Sdf.Layer.CreateAnonymous(".usda")
@@ -140,7 +140,7 @@ def _stage_layer(scenes: Iterable[Scene], sound: UsdSound | None, files: Texture
 
 
 class _Writer:
-    """Puts one scene into a stage."""
+    """Adds one scene to a stage."""
 
     def __init__(self, scene: Scene, layer: Any, stage: Any, materials: UsdMaterials) -> None:
         self._scene = scene
@@ -175,7 +175,7 @@ class _Writer:
             self._motion(f"{root_path}/{motion_name}", clip, joints, skeleton)
 
     def _joint_paths(self) -> list[str]:
-        """USD distinguishes joints by paths: a name below its parent's path."""
+        """Return USD paths of all joints: a joint's name below the path of its parent."""
         names = _identifiers([bone.name for bone in self._scene.bones])
         paths: list[str] = []
         for bone, name in zip(self._scene.bones, names, strict=True):
@@ -318,7 +318,7 @@ def _add_sound(stage: Any, path: str, clip: Clip, sound: UsdSound) -> None:
 
 
 def _identifiers(names: Iterable[str], taken: Iterable[str] = ()) -> tuple[str, ...]:
-    """Valid names of prims, different from each other and from those taken, however they are written."""
+    """Valid and unique prim names, also different from ``taken`` ignoring case."""
     from pxr import Sdf, Tf
 
     valid = (name if Sdf.Path.IsValidIdentifier(name) else Tf.MakeValidIdentifier(name) for name in names)

@@ -1,4 +1,4 @@
-"""Preview surfaces of a USD file, whose textures are files beside it.
+"""Writes preview surfaces of a USD file, with textures as separate files.
 
 Source: OpenUSD documentation, "UsdPreviewSurface Specification".
 """
@@ -18,12 +18,12 @@ _NOTHING: Final = (0.0, 0.0, 0.0, 0.0)
 
 
 class UsdMaterials:
-    """The preview surfaces of a file, each made when it is first asked for.
+    """The preview surfaces of a file, each made on first use.
 
     Parameters
     ----------
     identifiers : callable
-        Valid names of prims that are different from those taken.
+        Returns valid prim names that differ from those in use.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The package usd-core, which writes USD files and may not be installed."""
+"""Access to the optional package usd-core, which writes USD files."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ _MODULES: Final = ("Tf", "Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdMedia", "Usd
 
 
 def usd_installed() -> bool:
-    """Return whether USD files can be written."""
+    """Return whether usd-core is installed."""
     return importlib.util.find_spec("pxr") is not None
 
 
 def refuse_without_usd() -> None:
-    """Raise UsageError (``usd.missing``) where USD files cannot be written."""
+    """Raise UsageError if usd-core is not installed."""
     if not usd_installed():
         raise UsageError("usd.missing")
 
 
 @cache
 def open_libraries() -> None:
-    """Open the package's libraries without the interpreter's lock, as an import does not.
+    """Load the package's shared libraries without holding the interpreter's lock, unlike an import.
 
-    While it opens them the system's loader is locked, and they wait for the interpreter's lock. numpy has that when it
-    asks the loader in another thread where a function is, as it does now and then: both would wait for ever.
+    Prevents a deadlock: while an import loads them, the system's loader is locked and they wait for the interpreter's
+    lock, which numpy may hold in another thread while it waits for the loader.
     """
     found = importlib.util.find_spec("pxr")
     if sys.platform != "linux" or found is None:

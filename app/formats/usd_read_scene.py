@@ -1,4 +1,4 @@
-"""OpenUSD file -> scene: for reading back what `app.formats.usd` wrote; needs the package usd-core as that does."""
+"""Reads OpenUSD files written by `app.formats.usd` back into scenes; requires usd-core."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _SURFACE = Material("surface", (0.8, 0.8, 0.8, 1.0))
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
-    """Read a file of one scene as `write_usd` writes it, without materials and UVs.
+    """Read a file with one scene written by `write_usd`, without materials and UVs.
 
     Raises
     ------
     FileError
-        ``usd.damaged``: it is no such file.
+        The file is not of that form.
     UsageError
-        ``usd.missing``.
+        The package usd-core is not installed.
     """
     refuse_without_usd()
     file = os.fspath(path)
@@ -65,7 +65,7 @@ def _scene(stage: Any) -> Scene:
 
 
 def _columns(matrices: Any) -> FloatArray:
-    """USD's matrices, which act on row vectors, for column vectors."""
+    """Convert USD's matrices for row vectors to matrices for column vectors."""
     return np.array(matrices, np.float64).reshape(-1, 4, 4).transpose(0, 2, 1)
 
 
@@ -112,7 +112,7 @@ def _targets(binding: Any) -> list[Any]:
 
 
 def _clip(stage: Any, motion: Any) -> Clip:
-    """The values of every frame, between keys as USD has them."""
+    """The values at every frame; between keys as USD interpolates them."""
     frames = round(stage.GetEndTimeCode() - stage.GetStartTimeCode()) + 1
     names = motion.GetBlendShapesAttr().Get() or ()
     weights = _at_frames(motion.GetBlendShapeWeightsAttr(), frames) if names else np.zeros((frames, 0))
@@ -129,11 +129,11 @@ def _clip(stage: Any, motion: Any) -> Clip:
 
 
 def _at_frames(attribute: Any, frames: int) -> FloatArray:
-    """Values (F, N, ...) of an attribute; quaternions come as xyzw."""
+    """Values (F, N, ...) of an attribute at all frames; quaternions as xyzw."""
     return np.stack([np.array(attribute.Get(frame)) for frame in range(frames)]).astype(np.float64)
 
 
 def _moving(places_cm: AnyFloatArray) -> list[int]:
-    """Bones that do not stay on their parents."""
+    """Indices of bones whose position relative to the parent changes."""
     still = (places_cm == places_cm[:1]).all(axis=(0, 2))
     return np.flatnonzero(~still).tolist()

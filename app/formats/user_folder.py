@@ -1,8 +1,8 @@
-"""Library of bundled items and those of a user's folder, read again when its files change.
+"""Libraries of bundled items and items in a user folder, reloaded when its files change.
 
-Each is a ``.toml`` file and what lies beside it. The user's own one wins over the bundled one of its id; what is wrong
-with a file is reported by file, and the last good version of it stays in use. Everybody asks for the same value;
-`UserFolder.reload` alone replaces it, by another one.
+An item is a ``.toml`` file with accompanying files. A user's item overrides a bundled one of the same id; errors are
+reported by file, and the last valid version stays in use. All callers get the same values; only `UserFolder.reload`
+replaces them.
 """
 
 from __future__ import annotations
@@ -29,24 +29,24 @@ TABLE = ".toml"
 
 @dataclass(frozen=True)
 class Shelf(Generic[V]):
-    """All items of a kind, as they were when the folder was read.
+    """All items of one kind at the time the folder was read.
 
     Attributes
     ----------
     folder : Path
-        The user's own.
+        The user's folder.
     items : mapping of str to V
-        By id: first the bundled ones, then the user's own. As long as one is what it was, it is the same object.
+        Items by id: bundled ones first, then the user's. Unchanged items stay the same objects.
     files : mapping of str to Path
-        Those that are the user's, and their files.
+        Files of the user's items, by id.
     problems : mapping of Path to tuple of Message
-        What is wrong with the user's files. Where an earlier version was good, ``items`` has that.
+        Errors in the user's files. If an earlier version was valid, ``items`` has that.
     revisions : mapping of str to int
-        How often the one of each id became another; of those that never did, nothing.
+        Number of changes of each id; unchanged ones are missing.
     stamp : frozenset
-        The files that were read.
+        The files that were read, with times and sizes.
     made_of : mapping of str to Stamp
-        What the user's own ones are made of beside what their tables say.
+        Further files that each user's item depends on.
     """
 
     folder: Path
@@ -60,7 +60,7 @@ class Shelf(Generic[V]):
 
 @dataclass(frozen=True)
 class Read(Generic[V]):
-    """Result of reading a user's file: a value and its files, or the problem."""
+    """Result of reading a user's file: a value and its files, or an error."""
 
     value: V | None
     files: tuple[Path, ...] = ()
@@ -68,23 +68,23 @@ class Read(Generic[V]):
 
 
 class UserFolder(Generic[V, S]):
-    """Items of one kind: those bundled with the program, and the user's own in a folder.
+    """Items of one kind: bundled with the program, and in a user folder.
 
     Parameters
     ----------
     name : str
-        Of the folder beside the program's other data. The environment variable ``SUISOU_`` and this name may name
-        another one.
+        Folder name in the program's data folder. The environment variable ``SUISOU_`` plus this name can give another
+        folder.
     suffixes : collection of str
-        Of the files that count, beside tables.
+        Suffixes of relevant files other than tables.
     shelf : type of Shelf
-        What is handed out.
+        Class of the result.
     bundled : callable
-        The bundled ones by id, the same objects every time.
+        Returns the bundled items by id, always the same objects.
     read : callable
-        A table of the user, by its path; may raise AppError.
+        Reads a user's table by path; may raise AppError.
     skipped : collection of str
-        Names of tables that hold something else.
+        Names of tables with other contents.
     """
 
     def __init__(
@@ -103,48 +103,48 @@ class UserFolder(Generic[V, S]):
         self._shelf, self._bundled, self._read, self._skipped = shelf, bundled, read, frozenset(skipped)
 
     def folder(self) -> Path:
-        """Return where the user's own are; need not exist."""
+        """Return the path of the user's folder, which need not exist."""
         named = os.environ.get(self.variable)
         return Path(named) if named else platformdirs.user_data_path("suisou", appauthor=False) / self.name
 
     def begin(self) -> S:
-        """Start with the bundled items alone unless the folder was read already: for a program that reads it in the
-        background."""
+        """Start with the bundled items only, unless the folder was read already; the folder is then read in the
+        background.
+        """
         with self.lock:
             self.last = self.last or self._shelf(self.folder(), self._bundled())
             return self.last
 
     def now(self) -> S:
-        """All items as they were last read; the first call reads them."""
+        """All items as last read; the first call reads them."""
         return self.last if self.last is not None else self.reload()
 
     def reload(self) -> S:
-        """Read the folder again if something in it changed, and return the values used from now on."""
+        """Reload the folder if something in it changed, and return the current values."""
         with self.lock:
             self.last = self.read(self.folder(), self.last)
             return self.last
 
     def preview(self, items: Mapping[str, V], own: Collection[str]) -> None:
-        """Hand out other values until `put_back`, or until something in the folder changes; ``own`` are the user's."""
+        """Use other values until `put_back`, or until the folder changes; ``own`` are the ids of the user's."""
         with self.lock:
             shelf = self.now()
             files = {id: shelf.files.get(id, self.folder() / f"{id}{TABLE}") for id in own}
             self.last = replace(shelf, items=items, files=files)
 
     def put_back(self, shelf: S) -> None:
-        """Hand out again what was handed out before `preview`, unless the folder has been read again since."""
+        """Restore the values from before `preview`, unless the folder was reloaded since."""
         with self.lock:
             if self.last is not None and self.last.stamp == shelf.stamp:
                 self.last = shelf
 
     def read(self, folder: Path, before: S | None = None) -> S:
-        """Read the user's folder; one that is not there holds nothing.
+        """Read the user's folder; a missing folder is empty.
 
         Parameters
         ----------
         before : Shelf, optional
-            What was read before: what did not change stays the same object, and good versions of what is wrong now
-            stay in use.
+            Previous result: unchanged items stay the same objects, and last valid versions of invalid files are kept.
         """
         problems: dict[Path, tuple[Message, ...]] = {}
         try:
@@ -186,12 +186,12 @@ class UserFolder(Generic[V, S]):
 
 
 class Named(Generic[V]):
-    """Tables in a folder that have their names in them, whatever their files are called.
+    """Tables in a folder that contain their own names, independent of file names.
 
     Parameters
     ----------
     read : callable
-        A table by its path. Raises AppError.
+        Reads a table by path. Raises AppError.
     name_of : callable
     """
 
@@ -199,8 +199,7 @@ class Named(Generic[V]):
         self._read, self._name_of = read, name_of
 
     def found(self, folder: Path) -> tuple[dict[str, V], tuple[Message, ...]]:
-        """The valid items by name, in the order of the names, and what is wrong with the invalid ones. A missing
-        folder holds none."""
+        """Valid items sorted by name, and errors in the others. A missing folder is empty."""
         items: dict[str, V] = {}
         problems = []
         try:
@@ -217,7 +216,7 @@ class Named(Generic[V]):
         return dict(sorted(items.items())), tuple(problems)
 
     def path_of(self, folder: Path, name: str) -> Path | None:
-        """The file that holds the one of this name. Raises FileError where the folder cannot be listed."""
+        """File of the item with this name; None if there is none. Raises FileError if the folder cannot be listed."""
         for path in files_in(folder, TABLE):
             with contextlib.suppress(AppError):  # What is wrong with another file, `found` says.
                 if self._name_of(self._read(path)) == name:
@@ -226,7 +225,7 @@ class Named(Generic[V]):
 
 
 def stamp_of(paths: Iterable[Path]) -> Stamp:
-    """Names, times and sizes of files."""
+    """Names, times and sizes of files, to detect changes."""
     stamps = []
     for path in paths:
         try:

@@ -1,4 +1,4 @@
-"""The pictures of films of other programs and cameras, by ffmpeg."""
+"""Reads the frames of videos with ffmpeg."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ Picture = npt.NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class VideoFacts:
-    """Facts about a film.
+    """Facts about a video.
 
     Attributes
     ----------
     width, height : int
-        Pixels, as it is seen: a film that a phone took upright is higher than wide.
+        Size in pixels as displayed, after rotation.
     rate : Fraction
-        Pictures per second; the mean where they come at uneven times.
+        Frames per second; the mean for uneven frame times.
     duration_s : float
-        Of the file; 0.0 where it does not say.
+        Duration of the file; 0.0 if unknown.
     has_sound : bool
     """
 
@@ -50,19 +50,19 @@ class VideoFacts:
     has_sound: bool
 
     def fitted(self, most_width: int, most_height: int) -> tuple[int, int]:
-        """The size, even and in proportion, that fits; never larger than the film is."""
+        """Largest even size with the same proportions that fits, never larger than the video."""
         share = min(most_width / self.width, most_height / self.height, 1.0)
         width, height = (max(round(share * length / 2.0) * 2, 2) for length in (self.width, self.height))
         return width, height
 
 
 def video_facts(path: str) -> VideoFacts:
-    """Look at a film: reads its first picture.
+    """Examine a video, reading its first frame.
 
     Raises
     ------
     FileError
-        ``video.not_readable``, ``video.no_pictures``; see `app.formats.files.open_file`.
+        The file cannot be read or contains no pictures; also as `app.formats.files.open_file`.
     """
     first = ("-map", "0:V:0", "-frames:v", "1", "-pix_fmt", "yuv420p", "-f", "yuv4mpegpipe", "-")
     with ffmpeg_on(path, "ffmpeg.facts", (), first) as process:
@@ -90,7 +90,7 @@ def video_facts(path: str) -> VideoFacts:
 
 
 class VideoPictures:
-    """Pictures of a film, one after the other from one of them on; see `video_pictures`."""
+    """Consecutive frames of a video; see `video_pictures`."""
 
     def __init__(self, path: str, process: subprocess.Popen[bytes], size: tuple[int, int], first: int) -> None:
         self._path, self._process, self._size = path, process, size
@@ -99,12 +99,12 @@ class VideoPictures:
         """Number of the picture that is read next."""
 
     def read(self) -> Picture | None:
-        """The next picture; None after the last, which is where the file breaks off.
+        """Return the next frame; None after the last one, or where the file is cut off.
 
         Raises
         ------
         FileError
-            ``video.too_costly``, ``video.reader_ended``: ffmpeg was ended by the system.
+            The system ended ffmpeg because of a limit or a crash.
         """
         width, height = self._size
         stream = self._process.stdout
@@ -119,31 +119,31 @@ class VideoPictures:
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)
 
     def stop(self) -> None:
-        """End it from another thread: `read` returns None."""
+        """Stop reading from another thread: `read` returns None."""
         self._is_stopped = True
         self._process.kill()
 
 
 @contextlib.contextmanager
 def video_pictures(path: str, rate: Fraction, size: tuple[int, int], first: int = 0) -> Iterator[VideoPictures]:
-    """Read a film's pictures, at its own rate, whichever of them is the first.
+    """Read the frames of a video from any frame on.
 
-    Picture k is the one that is seen k / rate seconds after the beginning of the file.
+    Frame k is the one displayed k / rate seconds after the start of the file.
 
     Parameters
     ----------
     path : str
     rate : Fraction
-        Pictures per second: `VideoFacts.rate`, or another at which they are sampled.
+        Frames per second: `VideoFacts.rate`, or another rate for resampling.
     size : (int, int)
-        Width and height that they are brought to, pixels.
+        Width and height in pixels to which frames are scaled.
     first : int
-        Number of the picture to begin with.
+        Index of the first frame.
 
     Raises
     ------
     FileError
-        ``video.not_readable``: ffmpeg does not start; see `app.formats.files.open_file`.
+        ffmpeg cannot be started; also as `app.formats.files.open_file`.
     """
     # A quarter of a picture early: what is sought is not missed for a rounded time, nor the one before taken for it.
     sought = ("-ss", f"{float((first - Fraction(1, 4)) / rate):.6f}") if first > 0 else ()
