@@ -1,4 +1,4 @@
-"""A file's scene played back: where its bones and its deformed surfaces are, in metres."""
+"""Plays back a file's scene: positions of bones and deformed surfaces, in metres."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ METRES = 0.01
 
 @dataclass(frozen=True, eq=False)
 class ScenePlayback:
-    """A scene with a clip, played as any reader of the file would."""
+    """A scene with a clip, evaluated as any reader of the file would."""
 
     scene: Scene
     clip: Clip
@@ -40,11 +40,11 @@ class ScenePlayback:
         return np.stack([np.asarray(bone.translation_cm, np.float64) for bone in self.scene.bones]) * METRES
 
     def rotations(self, first: int, last: int) -> FloatArray:
-        """Local rotations (n, J, 4) of the frames ``first`` .. ``last - 1``."""
+        """Local rotations (n, J, 4) of frames ``first`` .. ``last - 1``."""
         return quaternion.normalize(self.clip.rotations_xyzw[first:last])
 
     def translations_m(self, first: int, last: int) -> FloatArray:
-        """Local translations (n, J, 3) of the frames ``first`` .. ``last - 1``."""
+        """Local translations (n, J, 3) of frames ``first`` .. ``last - 1``."""
         result = np.tile(self.rest_m, (last - first, 1, 1))
         for bone, translation_cm in self.clip.translations_cm.items():
             result[:, bone] = translation_cm[first:last].astype(np.float64) * METRES
@@ -62,38 +62,38 @@ class ScenePlayback:
 
     @cached_property
     def still(self) -> BoolArray:
-        """Bones (J,) that are where they are on their parents in all frames."""
+        """Mask (J,) of the bones that never move relative to their parents."""
         rotations = self.clip.rotations_xyzw
         still: BoolArray = (rotations == rotations[:1]).all(axis=(0, 2))
         still[[*self.clip.translations_cm]] = False
         return still
 
     def world(self, first: int, last: int) -> FloatArray:
-        """World transforms (n, J, 4, 4) of the frames ``first`` .. ``last - 1``."""
+        """World transforms (n, J, 4, 4) of frames ``first`` .. ``last - 1``."""
         result = np.zeros((last - first, len(self.parents), 4, 4))
         result[:, :, :3] = PlaybackBones(self, range(len(self.parents))).world(first, last).transpose(3, 0, 1, 2)
         result[..., 3, 3] = 1.0
         return result
 
     def morphs(self, first: int, last: int) -> dict[str, AnyFloatArray]:
-        """Weights (n,) of the morphs at the frames ``first`` .. ``last - 1``."""
+        """Weights (n,) of morphs at frames ``first`` .. ``last - 1``."""
         return {name: np.asarray(weights)[first:last] for name, weights in self.clip.morph_weights.items()}
 
 
 class Surface:
-    """Vertices of a mesh, prepared for being deformed.
+    """Some vertices of a mesh, prepared for deformation.
 
     Parameters
     ----------
     playback : ScenePlayback
     mesh : SkinnedMesh
-        One of its scene's.
+        A mesh of the scene.
     vertices : (V,) integer array
 
     Attributes
     ----------
     skin : Skin
-        Its joints are the file's bones.
+        Skin whose joints are the file's bones.
     """
 
     def __init__(self, playback: ScenePlayback, mesh: SkinnedMesh, vertices: AnyIntArray) -> None:
@@ -116,12 +116,12 @@ class Surface:
         )
 
     def positions_m(self, world: FloatArray, first: int, last: int) -> FloatArray:
-        """Deformed positions (n, V, 3); ``world`` is `ScenePlayback.world` of the same frames."""
+        """Deformed positions (n, V, 3) in metres; ``world`` is `ScenePlayback.world` of the same frames."""
         return self.skin.deformed(world, self._playback.morphs(first, last))
 
 
 class PlaybackBones:
-    """Bones of a playback, with all their ancestors.
+    """Some bones of a playback with all their ancestors.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class PlaybackBones:
     Attributes
     ----------
     row_of : dict of int to int
-        The rows of `world` by bone.
+        Row in `world` of each bone.
     """
 
     def __init__(self, playback: ScenePlayback, bones: Iterable[int]) -> None:
@@ -149,21 +149,22 @@ class PlaybackBones:
         self._place(self._still, 0, 1, self._still_rows)
 
     def rows(self, bones: Iterable[int]) -> list[int]:
-        """Rows of bones."""
+        """Rows of bones in `world`."""
         return [self.row_of[bone] for bone in bones]
 
     def room(self, frames: int) -> tuple[FloatArray, FloatArray]:
-        """Arrays for `world` of some frames, to be used again: allocating them for every few takes longer than filling
-        them."""
+        """Buffers for `world` for a number of frames, for reuse, since allocating them takes longer than filling
+        them.
+        """
         return np.empty((len(self.row_of), 3, 4, frames)), np.empty((len(self._moving), 3, 4, frames))
 
     def world(self, first: int, last: int, room: tuple[FloatArray, FloatArray] | None = None) -> FloatArray:
-        """World transforms (R, 3, 4, n) without their last row, of the frames ``first`` .. ``last - 1``.
+        """World transforms (R, 3, 4, n) without their last row, for frames ``first`` .. ``last - 1``.
 
         Parameters
         ----------
         room : pair of arrays, optional
-            From `room`, of as many frames or more: overwritten, and part of it is returned.
+            Buffers from `room` for at least as many frames; overwritten, and part of them is returned.
         """
         result, moving = (rows[..., : last - first] for rows in room or self.room(last - first))
         self._place(self._moving, first, last, moving)
@@ -172,7 +173,7 @@ class PlaybackBones:
         return result
 
     def _place(self, bones: Sequence[int], first: int, last: int, rows: FloatArray) -> None:
-        """Set rows (B, 3, 4, n) to the transforms of bones on their parents."""
+        """Fill rows (B, 3, 4, n) with the local transforms of bones."""
         clip = self._playback.clip
         turns = clip.rotations_xyzw[first:last, bones].astype(np.float64, copy=False)
         matrix_rows(turns.transpose(2, 1, 0), rows[:, :, :3].transpose(1, 2, 0, 3))
@@ -185,15 +186,15 @@ class PlaybackBones:
 
 
 class Middles:
-    """Middles of surfaces. The mean of linearly blended vertices is linear in the bones' transforms, so that each is
-    kept as one weighted point per bone, and what each morph adds to that.
+    """Mean positions of surfaces. The mean of linearly blended vertices is linear in the bones' transforms, so one
+    weighted point per bone, plus its change by each morph, is stored.
 
     Parameters
     ----------
     skins : mapping of str to Skin
-        Of each surface.
+        Skin of each surface.
     limbs : PlaybackBones
-        With all bones that carry any.
+        Bones that hold any of the surfaces.
     """
 
     def __init__(self, skins: Mapping[str, Skin], limbs: PlaybackBones) -> None:
@@ -214,7 +215,9 @@ class Middles:
                 self._shapes += [(index, row, shapes) for row, shapes in zip(rows, added, strict=True)]
 
     def places_m(self, world: FloatArray, morphs: Mapping[str, AnyFloatArray]) -> FloatArray:
-        """Places (K, 3, n); ``world`` is `PlaybackBones.world` of some frames, ``morphs`` the weights (n,) there."""
+        """Positions (K, 3, n) in metres; ``world`` is `PlaybackBones.world` of some frames, ``morphs`` the weights (n,)
+        there.
+        """
         result = np.zeros((len(self.names), 3, world.shape[-1]))
         for index, row, point_m in self._points:
             result[index] += point_m @ world[row]

@@ -1,4 +1,4 @@
-"""A musician's files: the character and the instruments, written and then measured as a reader plays them back."""
+"""Writes a musician's files (character and instruments), then measures them after reading them back."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ class ExportedPlayer(msgspec.Struct, frozen=True):
     ----------
     report : PlayerReport
     problems : dict of str to tuple of Problem
-        By the id of each of the musician's players.
+        Problems by the id of each of the musician's players.
     torso_rad : tuple of (float, float) or None
-        Angles of the torso frame by frame, sideways and forward; None where nothing was measured.
+        Angles of the torso in each frame, sideways and forward; None if nothing was measured.
     """
 
     report: PlayerReport
@@ -68,9 +68,9 @@ def export_player(
     musician : CastMusician
     folder : path
     reported : callable
-        Called with the share 0..1 that is done; what it raises stops the work.
+        Called with the share done, 0..1; its exceptions stop the work.
     cores : int
-        As of `player_motion`.
+        As in `player_motion`.
     """
     reports: list[DoubleReport] = []
     problems: dict[str, tuple[Problem, ...]] = {}
@@ -104,8 +104,9 @@ def export_player(
 
 @dataclass(frozen=True)
 class _Written:
-    """Keys and problems of a musician as the player of one instrument, the meshes of the character, and the files that
-    are measured, read back."""
+    """Intermediate result for one instrument of a musician: keys, problems, meshes of the character, and the files read
+    back for measuring.
+    """
 
     keys: KeyCount
     meshes: tuple[SkinnedMesh, ...]
@@ -122,8 +123,9 @@ def _write(
     cores: int,
     meshes: tuple[SkinnedMesh, ...],
 ) -> _Written:
-    """Write the instrument of one of a musician's players, and the character with the first; ``meshes`` are those of a
-    character that is written already."""
+    """Write the instrument of one of a musician's players, and the character for the first one; ``meshes`` are those of
+    an already written character.
+    """
     performance, first = request.performance, performer is musician.performers[0]
     rows, reads = files_of(request.formats), files_of(request.formats, reads=True)
     files = file_names(performance, request.formats)
@@ -172,7 +174,7 @@ def _write(
 
 
 def read_again(row: FileFormat, path: Path, meshes: tuple[SkinnedMesh, ...], in_file: bool) -> Scene:
-    """A written file as it is measured: with its meshes, which may not be ``in_file``."""
+    """Read a written file for measuring, with its meshes, which need not be ``in_file``."""
     assert row.read is not None
     if in_file or not row.without_meshes:
         return row.read(path, meshes)
@@ -184,12 +186,12 @@ def read_again(row: FileFormat, path: Path, meshes: tuple[SkinnedMesh, ...], in_
 
 
 def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:
-    """The scenes whose keys are counted: of those of a character the first."""
+    """The scenes whose keys are counted: only the first of those of a character."""
     return {held: scene for (held, _), scene in reversed([*scenes.items()])}.values()
 
 
 def _work(formats: frozenset[Format]) -> float:
-    """Work on a musician as the player of one instrument."""
+    """Relative amount of work for one instrument of a musician."""
     measures = _MEASURES_WORK if files_of(formats, reads=True) else 0.0
     return _MOTION_WORK + sum(row.work / len(row.holds) for row, _ in files_of(formats)) + measures
 
@@ -201,8 +203,9 @@ def _measured(
     read: dict[FileContent, Scene],
     reported: Progress,
 ) -> PlayerMeasurement | None:
-    """Measure the files of a player: the musician's character and the instrument, which may hang on a socket; None if
-    none was read. The scenes are taken out of ``read``."""
+    """Measure the files of a player (character and instrument, which may be attached to a socket); None if none was
+    read. Removes the scenes from ``read``.
+    """
     if not read:
         return None
     ((kind, _), *_) = files_of(request.formats, reads=True)
@@ -235,7 +238,7 @@ def _reported(
     keys: KeyCount,
     measured: PlayerMeasurement | None,
 ) -> DoubleReport:
-    """Report on a musician as the player of one instrument."""
+    """Report on one instrument of a musician."""
     player, span, performance = performer.player, request.span, request.performance
     plan = performance.plan(player)
     return DoubleReport(

@@ -1,7 +1,7 @@
-"""The musicians of an export shared over processes.
+"""Distributes the musicians of an export over processes.
 
-This process works too, and does again what a process that has ended did not finish: what is wrong is reported as if
-there were no other processes.
+The current process works too, and repeats the work of a process that failed, so that errors are reported as without
+other processes.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _POLL_S = 0.05
 
 
 def process_count(request: ExportRequest, cast: ExportCast) -> int:
-    """Return how many processes, this one among them, an export is worth on this machine."""
+    """Return the number of processes, including this one, that is worthwhile on this machine."""
     most = max(1, min(_cores(request), len(cast.musicians)))
     if request.processes is not None:
         return most
@@ -35,7 +35,7 @@ def process_count(request: ExportRequest, cast: ExportCast) -> int:
 
 
 def _cores(request: ExportRequest) -> int:
-    """Return how many an export may use."""
+    """Return the largest number of processes for an export."""
     return core_count() if request.processes is None else request.processes
 
 
@@ -53,17 +53,17 @@ def export_players(
     request : ExportRequest
     cast : ExportCast
     folder : path
-        What is in it when something is raised is not complete.
+        Folder to write into; incomplete if an exception is raised.
     processes : int
-        This one among them.
+        Number of processes, including this one.
     reported : callable
-        Called, always in this thread, with the id of a musician and the share 0..1 of the work on it that is done; what
-        it raises stops the work.
+        Called in this thread with the id of a musician and the share of its work done, 0..1; its exceptions stop the
+        work.
 
     Returns
     -------
     dict of str to ExportedPlayer
-        By the id of the musician.
+        Results by the id of the musician.
     """
     waiting = Waiting(cast.musicians)
     last: CastMusician | None = None
@@ -97,7 +97,7 @@ def export_players(
 
 
 def _children(request: ExportRequest, cast: ExportCast, folder: Path, count: int) -> list[Child[Answer]]:
-    """Processes that export the musicians whose ids are sent; fewer where no more can be started."""
+    """Start processes that export the musicians whose ids are sent; fewer if no more can be started."""
     children: list[Child[Answer]] = []
     copies = can_fork()
     job = None if copies or not count else job_of(request, folder)
@@ -115,10 +115,9 @@ def _children(request: ExportRequest, cast: ExportCast, folder: Path, count: int
 
 
 class Waiting:
-    """Musicians who have not been started.
+    """Musicians who are still to be exported.
 
-    What is made for one serves the next with the same instrument, and more so with the same body, so each process goes
-    on with those as long as there are any.
+    Data for an instrument and a body can be reused, so each process prefers musicians like its last one.
 
     Parameters
     ----------
@@ -134,7 +133,7 @@ class Waiting:
         return len(self._left)
 
     def take(self, last: CastMusician | None) -> CastMusician | None:
-        """The one to begin now, by who has exported ``last``; None where all have been started."""
+        """Take the next musician, preferably similar to ``last``; None if none is left."""
 
         def worth(one: CastMusician) -> tuple[bool, bool, bool]:
             kind = one.player.instrument_id
@@ -150,24 +149,24 @@ class Waiting:
             return musician
 
     def give_back(self, musician: CastMusician) -> None:
-        """Have another process do it."""
+        """Return a musician to the queue, so that another process exports it."""
         with self._lock:
             self._left.append(musician)
 
 
 class _Helper(Thread):
-    """Has a process export what is waiting.
+    """Thread that controls a process while musicians are left.
 
     Parameters
     ----------
     child : Child
-        It exports the musicians whose ids are sent.
+        Process that exports the musicians whose ids are sent.
     waiting : Waiting
-        One whose process ended is given back.
+        Queue of musicians; if the process fails, its musician is returned to it.
     finished : dict of str to ExportedPlayer
-        What was exported is put there.
+        Receives the results.
     shares : dict of str to float
-        How much is done of each musician.
+        Share of the work done for each musician.
     """
 
     def __init__(
@@ -197,6 +196,6 @@ class _Helper(Thread):
             self._shares[player_id] = 1.0
 
     def end(self) -> None:
-        """End the process, whatever it does."""
+        """End the process and the thread."""
         self._child.end()
         self.join()

@@ -1,15 +1,15 @@
-"""Fewer keys: which frames of a clip are written so that whatever a program shows between them is near enough.
+"""Reduces keys: chooses the frames of a clip to be written such that the interpolated motion stays within bounds.
 
-What is bounded, at every frame, whether a program interpolates Euler angles (FBX) or quaternions (glTF, USD, Blender):
+Bounds that hold at every frame, whether a program interpolates Euler angles (FBX) or quaternions (glTF, USD, Blender):
 
 - each bone's rotation by `ROTATION_DEG` and place by `PLACE_MM`, each morph's weight by `WEIGHT`;
 - after the hierarchy, every landmark of a character and every joint, or the whole surface of an instrument, by
   `PLACE_MM`.
 
-A bone's rotation is allowed as much as its share of what the marks below it may be off. Shares are chosen so that keys
-are few: a bone needs keys in proportion to the square root of how fast it changes direction, over the square root of
-what it may be off; with the sum of squares over a chain of bones given, the least number comes of tolerances that grow
-with (change / reach) to the power 2/3. What is still beyond its bound then is put right by further keys.
+The tolerance of a bone's rotation is its share of the tolerance of the points below it. Shares are chosen to minimise
+keys: the keys needed are proportional to the square root of the rate of change of direction over the square root of the
+tolerance; for a given sum of squares along a chain, the minimum has tolerances proportional to (change / reach) to the
+power 2/3. Remaining violations are corrected by additional keys.
 """
 
 from __future__ import annotations
@@ -38,20 +38,20 @@ _CHUNK, _ROUNDS = 512, 8
 
 
 def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = False, curved: bool = True) -> Scene:
-    """A scene whose clip has few keys.
+    """Reduce the keys of a scene's clip.
 
     Parameters
     ----------
     scene : Scene
-        With a clip.
+        Scene with a clip.
     marks : SkinnedMarks
-        Of the scene's surfaces.
+        Points on the scene's surfaces whose positions are bounded.
     most_mm : float
-        How far marks, and bones from their parents, may be off.
+        Tolerance in millimetres for the points, and for bones relative to their parents.
     pose : bool
-        Whether keys that all bones share are worked out too; linear ones.
+        Whether to compute keys shared by all bones too; these are linear.
     curved : bool
-        Whether cubics join the keys of bones, which are fewer than of straight lines.
+        Whether the keys of bones are joined by cubics, which needs fewer keys than straight lines.
     """
     clip = scene.clip
     assert clip is not None
@@ -79,7 +79,7 @@ def reduced(scene: Scene, marks: SkinnedMarks, most_mm: float, pose: bool = Fals
 
 
 def _with_end(keys: Keys, frames: int) -> Keys:
-    """The keys, with one on the last frame where there is none: programs take it for the animation's length."""
+    """Add a key on the last frame where it is missing, since programs take the last key as the animation's length."""
     end = np.array([0, frames - 1]) if frames > 1 else np.zeros(1, np.intp)
     if not any(one[-1] == frames - 1 for one in (*keys.bones, *keys.morphs.values())):
         keys = replace(keys, bones=(end, *keys.bones[1:]))
@@ -89,7 +89,7 @@ def _with_end(keys: Keys, frames: int) -> Keys:
 
 
 def _weight_keys(clip: Clip, marks: SkinnedMarks, most_m: float) -> tuple[dict[str, AnyIntArray], AnyIntArray]:
-    """Frames of each morph's keys, and of those of all morphs together."""
+    """Key frames of each morph, and of all morphs together."""
     names = list(clip.morph_weights)
     if not names:
         return {}, np.zeros(1, np.intp)
@@ -107,15 +107,15 @@ def _weight_keys(clip: Clip, marks: SkinnedMarks, most_m: float) -> tuple[dict[s
 
 
 def _settle(motion: KeyedMotion, kept: BoolArray, shared: bool) -> None:
-    """Add keys until everything is within its bounds at every frame.
+    """Add keys until every bound holds at every frame.
 
     Parameters
     ----------
     motion : KeyedMotion
     kept : (N, F) bool
-        The keys of the moving bones; changed in place.
+        Keys of the moving bones; changed in place.
     shared : bool
-        Whether all bones have theirs at the same frames, and no program interpolates angles.
+        Whether all bones have keys at the same frames, and no program interpolates angles.
     """
     changed, rows = np.ones(motion.frames, bool), np.arange(len(kept))
     rounds = 0
@@ -153,12 +153,12 @@ def _add_keys(
     shared: bool,
     all_frames: bool,
 ) -> BoolArray:
-    """Add keys where something is beyond its bound at some frames: at the worst of each run of them, or at all.
+    """Add keys where a bound is violated at some frames: at the worst of each run of frames, or at all.
 
     Returns
     -------
     ndarray of bool, shape (f,)
-        Whether anything is beyond its bound at each frame.
+        Whether a bound is violated at each frame.
     """
     beyond = np.zeros(len(frames), bool)
     here = spans.at(frames)
@@ -190,7 +190,7 @@ def _add_keys(
 
 
 def _worst(excess: AnyFloatArray, all_frames: bool) -> list[int]:
-    """Return where something is beyond its bound: at the worst of each run of frames, or at all of them."""
+    """Return the frames of violations: the worst of each run, or all."""
     beyond = excess > 1.0
     if all_frames:
         return np.flatnonzero(beyond).tolist()
@@ -203,6 +203,6 @@ def _lengths(vectors: AnyFloatArray) -> AnyFloatArray:
 
 
 def _angles(shown: AnyFloatArray, meant: AnyFloatArray) -> AnyFloatArray:
-    """Angles between unit quaternions (..., 4), radians."""
+    """Angles between unit quaternions (..., 4), in radians."""
     chord = np.minimum(_lengths(shown - meant), _lengths(shown + meant))
     return np.asarray(4.0 * np.arcsin(np.minimum(0.5 * chord, 1.0)))

@@ -27,19 +27,19 @@ BONES_BOUND_MM = 0.1
 
 
 class DancerMeasures(msgspec.Struct, frozen=True):
-    """Measures of an exported file of a dancer.
+    """Measures of a dancer's exported file.
 
     Attributes
     ----------
     standing_s : float
-        For how long feet stand, both added up.
+        Total time for which each foot stands, summed over both.
     slide_mm_s : float
-        Mean speed of the tips of feet that stand.
+        Mean speed of the toe tips of standing feet.
     slide_most_mm_s : float
     bones_mm : float
-        Greatest deviation of a bone's length from its length at rest.
+        Largest deviation of a bone's length from its rest length.
     below_mm : float
-        How far the lower tip of a foot is below the floor at most.
+        Largest depth of a foot's lower tip below the floor.
     """
 
     standing_s: float
@@ -55,8 +55,9 @@ class DancerMeasures(msgspec.Struct, frozen=True):
 
 
 class PlaceReport(msgspec.Struct, frozen=True):
-    """Place of a performer on the stage: the performer's own files are at the origin, facing +Z. Metres, Y up, the
-    audience towards +Z; a positive turn is from +Z towards +X."""
+    """Place of a performer on the stage; the performer's own files are at the origin, facing +Z. Metres, Y up, audience
+    towards +Z; a positive turn is from +Z towards +X.
+    """
 
     x_m: float
     z_m: float
@@ -64,14 +65,14 @@ class PlaceReport(msgspec.Struct, frozen=True):
 
 
 def stage_place(place: StagePosition) -> PlaceReport:
-    """A place of the project, rounded to what is seen."""
+    """Convert a project's place, rounded to visible precision."""
     return PlaceReport(round(place.x_m, 4), round(place.z_m, 4), round(math.degrees(place.turn_rad), 3))
 
 
 class SkeletonReport(msgspec.Struct, frozen=True):
     """Skeleton of a player's character, with its differences from the asset it was compared with.
 
-    A character of ours asked for on its own skeleton is on ``suisou``.
+    For this program's characters, whose own skeleton is the normalised one, the choice is ``suisou``.
     """
 
     choice: SkeletonChoice
@@ -83,8 +84,9 @@ class SkeletonReport(msgspec.Struct, frozen=True):
 
 
 class MutedSpan(msgspec.Struct, frozen=True):
-    """A passage with a mute in the bell, which nothing in the files shows, or ``stopped`` by the hand, which does, in
-    seconds of the piece."""
+    """A muted passage in seconds of the piece: with a mute, which files do not show, or ``stopped`` by the hand, which
+    they do.
+    """
 
     kind: MuteKind
     start_s: float
@@ -92,8 +94,9 @@ class MutedSpan(msgspec.Struct, frozen=True):
 
 
 class DoubleReport(msgspec.Struct, frozen=True):
-    """Report on a player's second instrument. It is measured with the player's character; while the other is played it
-    lies beside the player."""
+    """Report on a player's second instrument, which is measured with the player's character; while unused it is next to
+    the player.
+    """
 
     name: str
     part: str
@@ -111,7 +114,7 @@ class DoubleReport(msgspec.Struct, frozen=True):
 
 
 class PlayerReport(msgspec.Struct, frozen=True):
-    """One player's files and what they hold."""
+    """Files of one player with their measures."""
 
     name: str
     part: str
@@ -143,8 +146,9 @@ class PlayerReport(msgspec.Struct, frozen=True):
 
 
 class DancerReport(msgspec.Struct, frozen=True):
-    """One dancer's files and what they hold. Where feet stand, and how far their tips slide meanwhile, is measured on
-    the file read back, as are the bones: FBX, else GLB, else USD; None where none of these was asked for."""
+    """Files of one dancer with their measures. Foot contact, foot sliding and bone lengths are measured in the file
+    read back: FBX, else GLB, else USD; None if none of these was requested.
+    """
 
     name: str
     choreography: str
@@ -159,9 +163,9 @@ class DancerReport(msgspec.Struct, frozen=True):
 
 
 class StageFigure(msgspec.Struct, frozen=True):
-    """A character or an instrument in the file of the whole stage: the name of its node, whose it is, and where the
-    node is. An instrument that hangs on a socket has no node of its own: ``node`` is its root bone, ``socket`` the
-    character's bone that this is on."""
+    """A character or instrument in the stage file: name of its node, its performer, and the node's place. An instrument
+    on a socket has no node of its own: ``node`` is its root bone, ``socket`` the character's bone that holds it.
+    """
 
     node: str
     performer: str
@@ -170,7 +174,7 @@ class StageFigure(msgspec.Struct, frozen=True):
 
 
 class StageReport(msgspec.Struct, frozen=True):
-    """The files of the whole stage by format, and the figures that each of them holds."""
+    """Files of the stage by format, and the figures in them."""
 
     files: dict[Format, str]
     figures: tuple[StageFigure, ...]
@@ -185,15 +189,16 @@ class UnplayedPartReport(msgspec.Struct, frozen=True):
 
 
 class LeftOutReport(msgspec.Struct, frozen=True):
-    """A player or dancer asked for who could not be exported, and why."""
+    """A requested player or dancer that could not be exported, with the reason."""
 
     player: str
     reason: str
 
 
 class Report(msgspec.Struct, frozen=True):
-    """``report.json``. Frame n is at ``first_frame_s + n / fps`` of the piece, so its sound starts at
-    ``-first_frame_s`` of the animation. ``fps_exact`` is the rate as a fraction (``30000/1001``)."""
+    """Contents of ``report.json``. Frame n is at ``first_frame_s + n / fps`` of the piece, so its sound starts at
+    ``-first_frame_s`` of the animation. ``fps_exact`` is the rate as a fraction (``30000/1001``).
+    """
 
     version: str
     source: str
@@ -224,7 +229,7 @@ class Report(msgspec.Struct, frozen=True):
 
     @property
     def file_count(self) -> int:
-        """Files that were written, this report among them."""
+        """Number of files written, including the report."""
         files = [
             *(player.files for player in self.players),
             *(double.files for player in self.players for double in player.doubles),
@@ -235,7 +240,7 @@ class Report(msgspec.Struct, frozen=True):
 
 
 def encode_report(report: Report) -> bytes:
-    """The report as indented JSON, UTF-8. A number that is not finite is a mistake of ours and is refused."""
+    """The report as indented JSON, UTF-8. Raises an error for numbers that are not finite."""
     builtins = msgspec.to_builtins(report)
     _check_finite(builtins)
     return msgspec.json.format(msgspec.json.encode(builtins), indent=2) + b"\n"
@@ -253,7 +258,7 @@ def _check_finite(value: object) -> None:
 
 
 def failures(player: PlayerReport | DoubleReport) -> tuple[str, ...]:
-    """Names of the measures that a player's files do not keep."""
+    """Names of the measures that violate their bounds."""
     measures = player.measures
     if measures is None:
         return ()

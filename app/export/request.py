@@ -38,42 +38,42 @@ class ExportRequest:
     ----------
     performance : Performance
     players : tuple of Player
-        Those to export, each with everything that the musician plays; names of files come from all the players, so that
-        they do not depend on the choice.
+        Players to export, each with everything the musician plays; file names are derived from all players, so that
+        they do not depend on the selection.
     folder : path
     formats : frozenset of str
         Ids of `FILE_FORMATS`.
     span : FrameSpan
     bars : (int, int) or None
-        First and last bar asked for, for the report.
+        First and last requested bar, for the report.
     source, creator : str
         Name of the piece's file; program and version.
     skeleton : SkeletonChoice
-        What the characters are written on; instruments have one skeleton only.
+        Skeleton of the characters; instruments have only one.
     rig : RigOptions
-        What that skeleton is equipped with, and how instruments hang on it.
+        Options of that skeleton, and attachment of instruments.
     sound : bool
-        Whether the sound is written as a WAV file, from the first frame to the last.
+        Whether to write the sound as a WAV file, from the first frame to the last.
     bvh_names : str
-        Table of bone names that BVH files have; empty: those of the skeleton.
+        Table of bone names for BVH files; empty: the skeleton's own.
     dancers : tuple of Dancer
-        Those to export.
+        Dancers to export.
     stage : bool
-        Whether the whole stage is written too, in one file of each format that can hold it.
+        Whether to write the whole stage too, as one file in each format that supports it.
     processes : int or None
-        How many share the work at most; None: one per core, where it is worth it.
+        Largest number of processes; None: one per core where worthwhile.
     asset : path or None
-        File of the asset that the animation is for: every player's skeleton is compared with its.
+        File of the asset that the animation is for: every player's skeleton is compared with it.
     keys : KeyChoice
-        Which frames have keys, in formats that can leave out some.
+        Choice of keyframes, for formats that support fewer keys.
     face : FaceOptions
-        Which curves faces have, and their names.
+        Selection and names of face curves.
     motion_only : bool
-        Whether files are without meshes, in formats that can be so.
+        Whether to omit meshes in formats that allow this.
     texture_px : int
-        Longest side of textures in files; 0: files have none, and their surfaces the mean colours.
+        Longest side of textures; 0: no textures, surfaces have mean colours.
     with_ignored : bool
-        Whether problems that the project ignores are among the report's warnings.
+        Whether problems ignored by the project are listed as warnings.
     """
 
     performance: Performance
@@ -101,14 +101,14 @@ class ExportRequest:
 
 @dataclass(frozen=True, eq=False)
 class CastMusician:
-    """A musician who is exported.
+    """A musician to export.
 
     Attributes
     ----------
     performers : tuple of Performer
-        The musician as the player of each instrument. The body is that of the first.
+        The musician as player of each instrument; the first one has the body.
     checked : CheckedTarget
-        What the character is written on.
+        Skeleton of the character.
     """
 
     performers: tuple[Performer, ...]
@@ -126,22 +126,22 @@ class CastMusician:
 
     @property
     def target(self) -> TargetSkeleton:
-        """The skeleton that the character is written on."""
+        """Skeleton of the character's files."""
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
-        """The skeleton that the character is written on in files of a kind."""
+        """Skeleton of the character's files in a format."""
         return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
 
     @property
     def sockets(self) -> dict[str, str]:
-        """The bone that each instrument hangs on, by the player's id; none where they are free."""
+        """Socket bone of each instrument by player id; empty if instruments are not attached."""
         return dict(zip((one.player.id for one in self.performers), socket_names(self.target), strict=False))
 
 
 @dataclass(frozen=True, eq=False)
 class CastDancing:
-    """A dancer who is exported, as the project has the dancer."""
+    """A dancer to export."""
 
     dancer: Dancer
     dancing: Dancing
@@ -149,22 +149,22 @@ class CastDancing:
 
     @property
     def character(self) -> Character:
-        """The dancer's body, dressed."""
+        """Skeleton of the character's files."""
         return dressed_character(self.dancer)
 
     @property
     def target(self) -> TargetSkeleton:
-        """The skeleton that the character is written on."""
+        """Skeleton of the character's files in a format."""
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
-        """The skeleton that the character is written on in files of a kind."""
+        """Cast of an export: the exported performers, and the excluded ones with reasons."""
         return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
 
 
 @dataclass(frozen=True, eq=False)
 class ExportCast:
-    """Cast of an export: the exported performers, and the excluded ones with reasons."""
+    """Ids of the exported players and dancers."""
 
     musicians: tuple[CastMusician, ...]
     dancers: tuple[CastDancing, ...]
@@ -172,7 +172,7 @@ class ExportCast:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """Ids of the players and dancers who are exported."""
+        """Return the performers of a request that can be exported, without writing anything."""
         return (*(one.player.id for one in self.musicians), *(one.dancer.id for one in self.dancers))
 
 

@@ -1,4 +1,4 @@
-"""Equipment of one performer's skeleton."""
+"""Optional bones and attachment of one performer's skeleton."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ ORIGIN: Final = NodePlace(np.zeros(3), quaternion.IDENTITY)
 
 @dataclass(frozen=True, eq=False)
 class Grip:
-    """Place of an instrument in the hand that bears it.
+    """Place of an instrument in the hand that holds it.
 
     Attributes
     ----------
     side : str
         ``"left"`` or ``"right"``.
     position_m : (3,) float64
-        Origin of the instrument in the frame of the hand joint, before anything moves.
+        Origin of the instrument in the frame of the hand joint, at rest.
     rotation : (4,) float64
         ``hand_from_instrument``.
     """
@@ -41,15 +41,15 @@ class Grip:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """Equipment of a performer's skeleton.
+    """Optional bones and attachment of a performer's skeleton.
 
     Attributes
     ----------
     options : RigOptions
     grips : tuple of Grip
-        Of the musician's instruments, in their order; none of a dancer.
+        Grips of the musician's instruments, in order; empty for a dancer.
     place : NodePlace or None
-        On the stage, where the root bone stands there.
+        Stage transform of the root bone, if it is placed on the stage.
     """
 
     options: RigOptions = DEFAULT_RIG
@@ -58,13 +58,13 @@ class Rig:
 
 
 def rig_of(options: RigOptions, stage: StagePosition, performers: Iterable[Performer] = ()) -> Rig:
-    """The rig of a dancer, or of a musician as the player of each instrument."""
+    """The rig of a dancer or of a musician with all instruments."""
     grips = tuple(map(_grip, performers)) if options.instrument != "free" else ()
     return Rig(options, grips, floor_place(stage) if options.root_bone == "place" else None)
 
 
 def floor_place(stage: StagePosition) -> NodePlace:
-    """On the floor, turned from +Z towards +X."""
+    """Transform on the floor, turned from +Z towards +X."""
     half = stage.turn_rad / 2.0
     return NodePlace(
         100.0 * np.array([stage.x_m, 0.0, stage.z_m]), np.array([0.0, math.sin(half), 0.0, math.cos(half)])

@@ -30,7 +30,7 @@ class RigOptions(msgspec.Struct, frozen=True):
     root_bone : RootBone
     rest_pose : RestPose
     twist_bones : bool
-        Whether twist bones of the arms carry skin, and are there.
+        Whether twist bones of the arms are added and hold skin.
     eyes : EyeTurn
     """
 

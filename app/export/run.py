@@ -1,4 +1,6 @@
-"""A performance to files: characters, instruments, report. Players who cannot be exported are excluded and named."""
+"""Exports a performance as files: characters, instruments, report. Players that cannot be exported are excluded and
+reported.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,7 @@ _STAGE_WORK = 0.4
 
 
 class WordedReports(NamedTuple):
-    """One report, worded for its file and for who sees it."""
+    """The report in the language of its file and in that of the user."""
 
     filed: Report
     shown: Report
@@ -55,26 +57,25 @@ def export(
     progress: Progress = lambda share, label: None,
     shown_in: Callable[[Message], str] | None = None,
 ) -> Report:
-    """Write the files of every player asked for who can be exported, and ``report.json``: all of them, or none.
+    """Write the files of all requested players that can be exported, and ``report.json``, atomically.
 
     Parameters
     ----------
     request : ExportRequest
     wording : callable
-        Words a message for the report.
+        Words a message for the report file.
     stop_requested, progress : callable
     shown_in : callable, optional
-        Words a message for the report that is returned, and for errors, where the language of who sees them is
-        another than that of the file.
+        Words a message for the returned report and for errors, if the user's language differs from the file's.
 
     Raises
     ------
     FileError
-        See `cast_of`; ``file.cannot_write``.
+        As `cast_of`, or a file cannot be written.
     UsageError
-        ``usd.missing``.
+        usd-core is not installed.
     Cancelled
-        ``stop_requested`` said so.
+        ``stop_requested`` returned True.
     """
     cast = cast_of(request, shown_in or wording, stop_requested)
     return write_cast(request, cast, wording, stop_requested, progress, shown_in).shown
@@ -88,7 +89,7 @@ def write_cast(
     progress: Progress = lambda share, label: None,
     shown_in: Callable[[Message], str] | None = None,
 ) -> WordedReports:
-    """`export` of a request's cast."""
+    """Write the export of a request's cast, as in `export`."""
     dancers: list[DancerReport] = []
     everyone = len(cast.ids)
     stage_files = stage_names(request.performance, request.formats, request.source) if request.stage else {}
@@ -142,7 +143,7 @@ def write_cast(
 
 
 def _compared(players: Mapping[str, ExportedPlayer]) -> tuple[PlayerReport, ...]:
-    """The reports with how alike the players move, where there are several to compare."""
+    """The players' reports with correlations between players' motion added."""
     torsos = {id: np.array(one.torso_rad) for id, one in players.items() if one.torso_rad is not None}
     reports = {id: one.report for id, one in players.items()}
     if len(torsos) >= 2:

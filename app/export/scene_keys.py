@@ -1,4 +1,4 @@
-"""The scenes of an export with the keys that were asked for, and how many these are."""
+"""Applies the requested choice of keys to the scenes of an export, and counts them."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from app.rig.model import Character, InstrumentModel
 
 
 class KeyCount(msgspec.Struct, frozen=True):
-    """Keys of a performer's files, each of one bone's rotation or place or one morph's weight at one frame, and how
-    many there are with keys on every frame."""
+    """Number of keys in a performer's files (one bone's rotation or translation, or one morph's weight, at one frame),
+    and the number with keys on every frame.
+    """
 
     written: int
     every: int
@@ -33,20 +34,20 @@ def keyed_character(
     target: TargetSkeleton,
     models: Sequence[InstrumentModel] = (),
 ) -> Scene:
-    """A character's scene with its keys.
+    """Reduce the keys of a character's scene as requested.
 
     Parameters
     ----------
     scene : Scene
-        Of `app.export.character.character_scene`.
+        Scene from `app.export.character.character_scene`.
     keys : KeyChoice
     formats : frozenset of str
-        Those that it is written to.
+        Formats that it is written to.
     character : Character
     target : TargetSkeleton
-        What the scene is on.
+        Skeleton of the scene.
     models : sequence of InstrumentModel
-        The musician's instruments: those that hang on sockets stay where they are too.
+        Models of the musician's instruments: the position of attached ones is bounded too.
     """
     if keys == "every" or scene.clip is None:
         return scene
@@ -58,7 +59,7 @@ def keyed_character(
 
 
 def keyed_instrument(scene: Scene, keys: KeyChoice, formats: frozenset[Format]) -> Scene:
-    """An instrument's scene with its keys."""
+    """Reduce the keys of an instrument's scene as requested."""
     if keys == "every" or scene.clip is None:
         return scene
     marks = part_marks(ScenePlayback(scene, scene.clip))
@@ -70,7 +71,7 @@ def _by_pose(formats: frozenset[Format]) -> bool:
 
 
 def key_count(*scenes: Scene) -> KeyCount:
-    """The keys of some scenes together."""
+    """Count the keys of some scenes together."""
     written = every = 0
     for scene in scenes:
         clip = scene.clip

@@ -1,4 +1,4 @@
-"""The sound of an export as a WAV file, from the first frame to the last: the same as in the editor."""
+"""Writes the sound of an export as a WAV file, from the first frame to the last, as heard in the editor."""
 
 from __future__ import annotations
 
@@ -20,13 +20,14 @@ def write_sound(
     progress: Progress = lambda share: None,
     stop_requested: StopRequested = lambda: False,
 ) -> None:
-    """Write the recording, or else the synthesiser, as 16-bit PCM; its first sample belongs to the first frame.
+    """Write the recording, or else the synthesiser, as 16-bit PCM; its first sample coincides with the first frame.
 
     Raises
     ------
     FileError
-        The recording cannot be read; ``file.cannot_write``.
+        The recording cannot be read, or the file cannot be written.
     Cancelled
+        ``stop_requested`` returned True.
     """
     block = mixdown(project, span.first_frame_s, span.end_s, RATE_HZ, progress, stop_requested)
     try:

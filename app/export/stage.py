@@ -1,4 +1,4 @@
-"""The whole stage in one file: everyone's character and instruments, each at the player's place."""
+"""Writes the whole stage as one file: all characters and instruments at their places."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from app.project.performers import Dancer, Player
 def write_stage(
     request: ExportRequest, cast: ExportCast, folder: Path, reported: Progress = lambda share: None
 ) -> StageReport:
-    """Write the stage in every requested format that can hold it.
+    """Write the stage in every requested format that supports it.
 
-    Motions are made again for each file, player by player, so that one player's at a time is in memory.
+    Motions are generated again for each file, so that only one player's is in memory at a time.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def write_stage(
     cast : ExportCast
     folder : path
     reported : callable
-        Called with the share 0..1 that is done; may raise Cancelled.
+        Called with the share done, 0..1; may raise Cancelled.
     """
     files = stage_names(request.performance, request.formats, request.source)
     sound = sound_name(request.source) if request.sound else None
@@ -57,15 +57,14 @@ def write_stage(
 
 
 def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
-    """The scene with another name for each material that another figure has otherwise: ``skin``, ``skin_2`` ...
+    """Rename materials that differ from a previous figure's material of the same name: ``skin``, ``skin_2`` ...
 
-    Programs that find materials by name would show one figure in another's colours, and the others would each make up
-    another name.
+    Programs that find materials by name would otherwise show wrong colours, and others would rename them differently.
 
     Parameters
     ----------
     known : dict of str to Material
-        Materials of the figures before; this one's are added.
+        Materials of the previous figures; this scene's are added.
     """
 
     def named(material: Material) -> Material:
@@ -79,8 +78,9 @@ def with_own_names(scene: Scene, known: dict[str, Material]) -> Scene:
 def _figures(
     request: ExportRequest, cast: ExportCast, reported: Progress
 ) -> Iterator[tuple[tuple[StageFigure, ...], Scene]]:
-    """Everyone's character and instruments, each with its place, for a file of the requested format; on one skeleton
-    where instruments hang on sockets."""
+    """Yield all characters and instruments with their places, for a file of the requested format; merged into one
+    skeleton where instruments are attached.
+    """
     performance, span = request.performance, request.span
     take, everyone = file_stem(Path(request.source).stem), len(cast.ids)
 

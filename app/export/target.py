@@ -1,8 +1,8 @@
-"""The skeleton a file is written on: its bones, and how each of them follows the joints of the normalised character.
+"""Target skeleton of a file: its bones, and how each follows the joints of the normalised character.
 
-Whatever the skeleton, one rule holds in every pose: ``world_from_bone = world_from_joint * joint_from_bone`` for a bone
-that is a joint, where the bone stands where the joint stands. All other bones follow: a twist bone has its share of a
-limb's twist, a bone that is tied to another is where that one is, the rest keep their place on their parent.
+For every skeleton and pose, ``world_from_bone = world_from_joint * joint_from_bone`` holds for a bone that represents a
+joint, at the joint's position. Other bones follow: a twist bone has a share of a limb's twist, a tied bone coincides
+with another, and the rest are fixed to their parents.
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ HIPS = "hips"
 
 @dataclass(frozen=True, eq=False)
 class Twist:
-    """A bone beside a limb that turns with a share of a joint's twist.
+    """A bone along a limb that rotates with a share of a joint's twist.
 
     Attributes
     ----------
     base : int
-        Joint the bone goes along with.
+        Joint that the bone follows.
     joint : int
-        Joint whose twist it shares: the next one of the limb, or ``base`` itself.
+        Joint whose twist it shares: the next one of the limb, or ``base``.
     axis : (3,) float64
-        Along the limb in the T-pose, unit.
+        Unit axis along the limb in the T-pose.
     share : float
-        Added to the base's rotation; negative where the base's own twist is taken back.
+        Share added to the base's rotation; negative to reverse part of the base's own twist.
     """
 
     base: int
@@ -65,38 +65,39 @@ class TargetSkeleton:
     choice : SkeletonChoice
     names : tuple of str
     parents : tuple of int
-        A parent before its children; -1 for the one root, the first.
+        Index of the parent, which comes first; -1 for the only root, the first bone.
     offsets_m : (B, 3) float64
-        At rest, in the parent's frame.
+        Rest position in the parent's frame.
     rest : (B, 4) float64
-        ``parent_from_bone`` at rest: of the asset, where one is known. What a file says can be where its mesh is bound.
+        ``parent_from_bone`` in the rest pose of the asset, if known. The rest pose in a file may be the bind pose
+        instead.
     t_pose : (B, 4) float64
-        ``parent_from_bone`` where all joints are unturned: what a bone that nothing moves keeps.
+        ``parent_from_bone`` in the T-pose; kept by bones that nothing moves.
     joint_of_bone : tuple of int
-        -1: no joint. A hand may be several bones at one place.
+        Joint index; -1: no joint.
     joint_from_bone : (B, 4) float64
-        Of the bones that are joints; of a twist bone: from its base.
+        For bones of joints; for a twist bone: relative to its base.
     twists : mapping of int to Twist
-        By bone.
+        Twist bones by index.
     tied : mapping of int to int
-        Bones that are where another, earlier one is.
+        Bones that coincide with another, earlier one.
     hips : int
-        The bone that a motion moves.
+        Bone that carries the motion's translation.
     messages : tuple of Message
-        What had to be changed.
+        Messages about changes to the skeleton.
     sockets : mapping of int to int
-        Bones that are where an instrument is: which of the musician's.
+        Bones at an instrument, with the instrument's index among the musician's.
     added : frozenset of int
-        Bones that an asset made from the skeleton lacks, because they were asked for beside it.
+        Requested extra bones that an asset made from the skeleton lacks.
     root_bone : RootBone
-        What the root does; where it does something, it is no joint.
+        Behaviour of the root; a moving root is no joint.
     place : NodePlace or None
-        Where a root that stands at the place on the stage stands.
+        Stage place of the root, if it is placed there.
     rest_pose : RestPose
     twisted_skin : bool
-        Whether twist bones carry skin.
+        Whether twist bones hold skin.
     eyes : EyeTurn
-        What turns the eyes; a bone may have a part of what shapes do (`app.export.eyes`).
+        Whether shapes or bones rotate the eyes (`app.export.eyes`).
     """
 
     choice: SkeletonChoice
@@ -121,30 +122,31 @@ class TargetSkeleton:
 
     @cached_property
     def bone_of_joint(self) -> Mapping[int, int]:
-        """The bone of each joint that has one; of several at one place the first."""
+        """The bone of each joint that has one."""
         return {joint: bone for bone, joint in reversed([*enumerate(self.joint_of_bone)]) if joint >= 0}
 
     @cached_property
     def moved(self) -> frozenset[int]:
-        """Bones that a motion turns or moves."""
+        """Bones that a motion rotates or translates."""
         joints = (bone for bone, joint in enumerate(self.joint_of_bone) if joint >= 0)
         return frozenset({*joints, *self.twists, *self.tied, *self.sockets})
 
     @property
     def normalised(self) -> bool:
-        """True if every bone is the joint of its number, and does what that does."""
+        """True if bones and joints correspond one to one with equal motion."""
         moved = self.added or self.root_bone != "origin"
         return self.choice == "suisou" and not moved and self.joint_of_bone == tuple(range(len(self.names)))
 
     @property
     def loose(self) -> frozenset[int]:
-        """Bones that have no place of their own on their parents: the hips, what follows something else, and
-        joints that hang from none, as the feet of a rig whose legs are drawn by them."""
+        """Bones that translate relative to their parents: the hips, constrained bones, and joints not attached to
+        another joint's bone, such as feet of a rig whose legs follow them.
+        """
         return frozenset({self.hips, *self.tied, *self.sockets, *self._apart})
 
     @cached_property
     def _apart(self) -> frozenset[int]:
-        """Bones of joints below the root that no other joint's bone is above."""
+        """Bones of joints below the root with no other joint's bone above them."""
         below: list[bool] = []
         for parent in self.parents:
             below.append(parent >= 0 and (below[parent] or self.joint_of_bone[parent] >= 0))
@@ -153,7 +155,7 @@ class TargetSkeleton:
 
 
 def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
-    """Transforms (B, 4, 4) of positions and rotations."""
+    """Transforms (B, 4, 4) from positions and rotations."""
     result = np.zeros((len(positions), 4, 4))
     result[:, :3, :3] = quaternion.to_matrix(turned)
     result[:, :3, 3] = positions
@@ -163,14 +165,14 @@ def matrices(positions: FloatArray, turned: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Path of an object in the player's space: positions (F, 3), metres, and rotations (F, 4)."""
+    """Path of an object in the player's space: positions (F, 3) in metres, and rotations (F, 4)."""
 
     positions_m: AnyFloatArray
     rotations: AnyFloatArray
 
 
 def instrument_path(motion: Motion) -> Trajectory:
-    """Return where the instrument of a motion is."""
+    """Return the path of a motion's instrument."""
     return Trajectory(motion.instrument_position_m, motion.instrument_rotation)
 
 
@@ -180,7 +182,7 @@ def trajectory_at_origin(frames: int) -> Trajectory:
 
 
 def placed_trajectory(path: Trajectory, place: NodePlace | None) -> Trajectory:
-    """A trajectory in a space that stands at a place; None: at the origin."""
+    """Transform a trajectory by a place; None: unchanged."""
     if place is None:
         return path
     positions_m = quaternion.rotate(place.rotation_xyzw, path.positions_m) + METRES * place.translation_cm
@@ -196,7 +198,7 @@ class BoneMotion:
     rotations : (F, B, 4) float32
         ``parent_from_bone``.
     translations_m : mapping of int to (F, 3) float64
-        Of the bones that leave their place on their parent.
+        Translations of bones that move relative to their parent.
     """
 
     rotations: SingleArray
@@ -206,7 +208,7 @@ class BoneMotion:
 def bone_motion(
     target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory] = ()
 ) -> BoneMotion:
-    """Motion of a target's bones that follows the motion of a skeleton's joints.
+    """Motion of a target's bones from the motion of a skeleton's joints.
 
     Parameters
     ----------
@@ -214,7 +216,7 @@ def bone_motion(
     skeleton : Skeleton
     motion : Motion
     held : sequence of Trajectory
-        Of the musician's instruments, as many as there are sockets for; none: the motion's.
+        Trajectories of the musician's instruments, one for each socket; none: the motion's own.
     """
     held = held or (instrument_path(motion),)
     frames, bones = motion.frames, len(target.names)
@@ -241,7 +243,9 @@ _Placed: TypeAlias = tuple[FloatArray, FloatArray]
 def _bones(
     target: TargetSkeleton, skeleton: Skeleton, motion: Motion, held: Sequence[Trajectory], span: slice
 ) -> list[tuple[int, FloatArray, FloatArray]]:
-    """Every bone's rotation (n, 4) and translation (n, 3) on its parent, at the frames of a span."""
+    """Yield every bone's index with its rotation (n, 4) and translation (n, 3) relative to its parent, at the frames of
+    a span.
+    """
     turns = quaternion.normalize(motion.rotations[span])
     joints = forward(skeleton, turns, motion.hips_m[span].astype(np.float64))
     frames = len(turns)
@@ -284,14 +288,14 @@ def _bones(
 
 
 def _over_floor(rest: _Placed, hips: _Placed) -> _Placed:
-    """A root that stands below the hips and is turned as they are about the vertical."""
+    """Placement of a root below the hips, turned with them about the vertical axis."""
     _, heading = quaternion.swing_twist(hips[1], np.array([0.0, 1.0, 0.0]))
     below = hips[0] * np.array([1.0, 0.0, 1.0])
     return below + quaternion.rotate(heading, rest[0]), quaternion.multiply(heading, rest[1])
 
 
 def normalised_target(skeleton: Skeleton) -> TargetSkeleton:
-    """Our own skeleton: every bone is a joint."""
+    """The normalised skeleton as a target: every bone is a joint."""
     count = len(skeleton.names)
     unturned = np.tile(quaternion.IDENTITY, (count, 1))
     return TargetSkeleton(

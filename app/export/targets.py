@@ -1,4 +1,4 @@
-"""Choice of the skeleton for a player's files, and its comparison with an asset's."""
+"""Chooses the skeleton for a player's files, and compares it with an asset's."""
 
 from __future__ import annotations
 
@@ -30,27 +30,27 @@ MOST_LISTED = 5
 
 @dataclass(frozen=True)
 class CheckedTarget:
-    """A player's skeleton and what differs from the asset's; nothing where there is no asset."""
+    """A player's skeleton, with its differences from an asset's if there is one."""
 
     target: TargetSkeleton
     differences: tuple[SkeletonDifference, ...] = ()
 
     @property
     def messages(self) -> tuple[Message, ...]:
-        """Messages about the target, the most severe first."""
+        """Messages about the skeleton, most severe first."""
         return (*reported(self.differences), *self.target.messages)
 
 
 def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure | None = None) -> TargetSkeleton:
-    """The skeleton to write a character on.
+    """The skeleton for a character's files.
 
     Parameters
     ----------
     character : Character
-        One of ours has no other own skeleton than ours.
+        The character; one of this program's only has the normalised skeleton.
     choice : SkeletonChoice
     asset : Figure, optional
-        The mannequin that an export on the mannequin is for: its rest rotations are taken.
+        The asset of an export on the mannequin, which provides the rest rotations.
     """
     if choice == "ue5":
         return mannequin_target(character.skeleton, None if asset is None else mannequin_axes(asset))
@@ -60,7 +60,7 @@ def target_skeleton(character: Character, choice: SkeletonChoice, asset: Figure 
 
 
 def written_meshes(character: Character, target: TargetSkeleton) -> tuple[Mesh, ...]:
-    """The meshes that a file on a target holds: those of the character's own file, or the character's."""
+    """Meshes in a file on a target: those of the character's own file, or the character's."""
     own = character.own if target.choice == "own" else None
     return bound_meshes(character, target) if own is None else own.figure.meshes
 
@@ -71,7 +71,7 @@ def checked_targets(
     asset: Figure | None = None,
     rigs: Mapping[str, Rig] = MappingProxyType({}),
 ) -> dict[str, CheckedTarget]:
-    """The skeleton of every player, equipped, and compared with an asset's; all by the player's id."""
+    """The skeleton of every player by id, with requested options, compared with an asset's."""
     result = {}
     for player_id, character in characters.items():
         target = target_skeleton(character, choice, asset)
@@ -83,9 +83,9 @@ def checked_targets(
 
 
 def _as_bound(character: Character, target: TargetSkeleton) -> TargetSkeleton:
-    """A target at rest where its mesh is bound, which is the rest pose that Unreal and our reader take.
+    """A target with its bind pose as rest pose, as Unreal and this program's reader interpret it.
 
-    Ours is in the T-pose as its nodes say and bound in an A-pose; any other is compared as it is.
+    The normalised skeleton has a T-pose in its nodes and is bound in an A-pose; others are compared unchanged.
     """
     if target.choice != "suisou":
         return target
@@ -101,8 +101,7 @@ def spoilt(
     asset: Figure,
     wording: Callable[[Message], str],
 ) -> tuple[LeftOut, ...]:
-    """The players whose files an asset would lose or spoil, with the reason: ``skeleton.differs`` (file, player,
-    detail)."""
+    """The players whose files would lose motion or be corrupted on an asset's skeleton, with the reason."""
     found = []
     for player in players:
         severe = reported([difference for difference in checked[player.id].differences if difference.severe])

@@ -1,4 +1,4 @@
-"""Tasks of one export done side by side: numpy and zlib let other threads run while they work."""
+"""Runs tasks of an export on threads; numpy and zlib release the interpreter's lock."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ _MOST: Final = 4
 
 
 def in_threads(tasks: Sequence[Callable[[], None]], finished: Callable[[int], None]) -> None:
-    """Do all tasks.
+    """Run all tasks.
 
     Parameters
     ----------
     tasks : sequence of callable
-        What one raises is raised here; those that have not begun are dropped then.
+        Tasks; the first exception is raised again, and tasks not yet started are dropped.
     finished : callable
-        Called in this thread with the index of each task that is done; what it raises stops the work.
+        Called in this thread with the index of each finished task; its exceptions stop the work.
     """
     with ThreadPoolExecutor(min(core_count(), _MOST)) as pool:
         indices = {pool.submit(task): index for index, task in enumerate(tasks)}

@@ -1,11 +1,11 @@
-"""A tree of files that changes as a whole or not at all.
+"""Changes a tree of files atomically.
 
-What is new is written beside its place, on the same disk; only then does it take its names, and what it replaces is
-kept until all of it has. An error in between gives everything back. A process that was killed meanwhile leaves its
-folder, from which the next one restores what was there before.
+New files are written next to their place, on the same disk, and renamed at the end; replaced files are kept until
+everything is renamed. On an error everything is restored. A killed process leaves its folder, from which the next
+process restores the previous state.
 
-A tree may come from anywhere, with whatever links in it: nothing is written, moved or removed through a link that leads
-out of it. The tree itself may be reached through links, and links within it are followed.
+Trees are untrusted and may contain links: nothing is written, moved or removed through a link that leads outside. The
+tree itself may be reached through links, and links within it are followed.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ _MOST_NOTE: Final = 2**20
 
 @dataclass
 class TreeChange:
-    """Changes to a tree of bones.
+    """Pending changes to a tree of files.
 
     Attributes
     ----------
     new : path
-        A folder to write into, laid out as the tree.
+        Folder to write into, with the layout of the tree.
     removed : list of path
-        Files to take away, relative to the tree.
+        Files to delete, relative to the tree.
     last : list of path
-        Of the new files those that take their names last, relative to the tree: what vouches for the others.
+        New files to be renamed last, relative to the tree, such as manifests that vouch for the others.
     """
 
     new: Path
@@ -54,15 +54,14 @@ class TreeChange:
 
 @contextlib.contextmanager
 def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
-    """Change a tree of files when the block is done; if it raises, nothing has changed.
+    """Change a tree of files at the end of the block; if the block raises, nothing is changed.
 
     Parameters
     ----------
     root : path
         An existing folder.
     scratch : path
-        Where to write meanwhile: a folder in ``root`` or itself; made if it is not there, and taken away again if
-        nothing comes to be in it.
+        Folder for temporary files in ``root``, or ``root`` itself; created if needed, and removed if it stays empty.
 
     Yields
     ------
@@ -71,7 +70,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
     Raises
     ------
     FileError
-        ``file.cannot_write``, ``tree.busy``, ``tree.leads_outside``, ``tree.refused``, ``tree.not_restored``.
+        The tree cannot be written, is in use by another process, has a link leading outside, or cannot be restored.
     """
     refuse_links_out(root, [scratch.relative_to(root) / _NEW])
     had_scratch = os.path.isdir(scratch)
@@ -108,8 +107,7 @@ def tree_into(root: Path, scratch: Path) -> Iterator[TreeChange]:
 
 
 def clean_up() -> None:
-    """Remove the temporary files of processes that were killed, wherever they are, and give back what those had taken
-    out of a tree."""
+    """Delete temporary files of killed processes everywhere, and restore the files they had removed from trees."""
     for folder in abandoned_folders():
         # What cannot be done now is left to the next one that writes there.
         with contextlib.suppress(OSError, ValueError, FileError):
@@ -120,12 +118,12 @@ def clean_up() -> None:
 
 
 def recover(root: Path, scratch: Path) -> None:
-    """Give back what a killed process had taken out of a tree, and sweep what it left.
+    """Restore files that a killed process had removed from a tree, and delete its temporary files.
 
     Raises
     ------
     FileError
-        ``tree.busy``: it is alive; ``tree.leads_outside``; ``tree.not_restored``: the system refuses.
+        The process is running, a link leads outside, or the system refuses.
     """
     refuse_links_out(root, [scratch.relative_to(root) / _OLD])
     if not os.path.isdir(scratch):
@@ -141,7 +139,7 @@ def recover(root: Path, scratch: Path) -> None:
 
 
 def refuse_links_out(root: Path, paths: Iterable[Path | PurePath]) -> None:
-    """Raise ``tree.leads_outside`` where a path, relative to a tree, leads out of it by a link on the way."""
+    """Raise FileError if a path, relative to a tree, leads outside through a link."""
     top = Path(os.path.realpath(root))
     for folder in sorted({path.parent for path in map(Path, paths)}):
         for step in (*reversed(folder.parents), folder):
@@ -151,12 +149,12 @@ def refuse_links_out(root: Path, paths: Iterable[Path | PurePath]) -> None:
 
 
 def files_below(folder: Path) -> list[Path]:
-    """All files below a folder, relative to it, in order."""
+    """Sorted relative paths of all files below a folder."""
     return sorted(path.relative_to(folder) for path in folder.rglob("*") if os.path.isfile(path))
 
 
 def stays_inside(name: str) -> bool:
-    """Return whether a path that a file says stays in its folder on every system: that file is not trusted."""
+    """Return whether a relative path from an untrusted file stays inside its folder on every system."""
     path = PureWindowsPath(name)
     return bool(path.parts) and not (path.anchor or ".." in path.parts or "\\" in name)
 
@@ -193,14 +191,14 @@ def _commit(root: Path, partial: Path, change: TreeChange) -> None:
 
 
 def _write_list(partial: Path, coming: list[Path]) -> None:
-    """Note what will take its name: with this file there, the tree may be half old and half new."""
+    """Record the files about to be renamed; while this record exists, the tree may be partly old and partly new."""
     draft = partial / f"{_LIST}.draft"
     draft.write_text("\n".join(path.as_posix() for path in coming), encoding="utf-8")
     draft.replace(partial / _LIST)
 
 
 def _give_back(root: Path, partial: Path) -> None:
-    """Make the tree what it was before its change began."""
+    """Restore the tree to its state before the change."""
     if not os.path.isfile(partial / _LIST):
         return
     lines = read_file(partial / _LIST, MOST_BYTES).decode("utf-8", "replace").splitlines()
@@ -235,7 +233,7 @@ def _second_name(file: Path, name: Path) -> None:
 
 
 def _prune(folder: Path, root: Path) -> None:
-    """Take away folders that nothing is in any more."""
+    """Delete folders that have become empty."""
     while folder != root:
         try:
             folder.rmdir()

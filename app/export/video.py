@@ -1,4 +1,4 @@
-"""Pictures and sound to an MP4 file (H.264 and AAC), by the ffmpeg that imageio-ffmpeg brings."""
+"""Encodes pictures and sound as an MP4 file (H.264 and AAC) with the ffmpeg bundled with imageio-ffmpeg."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TOLD = 2000
 
 
 class VideoWriter:
-    """Takes pictures one after the other; see `video_into`."""
+    """Receives pictures one after the other; see `video_into`."""
 
     def __init__(self, pipe: IO[bytes], size: tuple[int, int]) -> None:
         self._pipe, self._size = pipe, size
@@ -47,7 +47,7 @@ class VideoWriter:
         Raises
         ------
         BrokenPipeError
-            The encoder has ended; `video_into` reports why.
+            The encoder has ended; `video_into` reports the reason.
         """
         width, height = self._size
         if picture.shape[:2] != (height, width):
@@ -64,17 +64,17 @@ def video_into(
     sound_rate: int = SOUND_RATE_HZ,
     crf: int = QUALITY_CRF,
 ) -> Iterator[VideoWriter]:
-    """A film that appears whole when the block is done, or not at all.
+    """Write a video atomically at the end of the block.
 
     Parameters
     ----------
     path : path
         An existing file is replaced.
     size : (int, int)
-        Width and height, pixels; even, as H.264 with 4:2:0 colours needs.
+        Width and height in pixels; even, as required by H.264 with 4:2:0 colours.
     fps : Fraction
     sound : (N, 2) float32, optional
-        -1..1; it begins with the first picture.
+        Samples -1..1 that start with the first picture.
     sound_rate : int
         Samples per second.
     crf : int
@@ -83,7 +83,7 @@ def video_into(
     Raises
     ------
     FileError
-        ``video.failed``, ``file.cannot_write``; see `app.export.tree.tree_into`.
+        The encoder failed, or the file cannot be written; see `app.export.tree.tree_into`.
     """
     if any(length % 2 or length <= 0 for length in size):
         raise ValueError(f"a film's width and height are even: {size}")
@@ -101,14 +101,14 @@ def video_into(
 def _encoder(
     path: Path, command: Callable[[Path | None], list[str]], sound: SingleArray | None, sound_rate: int
 ) -> Iterator[IO[bytes]]:
-    """Open an encoder for pictures; it has ended well when the block is done.
+    """Open an encoder for pictures; at the end of the block it has finished successfully.
 
     Parameters
     ----------
     path : path
-        Named in errors.
+        Path for error messages.
     command : callable
-        Given the file of the sound, or None.
+        Returns the encoder's command, given the file of the sound or None.
     """
     with contextlib.ExitStack() as stack:
         try:
@@ -151,12 +151,12 @@ def _failed(path: Path, complaint: bytes, status: int) -> FileError:
 
 
 def side_by_side(path: Path, left: Path, right: Path, crf: int = QUALITY_CRF) -> None:
-    """Two films of the same height and length side by side in one, with the sound of the left one.
+    """Combine two videos of equal height and length side by side, with the sound of the left one.
 
     Raises
     ------
     FileError
-        ``video.failed``
+        The encoder failed.
     """
     films = ["-i", f"file:{left}", "-i", f"file:{right}"]
     joined = ["-filter_complex", "[0:v][1:v]hstack=inputs=2[v]", "-map", "[v]", "-map", "0:a?", "-c:a", "copy"]

@@ -1,9 +1,8 @@
-"""Musicians of a piece exported by a process of their own, so that several cores work on a piece.
+"""Child process that exports musicians of a piece, to use several cores.
 
-The child is a copy of the process that exports (`serve`), or this module, run as a program: that reads an `ExportJob`
-from its input first. Each reads ids of musicians; for each it writes the files and answers with `Share`, the work that
-is done, and at last `Exported`. It ends when its input does, and where something fails: the process that started it
-does the same work again, and reports what is wrong.
+The child is a forked copy of the exporting process (`serve`), or this module run as a program, which first reads an
+`ExportJob`. It reads ids of musicians; for each it writes the files, reporting `Share` and finally `Exported`. It ends
+with its input or at a failure, in which case the parent process repeats the work and reports the error.
 """
 
 from __future__ import annotations
@@ -35,8 +34,9 @@ from app.project.storage import decode, encode
 
 
 class ExportJob(msgspec.Struct, frozen=True):
-    """An `ExportRequest` without its players and dancers, in the form sent to a process; paths are bytes, since not all
-    are text."""
+    """An `ExportRequest` without players and dancers, as sent to a process; paths are bytes, since they may not be
+    valid text.
+    """
 
     project: bytes
     folder: bytes
@@ -65,7 +65,7 @@ class Share(msgspec.Struct, frozen=True, tag=True):
 
 
 class Exported(msgspec.Struct, frozen=True, tag=True):
-    """A musician's files are written."""
+    """Message that a musician's files are written."""
 
     player: ExportedPlayer
 
@@ -74,7 +74,7 @@ Answer = Share | Exported
 
 
 def job_of(request: ExportRequest, folder: Path) -> ExportJob:
-    """Job for a process that writes the request into a folder."""
+    """The job that makes a process write the request into a folder."""
     span = request.span
     return ExportJob(
         project=encode(request.performance.project, folder / "project"),
@@ -124,16 +124,16 @@ def _request(job: ExportJob) -> ExportRequest:
 def serve(
     request: ExportRequest, musicians: Sequence[CastMusician], folder: Path, channel: MessageChannel[str]
 ) -> None:
-    """Export those musicians of a cast whose ids are read, until there are no more.
+    """Export the musicians of a cast whose ids are read from a channel, until it ends.
 
     Parameters
     ----------
     request : ExportRequest
     musicians : sequence of CastMusician
     folder : path
-        To write into.
+        Folder to write into.
     channel : MessageChannel
-        To the process that started this one.
+        Channel to the parent process.
     """
     known = {musician.player.id: musician for musician in musicians}
     # The process that was copied does again what fails, and reports what is wrong.

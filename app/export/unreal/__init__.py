@@ -1,1 +1,1 @@
-"""Exports into the folder of an Unreal project: sources, a description, what is ours, and the plug-in that imports."""
+"""Exports into an Unreal project's folder: source files, a description, a manifest, and the importing plug-in."""

@@ -1,4 +1,4 @@
-"""Checks of a written file before it may replace one in a project."""
+"""Checks written files before they replace files in a project."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ class Expected:
     fps : Fraction
     frames : int
     bones : sequence of str
-        All of them, the root first.
+        Bone names, the root first.
     low_cm, high_cm : ndarray, shape (3,)
-        The box around the mesh, which shows its scale and axes.
+        Bounding box of the mesh, which reveals wrong scale or axes.
     morphs : frozenset of str
     """
 
@@ -55,7 +55,7 @@ class Expected:
 
 
 def check_fbx(path: Path, expected: Expected) -> None:
-    """Raise ``unreal.file_wrong`` where a file is not what it must be."""
+    """Raise FileError if an FBX file differs from what is expected."""
     data = path.read_bytes()
     file = os.fspath(path)
     settings = read_elements(data, file).child("GlobalSettings")
@@ -79,7 +79,7 @@ def check_fbx(path: Path, expected: Expected) -> None:
 
 
 def check_wave(path: Path, rate_hz: int, channels: int, samples: int) -> None:
-    """Raise ``unreal.file_wrong`` where a recording is not a WAV file of 16-bit PCM as long as it must be."""
+    """Raise FileError unless a recording is a 16-bit PCM WAV file of the expected rate, channels and length."""
     with path.open("rb") as stream, soundfile.SoundFile(stream) as file:
         found = (file.format, file.subtype, file.samplerate, file.channels, file.frames)
     _same(path, "sound", list(found), ["WAV", "PCM_16", rate_hz, channels, samples])

@@ -1,7 +1,7 @@
-"""``performance.json``: everything that a script needs to build a scene from an export.
+"""Content of ``performance.json``: everything a script needs to build a scene from an export.
 
-Times are seconds of the animation, whose frame 0 is at 0, and frames of it where a frame is meant. A performer's
-``stage`` is in metres as in ``report.json``, the ``place`` in Unreal's centimetres and degrees.
+Times are seconds of the animation, which begins at 0, or frames. A performer's ``stage`` is in metres as in
+``report.json``, ``place`` in Unreal's centimetres and degrees.
 """
 
 from __future__ import annotations
@@ -44,8 +44,9 @@ class Rate(msgspec.Struct, frozen=True):
 
 
 class UnrealPlace(msgspec.Struct, frozen=True):
-    """Place of an actor in Unreal, which is left-handed with Z up: our (x, y, z) in metres is (100 x, 100 z, 100 y)
-    there, so that a turn from +Z towards +X is a negative yaw."""
+    """Place of an actor in Unreal (left-handed, Z up): (x, y, z) in metres becomes (100 x, 100 z, 100 y), so that a
+    turn from +Z towards +X is a negative yaw.
+    """
 
     x_cm: float
     y_cm: float
@@ -54,9 +55,10 @@ class UnrealPlace(msgspec.Struct, frozen=True):
 
 
 class UnrealFigure(msgspec.Struct, frozen=True):
-    """A skeletal mesh in Unreal with its animation: its file, next to this one, and its assets. ``bones`` are all of
-    the file's, the root first; ``socket`` is the bone of the player's character that an instrument hangs on, empty for
-    none; ``materials`` are those with textures, by the names of the slots."""
+    """A skeletal mesh in Unreal with its animation: relative path of its file, and its assets. ``bones``: all bones,
+    root first; ``socket``: bone of the player's character that holds an instrument, or empty; ``materials``: textured
+    ones, by slot name.
+    """
 
     file: str
     mesh: str
@@ -68,7 +70,7 @@ class UnrealFigure(msgspec.Struct, frozen=True):
 
 
 class Double(msgspec.Struct, frozen=True):
-    """Another instrument that a player changes to; while it is not played it lies beside the player."""
+    """Another instrument that a player changes to; while unused it is next to the player."""
 
     name: str
     part: str
@@ -77,7 +79,7 @@ class Double(msgspec.Struct, frozen=True):
 
 
 class Cast(msgspec.Struct, frozen=True):
-    """A player and the instruments."""
+    """A player with the instruments."""
 
     name: str
     part: str
@@ -91,7 +93,7 @@ class Cast(msgspec.Struct, frozen=True):
 
 
 class CastDancer(msgspec.Struct, frozen=True):
-    """A dancer, who holds nothing. The place is where the dance begins; the animation goes on from there."""
+    """A dancer. The place is that at the start of the dance; the animation moves on from there."""
 
     name: str
     choreography: str
@@ -102,7 +104,7 @@ class CastDancer(msgspec.Struct, frozen=True):
 
 
 class UnrealSound(msgspec.Struct, frozen=True):
-    """Sound of the piece in Unreal. ``offset_s`` is the time of the animation at which the file begins."""
+    """Sound of the piece in Unreal. ``offset_s`` is the animation time at which the file begins."""
 
     file: str
     asset: str
@@ -123,7 +125,7 @@ class Tempo(msgspec.Struct, frozen=True):
 
 
 class UnrealMetre(msgspec.Struct, frozen=True):
-    """A time signature from one tick on."""
+    """A time signature from a tick on."""
 
     tick: int
     s: float
@@ -132,7 +134,7 @@ class UnrealMetre(msgspec.Struct, frozen=True):
 
 
 class UnrealBar(msgspec.Struct, frozen=True):
-    """The beginning of a bar that the animation shows; a pickup is bar 0. ``frame`` is the nearest."""
+    """The start of a bar within the animation; a pickup is bar 0. ``frame`` is the nearest frame."""
 
     number: int
     tick: int
@@ -141,7 +143,7 @@ class UnrealBar(msgspec.Struct, frozen=True):
 
 
 class UnrealMarker(msgspec.Struct, frozen=True):
-    """A rehearsal marker within the animation, with its bar. ``frame`` is the nearest."""
+    """A rehearsal marker within the animation, with its bar. ``frame`` is the nearest frame."""
 
     text: str
     bar: int
@@ -151,7 +153,7 @@ class UnrealMarker(msgspec.Struct, frozen=True):
 
 
 class Cue(msgspec.Struct, frozen=True):
-    """A lead-in that a player gives: the nod begins at ``start_s``, all enter at ``entry_s``."""
+    """A cue given by a player: the nod begins at ``start_s``, all enter at ``entry_s``."""
 
     player: str
     start_s: float
@@ -160,8 +162,9 @@ class Cue(msgspec.Struct, frozen=True):
 
 
 class LeftOutFigures(msgspec.Struct, frozen=True):
-    """A player or dancer who was to be exported but could not be, and why. ``assets`` are those that an earlier export
-    may have made: they stay, and so does the body that is shown."""
+    """A requested player or dancer that could not be exported, with the reason. ``assets`` are those of earlier
+    exports, which are kept, as is the body that is shown.
+    """
 
     name: str
     reason: str
@@ -169,9 +172,10 @@ class LeftOutFigures(msgspec.Struct, frozen=True):
 
 
 class Description(msgspec.Struct, frozen=True):
-    """The whole file. ``first_frame_s`` is the performance's second, counted from tick 0, that frame 0 shows, and
-    ``first_frame`` the number of that frame in an export of the whole piece; ``files`` are what the assets come from,
-    by their path beside this file."""
+    """Content of the whole file. ``first_frame_s`` is the performance time of frame 0, counted from tick 0;
+    ``first_frame`` is the number of that frame in an export of the whole piece; ``files`` are the sources of the
+    assets, by relative path.
+    """
 
     schema: int
     made_by: str
@@ -218,14 +222,14 @@ def describe(
     request, cast : ExportRequest and ExportCast
     layout : Layout
     wording : callable
-        Words the reasons why players and dancers could not be exported.
+        Words the reasons for exclusions.
     sound : UnrealSound
     contents : mapping of str to FileContents
-        By the file.
+        Contents by file.
     files : mapping of str to OwnFile
-        See `Description`.
+        As in `Description`.
     surfaces : Surfaces
-        Those of all the files.
+        Surfaces of all files.
     """
     project, span, bars = request.performance.project, request.span, request.bars
     score, rate = project.score, span.fps
@@ -314,7 +318,7 @@ def _figure(place: FigurePlace, contents: Mapping[str, FileContents], socket: st
 
 
 def _actor_place(one: Player | Dancer, target: TargetSkeleton) -> UnrealPlace:
-    """Return where the actor stands: at the origin if the root bone stands at the place already."""
+    """Return the place of the actor: the origin if the root bone is placed on the stage."""
     return place_of(one.stage) if target.place is None else UnrealPlace(0.0, 0.0, 0.0, 0.0)
 
 
@@ -324,25 +328,25 @@ def _assets(places: Iterable[FigurePlace]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Time:
-    """The animation's time, and which frames it has."""
+    """Converts performance times to times and frames of the animation."""
 
     clock: TempoMap
     span: FrameSpan
 
     def after_s(self, tick: float) -> float:
-        """Return when a tick is."""
+        """Return the animation time of a tick."""
         return self.since_s(self.clock.seconds(float(tick)))
 
     def since_s(self, s: float) -> float:
-        """A moment of the performance as one of the animation."""
+        """Convert a performance time to animation time, in seconds."""
         return round(s - self.span.first_frame_s, 6)
 
     def frame(self, s: float) -> int:
-        """The nearest frame."""
+        """The nearest frame to a performance time."""
         return math.floor(s * self.span.fps.numerator / self.span.fps.denominator + 0.5)
 
     def shows(self, frame: int) -> bool:
-        """Return whether there is such a frame."""
+        """Return whether a frame exists in the animation."""
         return 0 <= frame < self.span.count
 
 
@@ -385,7 +389,7 @@ def _cues(performance: Performance, musicians: Iterable[Player], time: _Time) ->
 
 
 def place_of(stage: StagePosition) -> UnrealPlace:
-    """A performer's place as Unreal has it."""
+    """A performer's place in Unreal's coordinates."""
     turn_deg = math.degrees(math.remainder(stage.turn_rad, math.tau))
     return UnrealPlace(
         x_cm=round(100.0 * stage.x_m, 3) + 0.0,
@@ -396,5 +400,5 @@ def place_of(stage: StagePosition) -> UnrealPlace:
 
 
 def encode_description(description: Description) -> bytes:
-    """Indented JSON, UTF-8."""
+    """Encode as indented JSON, UTF-8."""
     return msgspec.json.format(msgspec.json.encode(description), indent=1) + b"\n"

@@ -1,4 +1,4 @@
-"""Paths of a piece in an Unreal project: sources beside the content, assets under ``/Game/Suisou``."""
+"""Paths of a piece in an Unreal project: sources next to the content, assets under ``/Game/Suisou``."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class FigurePlace:
     file : path
         Relative to the piece's sources.
     mesh, skeleton, animation : str
-        Paths of the assets, without an extension; of a character's mesh and skeleton, which all share who have the
-        body, `Layout.body` knows.
+        Asset paths without extension; for a character's mesh and skeleton, shared by all with the same body, see
+        `Layout.body`.
     """
 
     file: PurePosixPath
@@ -52,7 +52,7 @@ class Layout:
     piece : str
         Name of its folders.
     characters : mapping of str to FigurePlace
-        By the id of the player or dancer; of all of them, so that names do not depend on who is exported.
+        By player or dancer id; for all of them, so that names do not depend on the selection.
     instruments : mapping of str to FigurePlace
         By player id.
     sound_file : path
@@ -60,9 +60,9 @@ class Layout:
     sound, sequence : str
         Paths of the assets.
     doubles : mapping of str to tuple of str
-        Ids of a musician's other players, by the id of the musician.
+        Ids of a musician's other players, by the musician's id.
     bodies : mapping of str to str
-        Names of the bodies, by the id of the dressed character (`dressed_as`).
+        Names of the bodies by character id.
     """
 
     piece: str
@@ -75,24 +75,25 @@ class Layout:
     bodies: dict[str, str]
 
     def body(self, one: Player | Dancer, added: Sequence[str]) -> tuple[str, str]:
-        """Paths of the mesh and the skeleton of all who share a body, its clothes and the bones added to it."""
+        """Asset paths of mesh and skeleton for a body with some added bones."""
         worn = dressed_as(one.character_id, one.outfit)
         name = "_".join((self.bodies[worn], *(asset_name(bone, "Bone") for bone in added)))
         return f"{self.content}/Bodies/{name}/SK_{name}", f"{self.content}/Bodies/{name}/SKEL_{name}"
 
     @property
     def sources(self) -> PurePosixPath:
-        """The folder of the piece's sources, relative to the project's."""
+        """Folder of the piece's sources, relative to the project's folder."""
         return PurePosixPath(SOURCES, self.piece)
 
     @property
     def content(self) -> str:
-        """The folder of the piece's assets."""
+        """Asset folder of the piece."""
         return f"{CONTENT}/{self.piece}"
 
     def files(self, performer_ids: tuple[str, ...], left_out: tuple[str, ...] = ()) -> tuple[PurePosixPath, ...]:
-        """Everything that an export of some players and dancers writes, relative to the piece's sources, in order;
-        without the instruments of those excluded."""
+        """Sorted paths of all files that an export of some performers writes, relative to the piece's sources; excludes
+        the instruments of those left out.
+        """
         own = (PurePosixPath(name) for name in (DESCRIPTION, REPORT, MANIFEST))
         without = {self.instruments[one].file for one in left_out if one in self.instruments}
         places = (place.file for performer_id in performer_ids for place in self.figures(performer_id))
@@ -100,20 +101,20 @@ class Layout:
         return tuple(sorted([*figures, self.sound_file, *own]))
 
     def figures(self, performer_id: str) -> tuple[FigurePlace, ...]:
-        """The character of a player or dancer and, of a player, the instruments."""
+        """The character of a performer and, for a player, the instruments."""
         own = (places[performer_id] for places in (self.characters, self.instruments) if performer_id in places)
         return (*own, *(self.instruments[double] for double in self.doubles.get(performer_id, ())))
 
 
 def piece_name(source: str, folder: Path) -> str:
-    """The name of a piece's folders.
+    """Name of a piece's folders.
 
     Parameters
     ----------
     source : str
         Name of the piece's file.
     folder : path
-        The project's folder: what differs from a piece that is there only in upper and lower case is that one.
+        Folder of the project; an existing piece whose name differs only in case is reused.
     """
     name = asset_name(Path(source).stem, "Piece")
     sources = folder / SOURCES
@@ -122,7 +123,7 @@ def piece_name(source: str, folder: Path) -> str:
 
 
 def layout_of(project: Project, piece: str) -> Layout:
-    """Return where everything of a project's piece is."""
+    """Return the paths of everything in a project's piece."""
     players, dancers = project.players, project.dancers
     count = len(players)
     own = numbered(asset_name(player.name, "Player") for player in players)

@@ -1,4 +1,4 @@
-"""Manifest of our files: a list in each folder that we write into, with the digest of each file as written."""
+"""Manifest of exported files in each folder, with the hash of each file as written."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _TEXTS: Final = frozenset((".json", ".py", ".uplugin"))
 
 
 class OwnFile(msgspec.Struct, frozen=True):
-    """Digest of one of our files. Line ends of texts count as ``\n``: version control may have changed them."""
+    """Hash of an exported file. Line ends of texts are normalised to ``\n``, since version control may change them."""
 
     bytes: int
     sha256: str
 
 
 class Manifest(msgspec.Struct, frozen=True):
-    """The files of a folder that are ours, by their path in it. The manifest itself is ours too."""
+    """Files that this program wrote into a folder, by relative path. The manifest itself also counts."""
 
     schema: int
     made_by: str
@@ -39,16 +39,16 @@ class Manifest(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Changes:
-    """Effects of writing into a folder on its present files.
+    """Effects of writing into a folder on its existing files.
 
     Attributes
     ----------
     replaced, removed : tuple of path
-        In the folder.
+        Paths within the folder.
     kept : tuple of Message
-        Leftovers that were changed by hand.
+        Messages about obsolete files that were changed by hand, which are kept.
     staying : dict of path to OwnFile
-        In the folder: what was asked to stay, as it was when we wrote it.
+        Files that were requested to stay, with their state when written.
     """
 
     replaced: tuple[PurePosixPath, ...]
@@ -58,13 +58,13 @@ class Changes:
 
 
 def own_text(data: bytes) -> OwnFile:
-    """Record of a text's content."""
+    """Manifest entry for a text."""
     text = data.replace(b"\r\n", b"\n")
     return OwnFile(len(text), hashlib.sha256(text).hexdigest())
 
 
 def own_file(path: Path) -> OwnFile:
-    """Record of a file's content."""
+    """Manifest entry for a file."""
     if path.suffix.lower() in _TEXTS:
         return own_text(read_file(path, MOST_BYTES))
     with open_file(path) as stream:
@@ -72,7 +72,7 @@ def own_file(path: Path) -> OwnFile:
 
 
 def is_as_left(path: Path, known: OwnFile, by_length: bool = False) -> bool:
-    """Return whether a file holds what it did when we wrote it; by its length alone where no one is to wait."""
+    """Return whether a file is unchanged since it was written; ``by_length`` compares only its size, which is fast."""
     if by_length and path.suffix.lower() not in _TEXTS:
         return path.stat().st_size == known.bytes
     return own_file(path) == known
@@ -84,22 +84,22 @@ def changes(
     by_length: bool = False,
     stays: Collection[PurePosixPath] = (),
 ) -> Changes:
-    """Effects on a folder of writing some files into it.
+    """Determine the effects of writing some files into a folder.
 
     Parameters
     ----------
     folder : path
     coming : collection of path
-        In it.
+        Paths within the folder.
     by_length : bool
-        See `is_as_left`.
+        As in `is_as_left`.
     stays : collection of path
-        In it: what is not removed although it is not written.
+        Paths within the folder that are kept although not written.
 
     Raises
     ------
     FileError
-        Something that would be replaced is not ours, or is not as we left it; the manifest is damaged.
+        A file to be replaced was not written by this program or was changed since, or the manifest is damaged.
     """
     own = read_manifest(folder)
     replaced = []
@@ -128,7 +128,7 @@ def changes(
 
 
 def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
-    """The files of a folder that are ours; none where there is no manifest."""
+    """Files written into a folder by earlier exports; empty without a manifest."""
     path = folder / MANIFEST
     if not os.path.exists(path):
         return {}
@@ -144,6 +144,6 @@ def read_manifest(folder: Path) -> dict[PurePosixPath, OwnFile]:
 
 
 def encode_manifest(files: Mapping[str, OwnFile], creator: str) -> bytes:
-    """The manifest of some files, as indented JSON."""
+    """The manifest of some files as indented JSON."""
     manifest = Manifest(SCHEMA, creator, dict(sorted(files.items())))
     return msgspec.json.format(msgspec.json.encode(manifest), indent=1) + b"\n"

@@ -1,9 +1,9 @@
-"""Names of Unreal assets, made of whatever a piece or a player is called.
+"""Makes names of Unreal assets from arbitrary names.
 
-They are ASCII letters, digits and ``_``. Unreal allows more, but command lines, version control, packaging and other
-people's scripts do not: what the user reads in the sequence is the name as it stands, what files and assets are called
-is this. Kana are spelt out (Nihon-shiki, as Unicode names them); what has no spelling here (kanji, emoji) leaves a mark
-of eight digits made from the whole name, so that two such names stay two and the same one stays the same.
+They consist of ASCII letters, digits and ``_``, since command lines, version control, packaging and scripts do not
+support everything that Unreal allows. The sequence shows the original name. Kana are transliterated (Nihon-shiki, as in
+Unicode names); a name with other characters (kanji, emoji) gets eight digits hashed from it, so that different names
+stay different and equal names stay equal.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ _NO_SPELLING: Final = re.compile(r"[LNSC]")
 
 
 def asset_name(text: str, otherwise: str) -> str:
-    """The name of an asset or of its folder, without a prefix.
+    """Name of an asset or folder, without prefix.
 
     Parameters
     ----------
     text : str
-        What the thing is called; anything.
+        Any name.
     otherwise : str
-        Word to begin with where nothing of the text can be spelt, or where it would be a reserved name.
+        Word to begin with if nothing of the text can be spelt in ASCII, or if it is a reserved name.
     """
     spelt, whole = _spelt(text)
     name = re.sub(r"_+", "_", re.sub(r"[^A-Za-z0-9]", "_", spelt)).strip("_")
@@ -45,7 +45,7 @@ def asset_name(text: str, otherwise: str) -> str:
 
 
 def _spelt(text: str) -> tuple[str, bool]:
-    """The text in ASCII, and whether nothing was lost in it."""
+    """The text in ASCII, and whether nothing was lost."""
     spelt: list[str] = []
     whole, double = True, False
     for character in unicodedata.normalize("NFKC", text):

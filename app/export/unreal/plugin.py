@@ -1,6 +1,6 @@
-"""The plug-in that imports in Unreal, put into a project that has none or another one of ours that is no newer.
+"""Installs the importing plug-in in a project that has none or an older version.
 
-The project's own file is not touched: a plug-in in its folder is on by itself, and asks for those that it needs.
+The project's own file is not changed: a plug-in in its folder is enabled automatically, and enables those it needs.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ def plugin_files() -> dict[PurePosixPath, bytes]:
 
 
 def requested_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
-    """The files of the plug-in that a project's folder needs: all, or none where it has them.
+    """Files of the plug-in to write into a project's folder: all, or none if it is up to date.
 
     Raises
     ------
     FileError
-        ``unreal.plugin_foreign``: there is one that is not ours; ``unreal.manifest``.
+        There is a plug-in of that name by someone else, or the manifest is damaged.
     """
     own = plugin_files()
     place = folder / PLUGIN
@@ -48,7 +48,7 @@ def requested_plugin(folder: Path) -> dict[PurePosixPath, bytes]:
 
 
 def _version(descriptor: bytes) -> int | None:
-    """The version of a plug-in of ours; None of another's."""
+    """Version of this program's plug-in in a descriptor; None for other plug-ins."""
     try:
         content = json.loads(descriptor.decode("utf-8-sig"))
     except (ValueError, RecursionError):

@@ -1,4 +1,4 @@
-"""The folder of an Unreal project: recognised, and whether it can be written to."""
+"""Finds an Unreal project and checks that it can be written."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _MOST_BYTES: Final = 16 << 20
 
 @dataclass(frozen=True)
 class UnrealProject:
-    """A project of Unreal Engine.
+    """An Unreal Engine project.
 
     Attributes
     ----------
     file : path
         The ``.uproject`` file.
     engine : str
-        Its ``EngineAssociation`` as it stands: ``"5.6"``, the id of an engine built from its sources, or empty.
+        Its ``EngineAssociation``: ``"5.6"``, the id of an engine built from source, or empty.
     version : (int, int) or None
-        Of the engine; None where the file does not tell.
+        Version of the engine; None if the file does not contain it.
     """
 
     file: Path
@@ -39,7 +39,7 @@ class UnrealProject:
 
     @property
     def folder(self) -> Path:
-        """Return where the project is."""
+        """Return the folder of the project."""
         return self.file.parent
 
     @property
@@ -49,12 +49,12 @@ class UnrealProject:
 
 
 def find_project(path: Path) -> UnrealProject:
-    """The project that the user means by its file or its folder.
+    """Find the project for a file or folder given by the user.
 
     Raises
     ------
     FileError
-        See the module.
+        There is no such project, or its file cannot be read.
     """
     try:
         found = _project_file(path)
@@ -73,10 +73,10 @@ def find_project(path: Path) -> UnrealProject:
 
 
 def require_writable(project: UnrealProject, paths: Iterable[PurePosixPath] = ()) -> None:
-    """Raise ``unreal.read_only`` where nothing can be written into a project's folder, ``unreal.locked`` where one of
-    its files is write-protected, although some systems would replace it all the same.
+    """Raise FileError if a project's folder cannot be written, or if a file to be replaced is write-protected (even
+    where the system would allow it).
 
-    The ``.uproject`` file itself may well be write-protected, as version control leaves it: it is not touched.
+    The ``.uproject`` file may be write-protected by version control, since it is not changed.
     """
     if not os.access(project.folder, os.W_OK | os.X_OK):
         raise FileError("unreal.read_only", file=os.fspath(project.folder))
@@ -101,7 +101,7 @@ def _project_file(path: Path) -> Path:
 
 
 def _content(file: Path) -> dict[str, object]:
-    """Contents of a project's file. Unreal writes UTF-8, or UTF-16 where there is more than ASCII in it."""
+    """Parse a project's file. Unreal writes UTF-8, or UTF-16 for non-ASCII content."""
     data = read_file(file, _MOST_BYTES)
     try:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))

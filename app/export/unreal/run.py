@@ -1,10 +1,10 @@
-"""A performance into the folder of an Unreal project: all of it, or nothing.
+"""Exports a performance into an Unreal project's folder, atomically.
 
-Sources of the piece (FBX, sound, description, report, manifest) go to ``SuisouSource/<Piece>``, the plug-in that
-imports them to ``Plugins/Suisou``. Exporting again updates in place and takes away what of ours is not needed any more;
-files that others made or changed are never touched.
+Sources of the piece (FBX, sound, description, report, manifest) are written to ``SuisouSource/<Piece>``, the importing
+plug-in to ``Plugins/Suisou``. A repeated export updates files in place and deletes obsolete ones; files made or changed
+by others are never touched.
 
-Players who cannot be exported are excluded; what an earlier export holds of them stays, in the sources and in Unreal.
+Players that cannot be exported are excluded; their files from earlier exports stay, in the sources and in Unreal.
 """
 
 from __future__ import annotations
@@ -68,18 +68,17 @@ class Plan:
     ----------
     layout : Layout
     written : tuple of path
-        Every file of the piece and of the plug-in that will be written, relative to the project's folder, in order.
+        All files of the piece and plug-in to be written, relative to the project's folder, in order.
     replaced, removed : tuple of path
-        Of those that are there.
+        Existing files that are replaced or deleted.
     kept : tuple of Message
-        Leftovers that were changed by hand.
+        Messages about obsolete files changed by hand, which are kept.
     remarks : tuple of Message
-        What an earlier export has otherwise: other bars, or the same music under another name.
+        Remarks about an earlier export with other bars, or of the same music under another name.
     plugin : mapping of path to bytes
-        The plug-in's files, by path in its folder; none if the project has it.
+        Files of the plug-in by relative path; empty if it is up to date.
     staying : mapping of path to OwnFile
-        Files of the piece, by path in its folder, of players and dancers who are excluded: they stay as they are, and
-        ours.
+        Files of excluded players and dancers, which stay unchanged and listed in the manifest.
     """
 
     layout: Layout
@@ -94,7 +93,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class UnrealExport:
-    """Result of an export into an Unreal project: its plan, and the report on the files."""
+    """Result of an export into an Unreal project: its plan, and the report."""
 
     plan: Plan
     report: Report
@@ -110,28 +109,28 @@ def plan_export(
     bars: tuple[int, int] | None = None,
     textures: tuple[PurePosixPath, ...] | None = None,
 ) -> Plan:
-    """Plan the export of some players and dancers into a project; nothing is written.
+    """Plan the export of some performers into a project, without writing.
 
     Parameters
     ----------
     performer_ids : tuple of str
-        Who is exported.
+        Ids of the exported performers.
     source : str
-        Name of the piece's file, after which its folders are called.
+        Name of the piece's file, from which folder names are made.
     by_length : bool
-        Whether what is there is reported from what we wrote by its length alone, which takes no time.
+        Whether changed files are detected by length only, which is fast.
     left_out : tuple of str
-        Ids of those who were to be exported but cannot be: their files of an earlier export stay.
+        Ids of excluded performers, whose files from earlier exports stay.
     bars : (int, int) or None
-        First and last bar that is exported; None: the whole piece.
+        First and last exported bar; None: the whole piece.
     textures : tuple of path or None
-        Their files, relative to the piece's sources; None: not known before the characters are read, so that the plan
-        has none, and those that are there stay.
+        Texture files relative to the piece's sources; None: unknown before characters are read, so that the plan has
+        none and existing ones stay.
 
     Raises
     ------
     FileError
-        Something is in the way; see `app.export.unreal.manifest` and `app.export.unreal.plugin`.
+        An existing file prevents the export; see `app.export.unreal.manifest` and `app.export.unreal.plugin`.
     """
     require_writable(project)
     layout = layout_of(performance.project, piece_name(source, project.folder))
@@ -185,19 +184,20 @@ def export_into(
     Parameters
     ----------
     request : ExportRequest
-        Its folder, its formats and whether it includes the sound and the stage do not count.
+        Its folder, formats, sound and stage settings are ignored.
     project : UnrealProject
     wording : callable
         Words a message for the report.
     stop_requested, progress : callable
     shown_in : callable, optional
-        As of `app.export.run.export`.
+        As in `app.export.run.export`.
 
     Raises
     ------
     FileError
-        See the module; nothing has changed then.
+        The export failed, and nothing was changed.
     Cancelled
+        ``stop_requested`` returned True.
     """
     recover(project.folder, project.folder / SOURCES)
     texture_px = request.texture_px
@@ -247,7 +247,7 @@ def _vouch(
     content: dict[PurePosixPath, bytes],
     staying: dict[PurePosixPath, OwnFile],
 ) -> None:
-    """Write a folder's remaining files and its manifest, which also lists files that stay unchanged."""
+    """Write the remaining files of a folder and its manifest, which also lists the files that stay."""
     place = change.new / folder
     for path, data in content.items():
         (place / path).parent.mkdir(parents=True, exist_ok=True)
@@ -267,7 +267,7 @@ def _figures(
     stop_requested: StopRequested,
     progress: Progress,
 ) -> WordedReports:
-    """Write the FBX files under their names in the project; the report knows them by these."""
+    """Write the FBX files under their names in the project, which the report uses."""
     draft = sources / "draft"
     wording, shown_in = wordings
     reports = write_cast(
@@ -341,7 +341,7 @@ def _checked(
     stop_requested: StopRequested,
     progress: Progress,
 ) -> dict[str, tuple[str, ...]]:
-    """Read every file that was written and hold it against what it must be; the bones of each."""
+    """Read every written file and compare it with its expected contents; returns the bones of each."""
     check_wave(sources / sound.file, RATE_HZ, sound.channels, round(sound.duration_s * RATE_HZ))
     bones: dict[str, tuple[str, ...]] = {}
     figures = tuple(_figures_written(cast, layout))
@@ -358,7 +358,7 @@ def _checked(
 def _figures_written(
     cast: ExportCast, layout: Layout
 ) -> Iterator[tuple[str, FigurePlace, tuple[str, ...], tuple[Mesh, ...]]]:
-    """Every character and instrument: the performer's name, the place, the bones and the meshes that the file holds."""
+    """Yield every character and instrument: the performer's name, the paths, the bones and the meshes in the file."""
     for musician in cast.musicians:
         player, target = musician.player, musician.target
         meshes = written_meshes(musician.character, target)

@@ -1,4 +1,4 @@
-"""Textured surfaces of an export: materials and textures that Unreal makes, and the files that they are made from."""
+"""Textured materials of an export for Unreal, and the texture files they are made from."""
 
 from __future__ import annotations
 
@@ -22,8 +22,9 @@ _SUFFIX: dict[TextureKind, str] = {"color": "D", "normal": "N", "masks": "ORM"}
 
 
 class UnrealTexture(msgspec.Struct, frozen=True):
-    """A texture: its file, next to the description, and its asset. The kind decides compression and colour space; a
-    file of two kinds is two assets. Green of normals points up, as in glTF."""
+    """A texture: its file relative to the description, and its asset. The kind determines compression and colour space;
+    a file used as two kinds gives two assets. Green of normals points up, as in glTF.
+    """
 
     file: str
     asset: str
@@ -31,7 +32,7 @@ class UnrealTexture(msgspec.Struct, frozen=True):
 
 
 class UnrealMap(msgspec.Struct, frozen=True):
-    """A texture of a material, by its asset; its coordinates are ``scale * uv + offset``, v down."""
+    """A texture of a material, by its asset; image coordinates are ``scale * uv + offset``, v down."""
 
     texture: str
     scale: tuple[float, float]
@@ -39,9 +40,10 @@ class UnrealMap(msgspec.Struct, frozen=True):
 
 
 class UnrealMaterial(msgspec.Struct, frozen=True):
-    """A material with textures, of which each is multiplied with the value beside it; colours are linear. ``surface``
-    has roughness in green and metal in blue, ``occlusion`` is in red; ``cutoff`` is the least alpha that is seen of a
-    mask."""
+    """A material with textures, each multiplied with the corresponding value; colours are linear. ``surface`` has
+    roughness in green and metallic in blue, ``occlusion`` is in red; ``cutoff`` is the smallest visible alpha of a
+    mask.
+    """
 
     asset: str
     base_color: tuple[float, float, float, float]
@@ -60,7 +62,7 @@ class UnrealMaterial(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class FileContents:
-    """Contents of a figure's file: its bones, the root first, and its materials with textures, by their names."""
+    """Contents of a figure's file: bones, root first, and textured materials by name."""
 
     bones: tuple[str, ...]
     materials: dict[str, str]
@@ -68,14 +70,14 @@ class FileContents:
 
 @dataclass
 class Surfaces:
-    """Textured surfaces that are gathered from meshes.
+    """Collects textured materials of meshes.
 
     Attributes
     ----------
     content : str
         Folder of the piece's assets.
     texture_px : int
-        Longest side of textures in files; 0: there are none.
+        Longest side of textures; 0: none.
     """
 
     content: str
@@ -86,28 +88,28 @@ class Surfaces:
 
     @property
     def textures(self) -> tuple[UnrealTexture, ...]:
-        """The textures, in order."""
+        """The textures in order."""
         return tuple(self._textures[asset] for asset in sorted(self._textures))
 
     @property
     def materials(self) -> tuple[UnrealMaterial, ...]:
-        """The materials, in order."""
+        """The materials in order."""
         return tuple(sorted(self._materials.values(), key=lambda one: one.asset))
 
     @property
     def files(self) -> tuple[PurePosixPath, ...]:
-        """Paths of the files, relative to the piece's sources."""
+        """Paths of the texture files, relative to the piece's sources."""
         return tuple(map(PurePosixPath, sorted(self._images)))
 
     def slots(self, meshes: Iterable[Mesh]) -> dict[str, str]:
-        """Assets of the materials of some meshes that have textures, by the names of the materials."""
+        """Asset of each textured material of some meshes, by material name."""
         if not self.texture_px:
             return {}
         textured = (one for mesh in meshes for one in mesh.materials if one.textures != NO_TEXTURES)
         return {material.name: self._material(material).asset for material in textured}
 
     def write(self, sources: Path) -> None:
-        """Write the files into the folder of the piece's sources, no side longer than asked for."""
+        """Write the texture files, scaled down to the requested size, into the piece's sources."""
         fitted: dict[str, Texture] = {}
         for material in self._materials:
             small = resized(material.textures, self.texture_px)
