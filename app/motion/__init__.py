@@ -1,1 +1,1 @@
-"""Plan to sampled motion: controls, face, body layers, and contacts solved last."""
+"""Turns plans into sampled motion: controls, face, body layers, and finally contacts."""

@@ -1,4 +1,4 @@
-"""The sum of the layers of a body: the value that contacts are solved on."""
+"""Sum of the motion layers of a body: the input of the contact solvers."""
 
 from __future__ import annotations
 
@@ -24,45 +24,44 @@ class BodyMotion:
     forward_rad, left_rad, turn_rad : dict of str to array
         Flexion, sideways lean and twist of each joint of trunk and neck.
     hips_side_m, hips_ahead_m, hips_bob_m : array
-        Of the hips, to the left, ahead and down.
+        Translation of the hips to the left, ahead and down.
     hips_roll_rad, hips_turn_rad, hips_forward_rad : array
-        Left, left and forward.
+        Rotation of the hips: lean to the left, turn to the left, and forward tilt.
     knee_rad : array
         Bend added to both knees.
     bell_rad, bell_cue_rad : array
-        Bell up, beside what the head does: with the melody, and to give a cue.
+        Rise of the bell in addition to the head's motion: with the melody, and for a cue.
     bell_down_rad, bell_right_rad : array
-        Bell towards a far hand; what the contacts ask for.
+        Turn of the bell towards a far hand, as required by contacts.
     bell_held_rad : dict of str to array
-        What the animator adds to the instrument's ``pitch`` (bell up), ``yaw`` and ``roll`` (left); empty: nothing.
+        The animator's additions to the instrument's ``pitch`` (bell up), ``yaw`` and ``roll`` (left); empty: none.
     shoulders_rad : array
-        Both shoulders up.
+        Lift of both shoulders.
     elbows_rad : array
-        Both elbows out.
+        Outward turn of both elbows.
     eyes_yaw_rad, eyes_pitch_rad : array
-        Of the eyes in the head: left, down; of a head that turns only for the gaze.
+        Rotation of the eyes in a head that follows the gaze only: left, down.
     lowered : array
         0 with the instrument at the lips, 1 with it lowered.
     steadied : array
-        How far the head stays over its place while the trunk turns for a far hand, 0..1.
+        Degree to which the head stays in place while the trunk turns for a far hand, 0..1.
     protraction_rad : dict of str to array
-        Each shoulder forwards, by side; what the contacts ask for.
+        Forward motion of each shoulder, by side, as required by contacts.
     elbow_held_rad : dict of str to array
-        How far the animator turns each elbow out, by side; empty: not at all.
+        The animator's outward turn of each elbow, by side; empty: none.
     hips_danced : dict of str to array
-        What a dance adds to the hips (`app.motion.gestures.dance_layer`): ``ahead_m``, ``forward_rad`` and ``ease_m``,
-        by how much more the hand-over from leg to leg is rounded; empty: no one dances.
+        A dance's additions to the hips (`app.motion.gestures.dance_layer`): ``ahead_m``, ``forward_rad`` and ``ease_m``
+        (additional rounding of the change from leg to leg); empty: no dance.
     elbows_late_rad : dict of str to array
-        ``forward``, ``turn`` and ``left``: how far the elbows are from where the chest has them; empty: not at all.
+        ``forward``, ``turn`` and ``left``: lag of the elbows behind the chest; empty: none.
     feet : dict of str to array
-        What feet do that do not stand (`app.motion.gestures.feet.feet_moved`); empty: they stand.
+        Motion of feet that do not stand (`app.motion.gestures.feet.feet_moved`); empty: both stand.
     hands : dict of str to array
-        Where hands are that leave the instrument (`app.motion.gestures.hand_gestures.limited_hand_gestures`); empty:
-        they stay.
+        Motion of hands that leave the instrument (`app.motion.gestures.hand_gestures.limited_hand_gestures`); empty:
+        none.
     looks : dict of str to array
-        What the eyes stay on whatever the head does: ``left_rad`` and ``down_rad``, by how much its direction is
-        farther than theirs, and ``near_per_m`` and ``own`` (`app.motion.faces.gaze.Gaze`); empty: they keep to the
-        head.
+        Targets that the eyes hold regardless of the head: ``left_rad`` and ``down_rad`` (direction relative to the
+        eyes'), ``near_per_m`` and ``own`` (`app.motion.faces.gaze.Gaze`); empty: the eyes move with the head.
     """
 
     forward_rad: dict[str, FloatArray]
@@ -95,11 +94,11 @@ class BodyMotion:
     looks: dict[str, FloatArray] = field(default_factory=dict)
 
     def __getitem__(self, frames: slice) -> BodyMotion:
-        """The motion in some of its frames."""
+        """The motion in some frames."""
         return self._each(lambda values: values[frames])
 
     def for_frames(self, frames: int) -> BodyMotion:
-        """The motion of a single frame, repeated."""
+        """A one-frame motion, repeated for all frames."""
         return self._each(lambda values: np.tile(values, frames))
 
     def _each(self, made: Callable[[FloatArray], FloatArray]) -> BodyMotion:
@@ -114,7 +113,7 @@ class BodyMotion:
 
     @classmethod
     def still(cls, posture: Posture) -> BodyMotion:
-        """The posture before any motion, as one frame."""
+        """The posture without any motion, as one frame."""
         zero = np.zeros(1)
         held, left, turned = (
             {joint: np.array([np.deg2rad(angles.get(joint, 0.0))]) for joint in TRUNK}

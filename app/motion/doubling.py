@@ -1,8 +1,7 @@
-"""One body that plays several instruments in turn.
+"""Motion of one body that plays several instruments in turn.
 
-For each instrument the whole motion is made as if it were the only one; at a change the instrument is lowered, put
-aside and left there. The body blends from one motion to the other only while the hands are empty, so a held or played
-instrument is never blended.
+Motion is computed for each instrument as if it were the only one, with the instrument lowered and put aside at changes.
+The body blends between the motions only while the hands are empty, so a held instrument is never blended.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ LOWERS = 0.85
 
 
 class LastChunk:
-    """Motions of a musician's instruments over some frames, kept until other frames are asked for."""
+    """Cache of a musician's motions with each instrument over the last requested frames."""
 
     def __init__(self) -> None:
         self._kept: tuple[tuple[Fraction, int, int, int] | None, dict[int, Motion]] = None, {}
@@ -37,7 +36,7 @@ class LastChunk:
     def motion(
         self, number: int, curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int
     ) -> Motion:
-        """The motion of one instrument, as ``curves`` makes it. Threads may make the same at once."""
+        """The motion with one instrument, made by ``curves``. Several threads may compute the same at once."""
         kept, asked = self._kept, (fps, first_frame, frames, every)
         if kept[0] != asked:
             kept = self._kept = asked, {}
@@ -49,18 +48,18 @@ class LastChunk:
 
 @dataclass(frozen=True, eq=False)
 class Doubling(PerformanceCurves):
-    """One of the instruments of a musician who plays several.
+    """Motion of one instrument of a musician who plays several.
 
     Attributes
     ----------
     played : tuple of PerformanceCurves
-        All of the musician's, each with its ways aside and back.
+        Curves of all the musician's instruments, each including the motion of putting it aside.
     shares : tuple of Curve
-        The weight of each one's motion; the sum is 1.
+        Weight of each instrument's motion; they sum to 1.
     number : int
-        Which of them this is.
+        Index of this instrument.
     last : LastChunk
-        What was made last for any of them: each asks for the same motions of all.
+        Cache shared by all instruments of the musician.
     """
 
     played: tuple[PerformanceCurves, ...] = ()
@@ -69,7 +68,7 @@ class Doubling(PerformanceCurves):
     last: LastChunk = field(default_factory=lambda: LastChunk())
 
     def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
-        """Make some frames: the body as it plays the current instrument, and this instrument in the hands or aside."""
+        """Compute some frames: the body with the instrument in use, and this instrument in the hands or aside."""
         most = max(MOST_FRAMES // len(self.played), LEAST_FRAMES) // every * every
         if frames > most:
             end = first_frame + frames
@@ -107,7 +106,7 @@ class Doubling(PerformanceCurves):
         hips_m: SingleArray,
         morphs: Mapping[str, SingleArray],
     ) -> None:
-        """Fill in the frames in which the body changes from one motion to another."""
+        """Fill in the frames in which the body blends between two motions."""
         order = np.argsort(shares, axis=0)
         # Always from the lower number to the higher one, so that the direction does not reverse half way.
         pairs = np.sort(order[-2:], axis=0)
@@ -142,16 +141,16 @@ class Doubling(PerformanceCurves):
 
 
 def doubled(played: Sequence[PerformanceCurves], first: str, found: Sequence[InstrumentChange]) -> tuple[Doubling, ...]:
-    """The motion of each instrument of a musician, with the others put aside.
+    """The motion of each instrument of a musician, including putting the others aside.
 
     Parameters
     ----------
     played : sequence of PerformanceCurves
-        All of one body; each made as if it were the only instrument.
+        Curves of one body, each made as if for its only instrument.
     first : str
-        Id of the player whose instrument is in the hands at first.
+        Id of the player whose instrument is in the hands first.
     found : sequence of InstrumentChange
-        In order.
+        Instrument changes in order.
     """
     ready = tuple(_with_ways(one, number, first, found) for number, one in enumerate(played))
     shares = tuple(_share(one.player_id, first, found) for one in played)
@@ -192,7 +191,7 @@ def _with_ways(
 
 
 def _lowered(curves: PerformanceCurves, ways: Sequence[tuple[float, float, float]], begins: float) -> Curve:
-    """Return how far the instrument is lowered: as planned, and wholly while it is aside."""
+    """Return the lowering of the instrument: as planned, and fully while it is aside."""
     bell = curves.body.bell
     spans: list[tuple[float, float, float]] = []
     away_s = float("-inf") if begins else None
@@ -230,7 +229,7 @@ def _lowered(curves: PerformanceCurves, ways: Sequence[tuple[float, float, float
 
 
 def _share(player_id: str, first: str, found: Sequence[InstrumentChange]) -> Curve:
-    """The weight of one instrument's motion in the body's."""
+    """Weight of one instrument's motion over time."""
     ways = [
         (change.put_s, change.taken_s, 1.0 if change.after == player_id else 0.0)
         for change in found

@@ -1,1 +1,1 @@
-"""Breath in the trunk."""
+"""Breathing motion of the trunk."""

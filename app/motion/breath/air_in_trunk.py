@@ -1,4 +1,4 @@
-"""Breath in the trunk: how full lungs and trunk are, in play and in rests, and the shapes of ribs and belly."""
+"""Breathing of the trunk: fullness of lungs while playing and in rests, and morph weights of ribs and belly."""
 
 from __future__ import annotations
 
@@ -46,14 +46,16 @@ MOST_QUIET: Final = 60
 
 
 class LungCurves(NamedTuple):
-    """Curves of the lungs' fullness and of the lean of a preparation, 0..1."""
+    """Fullness of the lungs, and lean of the preparatory motion, both 0..1."""
 
     full: Curve
     leaning: Curve
 
 
 def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
-    """Return how full the lungs are (up over each breath, down over the phrase), and the preparation's lean 0..1."""
+    """Return the fullness of the lungs (rising over each breath, falling over the phrase) and the preparation's lean,
+    both 0..1.
+    """
     full: list[tuple[float, float, float]] = []
     lean: list[tuple[float, float, float]] = []
     level = 0.0
@@ -81,7 +83,7 @@ def lungs(breaths: Sequence[BreathEvent]) -> LungCurves:
 
 
 def air(breaths: Sequence[BreathEvent]) -> Curve:
-    """Return how much air there is, 0..1: up over each breath, down through the whole phrase after it."""
+    """Return the amount of air, 0..1: rising over each breath, falling through the whole following phrase."""
     drawn = sorted((breath for breath in breaths if breath.draws_air), key=lambda breath: breath.start_s)
     rows: list[tuple[float, float, float]] = []
     level = FLAT
@@ -102,7 +104,7 @@ def air(breaths: Sequence[BreathEvent]) -> Curve:
 
 
 def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, amount: float) -> dict[str, FloatArray]:
-    """Weights of the shapes of a trunk with this much air in it, while the belly pushes this hard, 0..1."""
+    """Weights of the trunk's morphs for an amount of air and a push of the belly, 0..1."""
     chest, belly = BREATH_MORPHS
     full = np.clip(amount * level, 0.0, 1.0)
     return {
@@ -112,8 +114,7 @@ def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, a
 
 
 def quiet_breaths(gestures: Sequence[GestureEvent]) -> Curve:
-    """Return how much of a quiet breath is in, 0..1, from a player's gestures: small and slow, while the instrument is
-    lowered for long."""
+    """Return the quiet breathing, 0..1, of a player whose instrument is lowered for long: small and slow."""
     rows: list[tuple[float, float, float]] = []
     free_s = -float("inf")
     for event in sorted(gestures, key=lambda event: event.start_s):

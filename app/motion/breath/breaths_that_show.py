@@ -1,5 +1,5 @@
-"""Breaths that show whatever else the body does: where a nod or a lean takes the trunk forward while a player breathes
-in, the trunk leans back further.
+"""Makes every breath visible: if a nod or lean moves the trunk forward during a breath, the breath's backward lean is
+increased.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ LEAST_BACK_S: Final = 0.15
 def leaning_further(
     breaths: Sequence[BreathEvent], full: Curve, torso_rad: Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 ) -> Envelopes:
-    """Return how much fuller the lungs look to the trunk, so that each breath shows; in units of ``full``.
+    """Return the additional fullness that makes each breath visible, in units of ``full``.
 
     Parameters
     ----------
     breaths : sequence of BreathEvent
     full : Curve
-        How full the lungs look by themselves.
+        Fullness of the lungs without the addition.
     torso_rad : callable
-        Lean of the torso forward (F,), radians, at ascending times (F,): without what breaths do, and with it.
+        Forward lean of the torso (F,) in radians at ascending times (F,): without and with breathing.
     """
     drawn = sorted(
         (event for event in breaths if event.draws_air and event.end_s > event.start_s),
@@ -65,6 +65,6 @@ def leaning_further(
 
 
 def _rise(values: FloatArray) -> FloatArray:
-    """Change (N, M) of values (N, 1 + M) since the first of each row."""
+    """Change (N, M) of values (N, 1 + M) relative to the first of each row."""
     change: FloatArray = values[:, 1:] - values[:, :1]
     return change

@@ -1,1 +1,1 @@
-"""Motion that an animator adds by hand, before any contact is solved."""
+"""Motion added by an animator before contacts are solved."""

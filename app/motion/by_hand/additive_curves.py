@@ -1,6 +1,6 @@
-"""The animator's curves, added to all layers of body and face before any contact is solved.
+"""An animator's additive curves, added to all layers of body and face before contacts are solved.
 
-Curves of one channel add up; together they stop softly where the channel ends.
+Curves of one channel are summed and limited softly to the channel's range.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ OF_LIPS: Final = ("mouth", "jaw", "tongue", "cheekPuff")
 
 @dataclass(frozen=True)
 class Added:
-    """Values (F,) added to a channel, with their limits; radians, metres or weights."""
+    """Values (F,) added to a channel, with the channel's limits; radians, metres or weights."""
 
     values: FloatArray
     low: float
     high: float
 
     def beside(self, other: FloatArray | float) -> FloatArray:
-        """The values as far as there is room beside another offset of the channel."""
+        """The values limited to the range that another offset of the channel leaves."""
         return within(self.values, self.high - other, other - self.low)
 
 
@@ -47,9 +47,9 @@ class Additive:
     Attributes
     ----------
     events : tuple of AdditiveEvent
-        Ordered by start.
+        Events ordered by start.
     tables : tuple of (S, 9) array
-        The segments of each.
+        Segments of each event.
     """
 
     events: tuple[AdditiveEvent, ...]
@@ -61,8 +61,9 @@ class Additive:
         return cls(tuple(events), tuple(rows(event.segments) for event in events))
 
     def sample(self, times_s: FloatArray) -> dict[str, Added]:
-        """Sample the added values at any times, by channel, for channels with a curve anywhere: so the same frame is
-        made in the same way in every span."""
+        """Sample the added values by channel, for every channel with a curve anywhere, so that a frame is computed
+        identically in every span.
+        """
         sums: dict[str, Added] = {}
         for event, table in zip(self.events, self.tables, strict=True):
             size = float(np.deg2rad(1.0)) if CHANNELS[event.channel].unit == "deg" else 1.0
@@ -74,13 +75,13 @@ class Additive:
         return sums
 
     def changed_s(self, other: Additive) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, :2], others[:, :2])
 
     @property
     def _rows(self) -> FloatArray:
-        """Every segment, with whose it is."""
+        """All segments, each with its channel."""
         found = [np.zeros((0, COLUMNS + 4))]
         for event, table in zip(self.events, self.tables, strict=True):
             whose = (_NUMBERS[event.channel], float(zlib.crc32(event.id.encode())), event.low, event.high)
@@ -92,7 +93,7 @@ NOTHING: Final = Additive.of(())
 
 
 def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added]) -> dict[PoseTarget, PoseAngles]:
-    """Add the curves to the held angles of the same targets, as far as there is room."""
+    """Add the curves to the held angles of the same targets, within their limits."""
     result = dict(held)
     for channel, more in added.items():
         if channel not in POSED:
@@ -107,7 +108,7 @@ def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added])
 
 
 def with_added(motion: BodyMotion, added: Mapping[str, Added], body: Body, knee_rad: float) -> BodyMotion:
-    """The body with the curves of hips, knees, shoulders and eyes; ``knee_rad`` is how far knees are bent at rest."""
+    """Add the curves of hips, knees, shoulders and eyes to the body; ``knee_rad`` is the bend of the knees at rest."""
     changes: dict[str, object] = {}
     for channel, more in added.items():
         part, _, what = channel.partition(".")
@@ -148,10 +149,9 @@ def _looked(angle: FloatArray, offset: FloatArray, limit_deg: tuple[float, float
 def with_added_morphs(
     morphs: dict[str, FloatArray], added: Mapping[str, Added], at_lips: FloatArray
 ) -> dict[str, FloatArray]:
-    """The face with the curves of its morph targets.
+    """Add the curves of morph targets to the face.
 
-    Those of the lips and the jaw hold the mouthpiece while it is played: there a curve of theirs has no say, as far as
-    ``at_lips`` (F,) 0..1 says.
+    Curves of lips and jaw have no effect while they hold the mouthpiece, weighted by ``at_lips`` (F,), 0..1.
     """
     result = dict(morphs)
     for channel, more in added.items():

@@ -1,6 +1,6 @@
-"""Pose corrections of the animator, added to the layers of the body before any contact is solved.
+"""An animator's pose corrections, added to the body's layers before contacts are solved.
 
-Offsets come in and go smoothly, may lie over one another, and stop softly where a joint's range ends.
+Offsets fade in and out, may overlap, and are limited softly to a joint's range.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _COLUMNS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow",
 
 @dataclass(frozen=True)
 class PoseAngles:
-    """Angles (F,) up, to the left and of roll, radians; see `app.plan.by_hand.corrections.PoseCorrection`."""
+    """Angles (F,) up, left and roll in radians; see `app.plan.by_hand.corrections.PoseCorrection`."""
 
     up: FloatArray
     left: FloatArray
@@ -31,14 +31,14 @@ class PoseAngles:
 
 @dataclass(frozen=True, eq=False)
 class PoseCorrectionTable:
-    """All pose corrections of a player, one row each.
+    """All pose corrections of a player, one per row.
 
     Attributes
     ----------
     targets : (N,) int64
-        Place in the list of targets.
+        Index in the list of targets.
     times_s : (N, 4) float64
-        When the offset begins to come, is whole, begins to go and is gone.
+        Start of fade-in, start and end of full effect, end of fade-out.
     angles_rad : (N, 3) float64
         Up, left, roll.
     """
@@ -62,7 +62,7 @@ class PoseCorrectionTable:
         )
 
     def sample(self, times_s: FloatArray) -> dict[PoseTarget, PoseAngles]:
-        """Offsets at ascending times, of the targets that have any."""
+        """Offsets at ascending times for targets with corrections."""
         sums: dict[PoseTarget, FloatArray] = {}
         for target, span_s, angle_rad in zip(self.targets, self.times_s, self.angles_rad, strict=True):
             total = sums.setdefault(_COLUMNS[int(target)], np.zeros((3, len(times_s))))
@@ -70,7 +70,7 @@ class PoseCorrectionTable:
         return {target: PoseAngles(*total) for target, total in sums.items()}
 
     def changed_s(self, other: PoseCorrectionTable) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [1, 4]], others[:, [1, 4]])
 
@@ -80,7 +80,7 @@ class PoseCorrectionTable:
 
 
 def within(offset: FloatArray, room_above: FloatArray | float, room_below: FloatArray | float) -> FloatArray:
-    """An offset that stops softly where its room ends: nearly all of it up to half of the room."""
+    """Limit an offset softly to its room; up to half of the room it is almost unchanged."""
     room = np.maximum(np.where(offset >= 0.0, room_above, room_below), LEAST_ROOM_RAD)
     held: FloatArray = offset / np.power(1.0 + np.power(offset / room, 4), 0.25)
     return held
@@ -93,7 +93,7 @@ def hold_body(
     left_rad: dict[str, FloatArray],
     turn_rad: dict[str, FloatArray],
 ) -> None:
-    """Add what trunk and neck do of the offsets to the angles of their joints, within the joints' ranges."""
+    """Add the offsets of trunk and neck to the angles of their joints, within the joints' ranges."""
     torso, head, bell = offsets.get("torso"), offsets.get("head"), offsets.get("bell")
     for shares, own, part in ((TRUNK_SHARES, torso, "trunk"), (NECK_SHARES, head, "neck")):
         if own is None and bell is None:

@@ -1,1 +1,1 @@
-"""Contacts, solved last: instrument on the lips, hands on the instrument, feet on the floor."""
+"""Contacts, solved after all layers: instrument on the lips, hands on the instrument, feet on the floor."""

@@ -1,4 +1,4 @@
-"""Arms: from the shoulders to hands that are where the hold puts them."""
+"""Arms, solved from the shoulders to the hands' places on the instrument."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ ELBOW_OUT = 1.8
 
 @dataclass(frozen=True)
 class Shoulder:
-    """A shoulder as chest and clavicle carry it.
+    """Pose of a shoulder.
 
     Attributes
     ----------
     moved : (F, 4) float64
-        The clavicle in the chest's frame ...
+        Rotation of the clavicle in the chest's frame.
     clavicle : (F, 4) float64
-        ... and in the world.
+        Rotation of the clavicle in world space.
     joint_m : (F, 3) float64
-        The shoulder joint, where the arm begins.
+        World position of the shoulder joint.
     """
 
     moved: FloatArray
@@ -46,7 +46,7 @@ class Shoulder:
 
 
 def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) -> Shoulder:
-    """Return where a shoulder is."""
+    """Return the pose of a shoulder."""
     sign = 1.0 if side == "left" else -1.0
     joint, reaches_m = clavicle_of(skeleton, side)
     moved = quaternion.multiply(
@@ -65,7 +65,9 @@ def solve_arms(
     swung: FloatArray | None = None,
     away: Away | None = None,
 ) -> dict[int, FloatArray]:
-    """Rotations of clavicles, arms and hands, by joint; ``swung`` (F, 4) is how far elbows go with arms that swing."""
+    """Rotations of clavicles, arms and hands by joint; ``swung`` (F, 4) is the rotation of the elbows with swinging
+    arms.
+    """
     rotations: dict[int, FloatArray] = {}
     body, carried = upper.trunk, upper.carried
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(player.base.chest))
@@ -118,7 +120,7 @@ def _solve_arm(
 def _relieve(
     wrist: Wrist, limb: Limb, pose: LimbPose, line: FloatArray, clavicle: FloatArray, target_rotation: FloatArray
 ) -> None:
-    """Turn the arms of a pose about the line from shoulder to hand where a wrist is bent too far."""
+    """Rotate the arms about the line from shoulder to hand where the wrist is bent too far."""
     aside_rad = wrist.aside_rad(pose.end)
     beyond_rad = wrist.beyond_rad(aside_rad)
     bent = np.flatnonzero(beyond_rad)

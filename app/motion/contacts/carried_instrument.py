@@ -1,7 +1,7 @@
-"""The instrument: its rim on the lips while it is played, before the body in long rests.
+"""Placement of the instrument: rim on the lips while it is played, in front of the body in long rests.
 
-The head carries it while it is played and the chest while it is lowered; hands follow it (`app.motion.contacts.arms`).
-Body motion moves all of it together, so it never breaks a contact.
+The head carries it while it is played, the chest while it is lowered; hands follow (`app.motion.contacts.arms`). Body
+motion moves everything together, so contacts hold.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def attitude(pitch_down_rad: FloatArray, yaw_left_rad: FloatArray, roll_left_rad
 
 
 def bell_pitch(carriage: Carriage, bell_rad: FloatArray) -> FloatArray:
-    """Pitch of the bell (down positive) within the carriage's range; its ends are approached softly."""
+    """Pitch of the bell (down positive), softly limited to the carriage's range."""
     low, usual, high = np.deg2rad(carriage.pitch_down_deg)
     down = -bell_rad
     room = np.where(down >= 0.0, max(high - usual, 1e-3), max(usual - low, 1e-3))
@@ -52,8 +52,7 @@ def bell_pitch(carriage: Carriage, bell_rad: FloatArray) -> FloatArray:
 
 
 def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, FloatArray | float, FloatArray | float]:
-    """Pitch (down), yaw and roll (left) of the instrument as the melody and the animator have it, within the carriage's
-    ranges."""
+    """Pitch (down), yaw and roll (left) of the instrument due to melody and animator, within the carriage's ranges."""
     pitch = bell_pitch(carriage, motion.bell_rad)
     yaw, roll = float(np.deg2rad(carriage.yaw_left_deg[1])), float(np.deg2rad(carriage.roll_left_deg[1]))
     held = motion.bell_held_rad
@@ -68,23 +67,24 @@ def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, Flo
 
 
 def freedom(carriage: Carriage) -> float:
-    """Return how free an instrument is to move with the body: 1 where it hangs free, 0 where it lies and has no
-    room."""
+    """Return how freely an instrument moves with the body: 1 if it is carried, 0 if it rests on something without
+    play.
+    """
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
     return min(1.0, min(high - low for low, _, high in ranges) / FREE_DEG)
 
 
 def tips_freely(carriage: Carriage) -> bool:
-    """Return whether an instrument tips up and down with the head: one that lies or stands keeps its place."""
+    """Return whether an instrument tilts up and down with the head; not if it lies or stands."""
     low_deg, _, high_deg = carriage.pitch_down_deg
     return high_deg - low_deg >= FREE_DEG
 
 
 def going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
-    """The head's turn (F, 4), as far as the instrument goes along with it.
+    """The head's rotation (F, 4) reduced to the part that the instrument follows.
 
-    One that hangs free goes along wholly. One that lies on the lap or stands on the floor, whose carriage leaves no
-    room, stays as it is, and the lips turn on it.
+    A carried instrument follows completely. One on the lap or the floor, without range in its carriage, stays while the
+    lips turn on it.
     """
     if freedom(carriage) == 1.0:
         return with_head
@@ -99,7 +99,7 @@ def going_along(with_head: FloatArray, carriage: Carriage) -> FloatArray:
 
 
 def limited_to_carriage(parameters: PlayerParameters, carriage: Carriage) -> PlayerParameters:
-    """Parameters with the motion of the instrument limited as its carriage says: the lips must stay with it."""
+    """Parameters with the instrument's motion limited by its carriage, so that the lips stay in contact."""
     share = _settling(carriage)
     if share == 1.0:
         return parameters
@@ -111,13 +111,14 @@ def limited_to_carriage(parameters: PlayerParameters, carriage: Carriage) -> Pla
 
 
 def _settling(carriage: Carriage) -> float:
-    """Share of their amplitude that players keep with an instrument that is carried so."""
+    """Share of their amplitude that players keep with an instrument of this carriage."""
     return SETTLED + (1.0 - SETTLED) * freedom(carriage)
 
 
 def shown_by(parameters: PlayerParameters, carriage: Carriage, acting: Acting, *, dancing: bool) -> Acting:
-    """Amounts of a player's acting after the carriage: less of the trunk with an instrument that lies still, and less
-    of all that moves the body as far as a dance takes its place."""
+    """Amounts of acting reduced by the carriage: less trunk motion with a resting instrument, and less body motion
+    while a dance replaces it.
+    """
     share = _settling(carriage)
     left = 1.0 - share * share * parameters.dance_amount if dancing else 1.0
     return msgspec.structs.replace(

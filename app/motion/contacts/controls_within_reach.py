@@ -1,8 +1,8 @@
-"""Limits of controls that carry a hand: they stop where the arm ends.
+"""Limits controls that a hand moves along (such as a slide) to the reach of the arm.
 
-A hand never leaves what it carries: where trunk, shoulders and instrument have helped as far as they do and the place
-is still too far, the control stays as far out as the hand comes. Frame by frame, from nothing but the frame itself: so
-it does not matter which frames are made together, nor whether the notes are known beforehand.
+The hand stays on the control: if trunk, shoulders and instrument have helped as much as possible and the position is
+still too far, the control stops where the hand can reach. Each frame is computed independently of others, so results do
+not depend on the span or on knowledge of later notes.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ HALVINGS = 24
 
 @dataclass(frozen=True)
 class _Seen:
-    """One carried hand at the frames where its arm is nearly stretched or too short."""
+    """One hand on a control, in frames where its arm is almost stretched or too short."""
 
     hand: HandHold
     shoulder_m: FloatArray
@@ -40,7 +40,7 @@ class _Seen:
     placed: Mapping[str, StationBlend]
 
     def distance_m(self, values: FloatArray) -> FloatArray:
-        """Distance from the shoulder joint to the wrist with the control at these values."""
+        """Distance (metres) from the shoulder joint to the wrist with the control at these values."""
         assert self.hand.motion is not None
         controls = {self.hand.motion.control: values}
         wrist_m, _ = hand_targets(self.hand, self.carried.position_m, self.carried.rotation, controls, self.placed)
@@ -49,7 +49,7 @@ class _Seen:
         return distance_m
 
     def value_at(self, distance_m: FloatArray, asked: FloatArray) -> FloatArray:
-        """The value nearest below ``asked`` at which the wrist is so far away; 0 where it is nowhere so near."""
+        """The largest value up to ``asked`` at which the wrist has this distance; 0 if it is always farther."""
         low, high = np.zeros(len(asked)), asked.copy()
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
@@ -59,9 +59,9 @@ class _Seen:
 
 
 def controls_within_reach(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> dict[str, FloatArray]:
-    """The controls, those that carry a hand no farther out than it comes.
+    """The controls, limited to the reach of the hands that move along with them.
 
-    Where a hand comes everywhere they are the very arrays given.
+    Arrays are returned unchanged if the hands reach everywhere.
     """
     skeleton, carried, placed, result = player.skeleton, upper.carried, curves.placed, dict(curves.controls)
     for hand in player.grip.hands:

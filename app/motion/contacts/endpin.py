@@ -1,7 +1,7 @@
-"""Instruments on an endpin: the tip stays where it is put, and the instrument turns about it.
+"""Instruments on an endpin: the tip stays on the floor and the instrument turns about it.
 
-Lips and tip are the two ends it is held by. A pin keeps its length and lets the player move about it; a body that moves
-as this one does would tear the mouthpiece from its lips by some millimetres, so the pin gives way by these.
+Lips and tip are two fixed points at a constant distance; the body's motion would violate this by some millimetres, so
+the pin's length adapts.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ UPRIGHT = 0.5
 class EndpinStand:
     """An instrument that stands on its endpin.
 
-    ``lips_m`` (1, 3) is where its mouthpiece is before any motion: what the tip's place on the floor follows from.
+    ``lips_m`` (1, 3) is the place of its mouthpiece before any motion, which determines the tip's place on the floor.
     """
 
     endpin: Endpin
@@ -34,13 +34,13 @@ class EndpinStand:
 
     @classmethod
     def of(cls, endpin: Endpin, carriage: Carriage, usual: InstrumentTransform) -> EndpinStand | None:
-        """An instrument that is usually carried there on its pin; None where that does not reach the floor."""
+        """Make the stand of an instrument at its usual place; None if the pin does not reach the floor."""
         needed_m, down = _needed(endpin, usual.position_m, usual.rotation)
         stands = down[0] > UPRIGHT and needed_m[0] <= endpin.most_m
         return cls(endpin, carriage, usual.position_m) if stands else None
 
     def stood(self, carried: InstrumentTransform, motion: BodyMotion) -> InstrumentTransform:
-        """The instrument where it is carried, swung about the mouthpiece until its pin is over the tip's place."""
+        """Swing the carried instrument about the mouthpiece until its pin is above the tip's place."""
         # Where an animator turns the instrument, its tip goes: melody and cues move no one's pin.
         pitch, yaw, roll = held_angles(self.carriage, replace(motion, bell_rad=np.zeros_like(motion.bell_rad)))
         still = attitude(pitch, np.asarray(yaw), roll)
@@ -56,8 +56,7 @@ class EndpinStand:
         return InstrumentTransform(carried.position_m, quaternion.multiply(swung, carried.rotation))
 
     def drawn_out(self, position_m: AnyFloatArray, rotation: AnyFloatArray) -> FloatArray:
-        """Return how far the pin is drawn out, (F,) of 0..1, so that its tip is on the floor, or as near to it as it
-        can be.
+        """Return the extension (F,) of the pin, 0..1, at which its tip is on the floor or as near to it as possible.
 
         Parameters
         ----------
@@ -77,7 +76,9 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _needed(endpin: Endpin, position_m: AnyFloatArray, rotation: AnyFloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how far a pin has to come out to touch the floor, metres (F,), and how much it points down (F,)."""
+    """Return the pin length (F,) in metres needed to touch the floor, and the cosine (F,) of its angle from straight
+    down.
+    """
     turn = np.asarray(rotation, np.float64)
     tip_y = np.asarray(position_m, np.float64)[:, 1] + quaternion.rotate(turn, np.asarray(endpin.tip_m))[:, 1]
     down: FloatArray = -quaternion.rotate(turn, np.asarray(endpin.axis))[:, 1]

@@ -1,4 +1,4 @@
-"""Hands that leave the lowered instrument: where the music and the water key are, and how a hand comes there."""
+"""Destinations of hands that leave the lowered instrument (music stand, water key), and the motion to them."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ def hands_off_instrument(
     water: Water | None,
     stopped: Stopped | None,
 ) -> Away | None:
-    """Return where hands are that leave the instrument; None where all stay.
+    """Return the placement of hands that leave the instrument; None if none does.
 
     Parameters
     ----------
     base : Trunk
-        Before any motion, one frame.
+        Trunk before any motion, one frame.
     hands : mapping of str to array
-        As of `app.motion.gestures.hand_gestures.limited_hand_gestures`, and how far a hand closes the bell
+        Values from `app.motion.gestures.hand_gestures.limited_hand_gestures`, and the closure of the bell by a hand
         (`STOPPING`).
     """
     found = Away({}, {}, {})
@@ -79,7 +79,7 @@ def hands_off_instrument(
 
 
 def page_m(skeleton: Skeleton, base: Trunk) -> FloatArray:
-    """The middle (3,) of the music of a player, in the player's frame."""
+    """Centre (3,) of the sheet music in the player's frame, metres."""
     shoulders_m = np.mean([_shoulder_m(skeleton, side, base) for side in SIDES], axis=0)
     middle_m: FloatArray = shoulders_m + arm(skeleton, "left").length_m / USUAL_ARM_M * PAGE_M
     return middle_m
@@ -88,7 +88,7 @@ def page_m(skeleton: Skeleton, base: Trunk) -> FloatArray:
 def with_shapes(
     skeleton: Skeleton, hands: Mapping[str, FloatArray], joints: list[int], rotations: FloatArray
 ) -> FloatArray:
-    """Fingers (F, joints, 4) of hands that have left the instrument; those that have not are the same."""
+    """Finger rotations (F, joints, 4) with the shapes of hands that have left the instrument; others are unchanged."""
     for side in SIDES:
         there = {shape: hands[f"{side}.{shape}"] for shape in SHAPES if f"{side}.{shape}" in hands}
         if not there:
@@ -128,7 +128,7 @@ def _at_key(
 
 
 def _hand(side: Side, fingers: FloatArray, palm: FloatArray) -> FloatArray:
-    """Rotation (F, 4) of a hand whose fingers go along (F, 3) and whose palm looks about so."""
+    """Rotation (F, 4) of a hand with fingers along given directions (F, 3) and an approximate palm direction."""
     fingers = fingers / np.linalg.norm(fingers, axis=1, keepdims=True)
     palm = palm - quaternion.dot(palm, fingers)[:, None] * fingers
     palm = palm / np.linalg.norm(palm, axis=1, keepdims=True)

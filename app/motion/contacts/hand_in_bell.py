@@ -1,4 +1,4 @@
-"""The hand that closes the bell for stopped notes: its palm is there before the first of a passage, and back after the
+"""The hand that closes the bell for stopped notes: in place before the first note of a passage, and back after the
 last.
 """
 
@@ -30,7 +30,7 @@ READY_S: Final = 0.03
 
 
 def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelopes:
-    """Return how far the hand closes the bell, 0..1."""
+    """Return the closure of the bell by the hand, 0..1."""
     if stopped is None:
         return Envelopes.of(())
     return Envelopes.of(
@@ -43,7 +43,7 @@ def bell_closing(mutes: Sequence[MuteEvent], stopped: Stopped | None) -> Envelop
 
 
 def wrist_shift(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried: InstrumentTransform) -> Shift:
-    """Displacement of a wrist from its grip for shares (F,) of the whole way: the palm turns about the knuckles."""
+    """Displacement of a wrist from its grip, scaled by shares (F,): the palm turns about the knuckles."""
     turned_rad = quaternion.rotate(carried.rotation, np.deg2rad(np.asarray(stopped.turned_deg)))
     # About the first finger's knuckle, which is held against the wall.
     knuckle_m = next((skeleton.offsets_m[joint] for joint in _knuckles(skeleton, stopped)), np.zeros(3))
@@ -53,8 +53,9 @@ def wrist_shift(skeleton: Skeleton, stopped: Stopped, share: FloatArray, carried
 def with_fingers_kept(
     skeleton: Skeleton, grip: GripPose, stopped: Stopped, share: FloatArray, rotations: FloatArray
 ) -> FloatArray:
-    """Rotations (F, joints, 4) of `GripPose.finger_joints` with the fingers on the bell's wall as before, whatever the
-    palm does."""
+    """Rotations (F, joints, 4) of `GripPose.finger_joints` that keep the fingers on the bell's wall while the palm
+    turns.
+    """
     (hand,) = (one for one in grip.hands if one.side == stopped.hand)
     # The palm's turn seen from the hand.
     turned = quaternion.conjugate(hand.instrument_from_hand_rotation[0])
@@ -69,6 +70,6 @@ def with_fingers_kept(
 
 
 def _knuckles(skeleton: Skeleton, stopped: Stopped) -> list[int]:
-    """Joints at which the fingers, but for the thumb, leave the palm."""
+    """Joints where the fingers, except the thumb, are attached to the palm."""
     names = [f"{stopped.hand}{finger.title()}Proximal" for finger in FINGERS_KEPT]
     return [skeleton.index(name) for name in names if name in skeleton.names]

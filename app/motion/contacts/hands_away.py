@@ -1,4 +1,6 @@
-"""Hands that have left the instrument (`app.motion.contacts.hand_destinations`), for modules that move arms."""
+"""Placement of hands that have left the instrument (`app.motion.contacts.hand_destinations`), as input for arm
+solvers.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,15 @@ from app.rig.grip.grip_pose import Side
 
 
 class Shift(NamedTuple):
-    """Displacement of a wrist from its grip: a turn in the world (F, 4) about a point (3,) of the hand's frame."""
+    """Displacement of a wrist from its grip: a world rotation (F, 4) about a point (3,) in the hand's frame."""
 
     turned: FloatArray
     about_m: FloatArray
 
     def target(self, position_m: FloatArray, rotation: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Place and rotation of the displaced wrist, from ``position_m`` (F, 3) and ``rotation`` (F, 4) on its grip."""
+        """Position and rotation of the displaced wrist, from ``position_m`` (F, 3) and ``rotation`` (F, 4) on its
+        grip.
+        """
         about_m = quaternion.rotate(rotation, self.about_m)
         there_m = position_m + about_m - quaternion.rotate(self.turned, about_m)
         return there_m, quaternion.multiply(self.turned, rotation)
@@ -27,17 +31,17 @@ class Shift(NamedTuple):
 
 @dataclass(frozen=True)
 class Away:
-    """Hands on their way at some frames.
+    """Hands away from the instrument at some frames.
 
     Attributes
     ----------
     places : dict of side to list of (share (F,), position (F, 3), rotation (F, 4))
-        Wrists in the world.
+        Weight, position and rotation of wrists in world space.
     offsets_m : dict of side to (F, 3)
     elbows : dict of side to (share (F,), direction (3,))
-        Where elbows point, in the chest's frame, and how far that holds.
+        Direction of elbows in the chest's frame, with its weight.
     shifts : dict of side to Shift
-        Of hands that close a bell.
+        Displacements of hands that close a bell.
     """
 
     places: dict[Side, list[tuple[FloatArray, FloatArray, FloatArray]]]
@@ -46,8 +50,9 @@ class Away:
     shifts: dict[Side, Shift] = field(default_factory=dict)
 
     def targets(self, side: Side, position_m: FloatArray, rotation: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return where a wrist is that would be on its grip at ``position_m`` (F, 3) and ``rotation`` (F, 4); the very
-        same numbers where it has not left it."""
+        """Return position and rotation of a wrist whose grip would be at ``position_m`` (F, 3) and ``rotation`` (F, 4);
+        unchanged arrays if it has not left the grip.
+        """
         if side in self.shifts:
             position_m, rotation = self.shifts[side].target(position_m, rotation)
         if side not in self.offsets_m:

@@ -1,4 +1,4 @@
-"""Help of the body for far hands: shoulders come forwards, the trunk turns, at last head and instrument give way."""
+"""Help of the body for far hands: shoulders move forward, the trunk turns, and finally head and instrument give way."""
 
 from __future__ import annotations
 
@@ -39,19 +39,19 @@ FOLLOWS_RAD, TURNS_ALONG_RAD = float(np.deg2rad(4.5)), float(np.deg2rad(2.5))
 
 @dataclass(frozen=True)
 class Help:
-    """Share that trunk and shoulders must add so that both hands reach.
+    """Contribution of trunk and shoulders needed so that both hands reach.
 
     Attributes
     ----------
     turn_rad : (F,) float64
-        Of the trunk, left positive.
+        Turn of the trunk, left positive.
     short_m : (F,) float64
-        How far the hand still is beyond what its arm reaches then.
+        Distance still missing for the hand after that.
     protraction_rad : dict of side to (F,) float64
-        Of each clavicle, forwards.
+        Forward rotation of each clavicle.
     most_turn_rad, most_protraction_rad : dict of side to (F,) float64
-        What leaves each hand at least `NEAREST` of its arm's length away: help that comes early or stays late must
-        not push a shoulder into a near hand.
+        Limits that keep each hand at least `NEAREST` of its arm's length away, so that smoothed help does not push a
+        shoulder into a near hand.
     """
 
     turn_rad: FloatArray
@@ -62,7 +62,7 @@ class Help:
 
     @property
     def moves_trunk(self) -> bool:
-        """True if more than the shoulders helps."""
+        """True if more than the shoulders contributes."""
         return bool(np.any(self.turn_rad) or np.any(self.short_m))
 
 
@@ -75,10 +75,10 @@ def needed_help(
     placed: Mapping[str, StationBlend],
     away: Away | None = None,
 ) -> Help:
-    """The help a body needs that has none yet; exactly 0 where the arms alone reach, and where hands stay.
+    """The help needed by a body without any; exactly 0 where the arms alone reach and the hands stay.
 
-    The shoulders help first, then the trunk turns; what is left is reported. Both follow a hand a little that goes out
-    and back.
+    First the shoulders help, then the trunk turns; the remaining distance is returned. Both follow slightly when a hand
+    moves out and back.
     """
     turn, short_m = np.zeros(len(body.chest_m)), np.zeros(len(body.chest_m))
     protraction: dict[str, FloatArray] = {}
@@ -110,13 +110,15 @@ def needed_help(
 
 
 def shoulder_distance_m(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> float:
-    """Distance from a shoulder that is as far forwards as it comes to its hand's target, in the first frame."""
+    """Distance in metres from the shoulder, moved forward as far as possible, to its hand's target, in the first
+    frame.
+    """
     return float(_girdle(skeleton, side, body, target_m).distance_m(CLAVICLE_RAD)[0])
 
 
 @dataclass(frozen=True)
 class _Swing:
-    """A shoulder joint that turns about a fixed axis, and a target of its hand.
+    """A shoulder joint that rotates about a fixed axis, and the target of its hand.
 
     The squared distance from the shoulder joint to the target is ``square_m2 - 2 reach_m2 cos(phase_rad - turn)``.
     """
@@ -126,13 +128,13 @@ class _Swing:
     phase_rad: FloatArray
 
     def distance_m(self, turned_rad: FloatArray | float) -> FloatArray:
-        """Distance from the shoulder to the target after a part of the turn."""
+        """Distance in metres from the shoulder to the target after a rotation."""
         cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
         distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
         return distance
 
     def turn_for(self, distance_m: FloatArray) -> FloatArray:
-        """The turn that brings the shoulder to this distance from the target, as near as it can."""
+        """The rotation that brings the shoulder to a distance from the target, or as near to it as possible."""
         cosine = np.clip(
             (self.square_m2 - distance_m * distance_m) / np.maximum(2.0 * self.reach_m2, LEAST_M**2), -1.0, 1.0
         )
@@ -140,7 +142,7 @@ class _Swing:
 
 
 def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
-    """The clavicle coming forwards about an axis of the chest."""
+    """Forward rotation of the clavicle about an axis of the chest."""
     shoulder, clavicle = clavicle_of(skeleton, side)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
     there = np.ascontiguousarray(quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m))
@@ -151,7 +153,7 @@ def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -
 
 
 def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
-    """The chest turning about the upright, its shoulder brought forwards as far as it goes."""
+    """Rotation of the chest about the vertical axis with its shoulder fully forward."""
     shoulder, clavicle = clavicle_of(skeleton, side)
     forwards = quaternion.from_axis_angle(forwards_axis(skeleton, side), CLAVICLE_RAD)
     root_m = skeleton.offsets_m[shoulder] + quaternion.rotate(forwards, clavicle)
@@ -168,13 +170,13 @@ def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) ->
 
 @lru_cache(maxsize=64)
 def clavicle_of(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
-    """Joint of a clavicle, and where the shoulder joint lies in its frame."""
+    """Index of a clavicle, and the position of the shoulder joint in its frame."""
     return skeleton.index(f"{side}Shoulder"), skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
 
 
 @lru_cache(maxsize=64)
 def forwards_axis(skeleton: Skeleton, side: Side) -> FloatArray:
-    """Axis in the chest's frame about which a clavicle comes straight forwards."""
+    """Axis in the chest's frame for forward rotation of a clavicle."""
     _, clavicle = clavicle_of(skeleton, side)
     axis = np.cross(clavicle, Z_AXIS)
     length = float(np.linalg.norm(axis))

@@ -1,7 +1,7 @@
-"""An instrument that is put aside: where it lies while its player has another in the hands, and how it comes there.
+"""Puts an instrument aside while its player uses another: its resting place, and the motion to it.
 
-The arm that bears it swings as a whole about its shoulder, out and down, from where the instrument is lowered to: what
-is natural before the body is so beside it, whatever the instrument is. The other hand lets go and hangs.
+The arm that holds it rotates as a whole about its shoulder, outwards and down from the lowered position, which stays
+natural for any instrument. The other hand lets go and hangs.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
 
 @dataclass(frozen=True)
 class Aside:
-    """Way of putting an instrument aside: the hand, and the instrument's number among the musician's, from 0."""
+    """How an instrument is put aside: the hand, and the instrument's index among the musician's."""
 
     side: Side
     number: int
@@ -52,22 +52,22 @@ class Aside:
 
     @property
     def angle_rad(self) -> float:
-        """Return how far it swings aside, to the left."""
+        """Return the angle of the swing, left positive."""
         return self.sign * (SWING_RAD + NEXT_RAD * min(self.number, FARTHEST))
 
 
 @dataclass(frozen=True)
 class AsidePlace:
-    """Place of an instrument that is put aside.
+    """Resting place of an instrument put aside.
 
     Attributes
     ----------
     pivot_m : (3,) float64
-        What it swings about: the shoulder of a body that keeps still.
+        Centre of the swing: the shoulder of the still body.
     swing_rad : (3,) float64
         The whole swing as a rotation vector.
     rest : InstrumentTransform
-        Where it lies, one frame.
+        Placement at rest, one frame.
     """
 
     aside: Aside
@@ -77,7 +77,7 @@ class AsidePlace:
 
     @classmethod
     def of(cls, aside: Aside, skeleton: Skeleton, grip: GripPose, base: Trunk, low: InstrumentTransform) -> AsidePlace:
-        """The place for an instrument put aside by a body that keeps still and holds its instrument lowered so."""
+        """Compute the resting place for a still body that holds the instrument lowered."""
         joint, reaches_m = clavicle_of(skeleton, aside.side)
         begins_m = base.chest_m + quaternion.rotate(base.chest, skeleton.offsets_m[joint])
         pivot_m = (begins_m + quaternion.rotate(base.chest, reaches_m))[0]
@@ -99,11 +99,11 @@ class AsidePlace:
         return replace(bare, rest=InstrumentTransform(lies.position_m + further_m * towards, lies.rotation))
 
     def turned(self, stowed: FloatArray) -> FloatArray:
-        """Return how far the arm has swung, (F, 4)."""
+        """Return the rotation (F, 4) of the arm, for shares of the swing."""
         return quaternion.from_rotation_vector(stowed[:, None] * self.swing_rad)
 
     def put(self, carried: InstrumentTransform, stowed: FloatArray) -> InstrumentTransform:
-        """The instrument on its way: 0 where it is carried, 1 where it lies, (F,)."""
+        """The instrument's placement during the swing: 0 carried, 1 at rest, (F,)."""
         swung, share = self._swung(carried, stowed), stowed[:, None]
         position_m = swung.position_m + (self.rest.position_m - swung.position_m) * share
         rotation = quaternion.slerp(swung.rotation, self.rest.rotation, stowed)
@@ -123,7 +123,7 @@ class AsidePlace:
     def let_go(
         self, skeleton: Skeleton, grip: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
     ) -> dict[int, FloatArray]:
-        """The arm that does not bear the instrument, on its way to hanging down."""
+        """Arm rotations in which the arm that does not hold the instrument moves to hanging down."""
         result: dict[int, FloatArray] = {}
         for hand in grip.hands:
             if hand.side == self.aside.side:
@@ -138,7 +138,7 @@ class AsidePlace:
         return result
 
     def watched(self, motion: BodyMotion, stowed: FloatArray) -> BodyMotion:
-        """The body looking where the hand goes."""
+        """Body motion with the head turned towards the hand."""
         turn, forward = dict(motion.turn_rad), dict(motion.forward_rad)
         for joint, angle_rad in LOOKS_RAD.items():
             turn[joint] = turn[joint] + self.aside.sign * angle_rad * stowed

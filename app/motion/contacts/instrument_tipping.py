@@ -1,4 +1,4 @@
-"""Limits of tipping an instrument from the chest, by the range of the wrists and the height of the elbows."""
+"""Limits how far an instrument tilts relative to the chest, by the wrists' ranges and the height of the elbows."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ RAISED_RAD = float(np.deg2rad(12.0))
 
 
 def with_bell_room(player: PlayerBody) -> PlayerBody:
-    """The player with an instrument that tips no further than both wrists and elbows follow."""
+    """Return the player with a tilt range that both wrists and elbows can follow."""
     if player.stand is not None or not tips_freely(player.carriage):
         return player
     tipped = np.deg2rad(np.arange(-MOST_DEG, MOST_DEG + 1, STEP_DEG))
@@ -50,8 +50,9 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
 def _wrists_and_elbows(
     player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, StationBlend]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return how far the worse wrist of a still body is out of its range, and how high the higher elbow is as seen from
-    its shoulder, (F,) each; the bell is down by so much (F,)."""
+    """Return for a still body with the bell tilted down by angles (F,): the larger excess of a wrist over its range,
+    and the elevation of the higher elbow from its shoulder, each (F,).
+    """
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
     curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))

@@ -1,4 +1,4 @@
-"""Bodies ready to play: a character in its posture with a fitted instrument, made once for all of its motion."""
+"""Bodies ready to play: a character in its posture with a fitted instrument, computed once for all its motion."""
 
 from __future__ import annotations
 
@@ -41,8 +41,7 @@ def put_aside_transform(
     body: Body,
     number: int,
 ) -> InstrumentTransform:
-    """Return where an instrument lies while its player has another in the hands, one frame; ``number`` as of
-    `Aside`."""
+    """Return the resting place of an instrument while its player uses another, one frame; ``number`` as in `Aside`."""
     still = player_body(parameters, instrument_map, character, grip, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None
@@ -56,8 +55,9 @@ def _curved(grip: GripPose, skeleton: Skeleton) -> GripPose:
 def player_body(
     parameters: PlayerParameters, instrument_map: InstrumentMap, character: Character, grip: GripPose, body: Body
 ) -> PlayerBody:
-    """Return what does not change with time: the same object for the same body in the same posture, which knows already
-    how far its hands come and its instrument tips."""
+    """Return the time-independent data of a player, including reach of the hands and tilt of the instrument; cached, so
+    that equal bodies in equal postures share one object.
+    """
     curved = _CURVED.step(_curved, grip, character.skeleton)
     return _PLAYERS.step(_made, sys.intern(parameters.posture), instrument_map, character.skeleton, curved, body)
 
@@ -87,8 +87,7 @@ def _made(
 
 
 def _grip_of_lips(lips: Lips, embouchure: EmbouchureWeights) -> FloatArray:
-    """Vector (3,) from where one lip alone would carry the mouthpiece to where it is played, at a middling
-    embouchure."""
+    """Vector (3,) from the mouthpiece's place on one lip to its place while played, at a medium embouchure."""
     morphs = {name: np.array([weight]) for name, weight in usual_morphs(embouchure, lips).items()}
     grip_m: FloatArray = (lips.contact_m(morphs, 1) - lips.carried_m(morphs, 1))[0]
     return grip_m

@@ -1,4 +1,4 @@
-"""Shares of trunk, shoulders, head and instrument in helping a far hand, smoothed over time."""
+"""Distributes the help for a far hand over trunk, shoulders, head and instrument, smoothed over time."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ DRAW_DOWN_RAD, DRAW_RIGHT_RAD = float(np.deg2rad(6.0)), float(np.deg2rad(8.0))
 
 
 def smoothed_help(parts: list[Help], half: int) -> Help:
-    """Help that comes slowly and early enough, and goes slowly, from what is needed in stretches of frames."""
+    """Smooth help so that it begins early and changes slowly, given the needed help in stretches of frames."""
     quick = max(1, round(ROOM_EASE_S / HELP_EASE_S * half))
     swift = max(1, round(SHOULDER_EASE_S / HELP_EASE_S * half))
     sides = parts[0].protraction_rad.keys()
@@ -50,8 +50,9 @@ def smoothed_help(parts: list[Help], half: int) -> Help:
 
 
 def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: float) -> BodyMotion:
-    """Hips and trunk turned to the left, neck and head back; where the head is steadied the trunk leans the other way
-    by ``aside_per_turn``, the head upright."""
+    """Turn hips and trunk to the left, and neck and head back; where the head is steadied, the trunk leans the other
+    way by ``aside_per_turn`` with the head upright.
+    """
     turns, leans = dict(motion.turn_rad), dict(motion.left_rad)
     for shares, sign in ((TRUNK_TURNS, 1.0), (NECK_TURNS_BACK, -1.0)):
         for joint, share in shares.items():
@@ -64,7 +65,7 @@ def turned_to_far_hand(motion: BodyMotion, turn: FloatArray, aside_per_turn: flo
 
 
 def leaned_to_far_hand(motion: BodyMotion, draw: FloatArray, right: FloatArray) -> BodyMotion:
-    """Head and instrument giving way, 0..1, towards a far hand on the right (1) or the left (-1)."""
+    """Move head and instrument, by shares 0..1, towards a far hand on the right (1) or left (-1)."""
     forward = dict(motion.forward_rad)
     for joint, angle_rad in DRAWS_RAD.items():
         forward[joint] = forward[joint] + angle_rad * draw
@@ -77,19 +78,18 @@ def leaned_to_far_hand(motion: BodyMotion, draw: FloatArray, right: FloatArray) 
 
 
 def with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
-    """Help as far as there is room for it. No help stays none however little room there is: so it does not matter
-    which frames are made together."""
+    """Limit help to the available room. Zero help stays zero, so results do not depend on the span of frames."""
     given = softly_capped(help_rad, most_rad, np.clip(most_rad, 1e-9, HELP_EASE_RAD))
     return np.where(help_rad == 0.0, 0.0, given)
 
 
 def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
-    """Smooth limit: the least within ``half`` frames, then a smooth mean as wide."""
+    """Smooth upper limit: the minimum within ``half`` frames, then a smoothing as wide."""
     return np.pi - _eased(np.pi - np.concatenate(parts), half)
 
 
 def _eased(needed: FloatArray, half: int) -> FloatArray:
-    """A slow move that is nowhere less than needed: the largest within ``half`` frames, then a smooth mean as wide.
+    """Smooth curve that is never below the needed values: the maximum within ``half`` frames, then a smoothing as wide.
 
     The outer ``2 * half`` frames are not valid.
     """
@@ -102,8 +102,9 @@ def _eased(needed: FloatArray, half: int) -> FloatArray:
 
 
 def greatest_within(values: FloatArray, half: int) -> FloatArray:
-    """The greatest value (F,) within ``half`` of each; beyond the ends the values go back: as
-    `scipy.ndimage` finds them, without loading it."""
+    """Maximum (F,) within ``half`` frames of each value, mirrored at the ends; equals `scipy.ndimage` without importing
+    it.
+    """
     found, window, width = _symmetric(values, half), 2 * half + 1, 1
     while width < window:
         # Of twice as many each time, the last time of as many as are left.
@@ -114,12 +115,12 @@ def greatest_within(values: FloatArray, half: int) -> FloatArray:
 
 
 def _symmetric(values: FloatArray, half: int) -> FloatArray:
-    """The values, and ``half`` more at each end, which go back as in a mirror."""
+    """Values extended by ``half`` mirrored ones at each end."""
     if half > len(values):
         return np.pad(values, half, mode="symmetric")
     return np.concatenate((values[:half][::-1], values, values[len(values) - half :][::-1]))
 
 
 def least_within(values: FloatArray, half: int) -> FloatArray:
-    """The least value (F,) within ``half`` of each, in the same way."""
+    """Minimum (F,) within ``half`` frames of each value, mirrored at the ends."""
     return -greatest_within(-values, half)

@@ -1,4 +1,4 @@
-"""Turns curves into poses: trunk, instrument, arms, legs and fingers of one player, chunk by chunk."""
+"""Solves poses from curves: trunk, instrument, arms, legs and fingers of one player, in chunks of frames."""
 
 from __future__ import annotations
 
@@ -61,10 +61,10 @@ LEAST_NEAR_PER_M = 1e-3
 
 @dataclass(frozen=True)
 class PlayerBody(StillPlayer):
-    """A player, with what is solved once for all times."""
+    """A player with data computed once for all times."""
 
     def standing_on(self, endpin: Endpin | None) -> PlayerBody:
-        """The player with the instrument on its endpin, where it usually is low enough for that."""
+        """The player with the instrument on its endpin, if its usual place is low enough."""
         if endpin is None:
             return self
         usual = upper_body(self, ContactCurves(self.still, {}, {}, np.zeros(1))).carried
@@ -72,7 +72,7 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def put_aside(self) -> AsidePlace | None:
-        """Return where the instrument lies while another is in the hands."""
+        """Return the resting place of the instrument while another is used; None if there is only one."""
         if self.aside is None:
             return None
         low = replace(self.still, lowered=np.ones(1))
@@ -81,42 +81,42 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def drawn_m(self) -> float:
-        """Return how much nearer a far hand comes when head and instrument give way."""
+        """Return by how many metres a far hand comes nearer when head and instrument give way."""
         return _drawn_m(self)
 
     @cached_property
     def aside_per_turn(self) -> float:
-        """Return how far the trunk leans to the right for each radian it turns to the left, so that the head stays over
-        its place: it is ahead of what the trunk turns about."""
+        """Return the lean of the trunk to the right per turn to the left (radians) that keeps the head in place."""
         return _aside_per_turn(self)
 
     @cached_property
     def eyes_m(self) -> dict[EyeSide, FloatArray]:
-        """Places of the eyes in the head's frame."""
+        """Positions of the eyes in the head's frame."""
         return eyes_from_head_m(self.skeleton)
 
     @cached_property
     def eyes_from_m(self) -> FloatArray:
-        """The middle between the eyes (3,) before any motion."""
+        """Midpoint between the eyes (3,) before any motion."""
         middle_m = 0.5 * (self.eyes_m["left"] + self.eyes_m["right"])
         place_m: FloatArray = self.base.head_m[0] + quaternion.rotate(self.base.head[0], middle_m)
         return place_m
 
     @cached_property
     def bowed_rad(self) -> float:
-        """Angle by which the posture holds the head down."""
+        """Downward angle of the head in the posture."""
         ahead = quaternion.rotate(self.base.head[0], np.array([0.0, 0.0, 1.0]))
         return -math.asin(min(max(float(ahead[1]), -1.0), 1.0))
 
     @cached_property
     def farthest(self) -> dict[str, float]:
-        """Return how far out the controls go that carry a hand, with all help and the body still: 1 where it comes
-        everywhere. What goes no farther can slow down to where it stops."""
+        """Return the largest reachable value of each control that a hand moves along, with all help and a still body: 1
+        if all of it is reachable. Motion can then slow down before the limit.
+        """
         return _farthest(self)
 
 
 def padding_frames(fps: Fraction) -> int:
-    """Frames before and after the requested ones that `solve` needs to look ahead and back."""
+    """Number of additional frames that `solve` needs before and after the requested ones."""
     return 2 * math.ceil(HELP_EASE_S * fps)
 
 
@@ -126,11 +126,11 @@ def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_
     Parameters
     ----------
     curves : ContactCurves
-        With `padding_frames` frames more at both ends than are requested.
+        Curves with `padding_frames` additional frames at both ends.
     first_frame_s : float
         Time of the first requested frame.
     every : int
-        Poses are made of every how many-th frame only; what needs the frames around it is made of all.
+        Compute poses only for every n-th frame; smoothing still uses all frames.
     """
     pad = padding_frames(fps)
     uppers = [upper_body(player, curves[part]) for part in _parts(len(curves))]
@@ -145,9 +145,9 @@ def solve(player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_
 def poses(
     player: PlayerBody, curves: ContactCurves, fps: Fraction, first_frame_s: float, upper: UpperBody | None = None
 ) -> Motion:
-    """The poses of a body that is helped already: frame by frame, none of them needs its neighbours.
+    """Poses of a body whose help is already included; each frame is independent.
 
-    ``upper`` is its upper body where that is known.
+    ``upper`` is its upper body if already computed.
     """
     frames, joints = len(curves), len(player.skeleton.names)
     # Curve by curve in memory: so they are made, and so they are written to files.
@@ -205,7 +205,7 @@ def _parts(frames: int) -> Iterator[slice]:
 def _pose(
     player: PlayerBody, curves: ContactCurves, known: UpperBody
 ) -> tuple[FloatArray, dict[int, FloatArray], InstrumentTransform, dict[str, FloatArray]]:
-    """Hips, local rotations by joint (fingers apart), instrument, and the controls as far as hands carry them."""
+    """Hips, local rotations by joint (without fingers), instrument, and controls limited to the reach of hands."""
     skeleton, motion = player.skeleton, curves.body
     local = {skeleton.index("hips"): known.hips} | known.trunk.local
     curves = replace(curves, controls=controls_within_reach(player, curves, known))
@@ -225,7 +225,7 @@ def _pose(
 
 
 def _look(player: PlayerBody, curves: ContactCurves, head: FloatArray, head_m: FloatArray) -> dict[str, FloatArray]:
-    """Weights of the shapes that turn the eyes: to what they look at, and what a face shows beside it."""
+    """Weights of the morphs that turn the eyes to their target, combined with other eye motion."""
     motion, eyes_m = curves.body, player.eyes_m
     left_rad, down_rad = motion.eyes_yaw_rad, motion.eyes_pitch_rad
     if motion.looks:
@@ -247,7 +247,7 @@ def _look(player: PlayerBody, curves: ContactCurves, head: FloatArray, head_m: F
 
 
 def _late(motion: BodyMotion) -> FloatArray | None:
-    """Return how far (F, 4) elbows are turned from where the chest has them, since they come after it."""
+    """Return the rotation (F, 4) of elbows that lag behind the chest; None without lag."""
     late = motion.elbows_late_rad
     if not late:
         return None
@@ -255,7 +255,7 @@ def _late(motion: BodyMotion) -> FloatArray | None:
 
 
 def needs(player: PlayerBody, curves: ContactCurves) -> Help:
-    """Help that trunk and shoulders must add for far hands, frame by frame."""
+    """Help of trunk and shoulders needed for far hands, frame by frame."""
     return _needs(player, curves, upper_body(player, curves))
 
 
@@ -268,8 +268,9 @@ def _needs(player: PlayerBody, curves: ContactCurves, upper: UpperBody) -> Help:
 
 
 def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> BodyMotion:
-    """The body with trunk and shoulders brought towards far hands; neck and head turn back, so that the lips stay
-    where they are."""
+    """Body motion with trunk and shoulders moved towards far hands; neck and head turn back, so that the lips stay in
+    place.
+    """
     asked, most, short_m = help_given.turn_rad, help_given.most_turn_rad, help_given.short_m
     turn = np.zeros(len(asked))
     if np.any(asked):
@@ -288,8 +289,9 @@ def body_with_help(player: PlayerBody, motion: BodyMotion, help_given: Help) -> 
 
 
 def _drawn_m(player: PlayerBody) -> float:
-    """Return how much nearer to its turned shoulder the far hand comes when head and instrument give way as far as they
-    do."""
+    """Return by how many metres the far hand comes nearer to its turned shoulder when head and instrument give way
+    fully.
+    """
     one, nothing = np.ones(1), np.zeros(1)
     nearer = []
     for hand in player.grip.hands:
@@ -310,7 +312,7 @@ def _drawn_m(player: PlayerBody) -> float:
 
 
 def _aside_per_turn(player: PlayerBody) -> float:
-    """Lean per turn of the trunk, both in radians, that keeps the head in place: by a small turn and a small lean."""
+    """Lean per turn of the trunk, both in radians, that keeps the head in place, computed for a small turn and lean."""
     still, small = replace(player.still, steadied=np.ones(1)), np.array([0.1])
     without, leaning = turned_to_far_hand(still, small, 0.0), turned_to_far_hand(still, small, 1.0)
     at_m = [

@@ -1,4 +1,4 @@
-"""The values that contacts are solved from: a player who keeps still, and curves sampled at some frames."""
+"""Inputs of the contact solvers: a player without motion, and curves sampled at some frames."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from instrument_maps.wind import Stopped, Water
 
 @dataclass(frozen=True)
 class StillPlayer:
-    """Everything about a player that does not change with time, before any contact is solved.
+    """Time-independent data of a player, before contacts are solved.
 
-    ``still`` is the posture before any motion and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is how far
-    playing lips bring the mouthpiece from where one lip alone would carry it, in the head's frame. ``stand`` is there
-    where the instrument stands on the floor, ``aside`` where the musician plays others too. ``water`` says where it is
-    let out, ``stopped`` how a hand closes the bell.
+    ``still`` is the posture and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is the displacement of the
+    mouthpiece between one lip and both playing lips, in the head's frame. ``stand`` is set for an instrument on the
+    floor, ``aside`` if the musician has several. ``water`` is the place of the water key, ``stopped`` the hand position
+    that closes the bell.
     """
 
     skeleton: Skeleton
@@ -47,16 +47,16 @@ class StillPlayer:
 
     @property
     def steps(self) -> bool:
-        """Feet leave their place: not beside an instrument that stands on its pin."""
+        """Return whether feet may leave their place: not next to an instrument on its endpin."""
         return self.stand is None
 
     @property
     def stands_free(self) -> bool:
-        """Hips may leave their place: not on a seat, nor over an instrument that stands on its pin."""
+        """Return whether hips may leave their place: not on a seat, nor with an instrument on its endpin."""
         return not self.place.seated and self.stand is None
 
     def away(self, motion: BodyMotion, carried: InstrumentTransform) -> Away | None:
-        """Return where hands are that leave the instrument; None where all stay."""
+        """Return the placement of hands that leave the instrument; None if none does."""
         if not motion.hands:
             return None
         return hands_off_instrument(self.skeleton, self.base, motion.hands, carried, self.water, self.stopped)
@@ -64,19 +64,19 @@ class StillPlayer:
 
 @dataclass(frozen=True)
 class ContactCurves:
-    """Inputs of the contact solvers, all sampled at the same frames.
+    """Inputs of the contact solvers, sampled at equal frames.
 
     Attributes
     ----------
     controls, morphs : dict of str to (F,) float64
     mouth_open : (F,) float64
-        How far the mouth is open for a breath.
+        Opening of the mouth for a breath.
     placed : dict of str to StationBlend
-        Where the fingers are that leave their home.
+        Positions of fingers away from their home keys.
     raised : (F,) float64 or float
-        How high fingers wait over their keys, 0..1.
+        Height of waiting fingers above their keys, 0..1.
     stowed : (F,) float64 or None
-        How far the instrument is put aside, 0..1; None: not at all.
+        Share of the motion of putting the instrument aside, 0..1; None: never.
     """
 
     body: BodyMotion

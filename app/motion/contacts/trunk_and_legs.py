@@ -1,4 +1,4 @@
-"""Feet, hips, and the upright chain from hips to head, on which contacts are solved."""
+"""Feet, hips, and the chain from hips to head, as base of the contact solvers."""
 
 from __future__ import annotations
 
@@ -37,22 +37,22 @@ FOOT_PARTS = ("heel", "toes", "ahead", "up", "aside", "push")
 
 @dataclass(frozen=True)
 class Stance:
-    """Feet on the ground and hips above them, in the root's frame.
+    """Standing or seated position of feet and hips, in the root's frame.
 
     Attributes
     ----------
     hips_m : (3,) float64
-        Hips before any motion.
+        Position of the hips before motion.
     knee_rad : float
-        Bend of the knees before any motion.
+        Bend of the knees before motion.
     ankles_m, feet : dict of side to (3,) and (4,) float64
-        Place and rotation of both feet; they stay.
+        Position of ankles and rotation of feet, constant.
     seated : bool
-        The hips stay on the seat.
+        Whether the hips stay on the seat.
     balls_m, heels_m : dict of side to (3,) float64
-        From the ankle to the joint of the toes and to the heel, in the foot's frame: what a foot lifts about.
+        Toe joint and heel relative to the ankle in the foot's frame, about which a foot rolls.
     toes : dict of side to int
-        Joints of the toes, where there are any.
+        Toe joints, if any.
     """
 
     hips_m: FloatArray
@@ -67,7 +67,7 @@ class Stance:
 
 
 def stance(skeleton: Skeleton, posture: Posture) -> Stance:
-    """Place feet and hips for a posture: soles as high as at rest, hips over (or behind) the feet."""
+    """Place feet and hips for a posture: soles at rest height, hips over (or behind) the feet."""
     legs = {side: leg(skeleton, side) for side in SIDES}
     rest = rest_positions(skeleton)
     thigh, shank = (float(np.linalg.norm(v)) for v in (legs["left"].upper_vector_m, legs["left"].lower_vector_m))
@@ -100,7 +100,7 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
 
 @dataclass(frozen=True)
 class Footing:
-    """Place of one foot: ankle (F, 3) and rotation (F, 4), and the rotation of its toes (F, 4), None: as at rest."""
+    """Placement of one foot: ankle (F, 3), rotation (F, 4), and rotation of the toes (F, 4; None: at rest)."""
 
     ankle_m: FloatArray
     foot: FloatArray
@@ -108,9 +108,9 @@ class Footing:
 
 
 def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> Footing:
-    """A foot as it stands, or as it is ``moved`` (`app.motion.gestures.feet.feet_moved`).
+    """A foot standing, or ``moved`` (`app.motion.gestures.feet.feet_moved`).
 
-    A heel lifts about the toes, which stay; toes lift about the heel; a step takes all of the foot.
+    A raised heel rotates about the toes, raised toes about the heel; a step moves the whole foot.
     """
     parts = _moved_parts(side, moved)
     ankle_m, foot = (quaternion.repeated(still, frames) for still in (place.ankles_m[side], place.feet[side]))
@@ -130,7 +130,7 @@ def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: 
 
 
 def _ankle_m(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> FloatArray:
-    """The ankle (F, 3) of that footing alone."""
+    """Ankle position (F, 3) of such a foot."""
     parts = _moved_parts(side, moved)
     ankle_m, here = quaternion.repeated(place.ankles_m[side], frames), _where_moved(parts)
     if len(here):
@@ -143,14 +143,14 @@ def _moved_parts(side: Side, moved: Mapping[str, FloatArray]) -> dict[str, Float
 
 
 def _where_moved(parts: Mapping[str, FloatArray]) -> IndexArray:
-    """The frames in which a foot is moved: most of the time it stands, to the bit."""
+    """Frames in which a foot moves; in all others it stands exactly still."""
     if not parts:
         return np.zeros(0, np.intp)
     return np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
 
 
 def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Ankle and foot, before it pushes off, in frames in which it is moved."""
+    """Ankle and foot rotation in frames of motion, before push-off."""
     ankle_m, foot = place.ankles_m[side], place.feet[side]
     heel, toes, ahead_m, up_m, aside_m, _ = (parts.get(name) for name in FOOT_PARTS)
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
@@ -170,10 +170,10 @@ def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple
 
 
 def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[FloatArray, FloatArray]:
-    """Translation (F, 3) and rotation (F, 4) of the hips in the root's frame.
+    """Position (F, 3) and rotation (F, 4) of the hips in the root's frame.
 
-    Standing, the hips come down as the knees bend and as far as the weight lies aside; neither leg is ever too short.
-    Seated, the pelvis leans on the seat.
+    Standing, the hips sink with bent knees and sideways weight, so that neither leg is too short. Seated, the pelvis
+    leans on the seat.
     """
     if place.seated:
         turn = quaternion.columns(motion.hips_forward_rad, 0.0, -motion.hips_roll_rad)
@@ -206,9 +206,10 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
 
 
 def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:
-    """A target that `solve_limb`, which comes to full extension softly, brings exactly to ``target_m``.
+    """Target for `solve_limb` that makes the limb end exactly at ``target_m``, although it approaches full extension
+    softly.
 
-    Up to `STRAIGHTEST` of the limb's length; what is farther away is approached.
+    Exact up to `STRAIGHTEST` of the limb's length, approximate beyond.
     """
     line = target_m - root_m
     distance = np.sqrt(quaternion.dot(line, line))
@@ -227,7 +228,7 @@ def solve_legs(
     hips_rotation: FloatArray,
     feet: Mapping[str, FloatArray],
 ) -> dict[int, FloatArray]:
-    """Rotations of both legs and feet, by joint; the feet stay where the stance has them, or are moved."""
+    """Rotations of legs and feet by joint, with feet standing or moved."""
     frames = len(hips_m)
     rotations: dict[int, FloatArray] = {}
     for side in SIDES:
@@ -245,14 +246,14 @@ def solve_legs(
 
 @dataclass(frozen=True)
 class Trunk:
-    """The chain from hips to head.
+    """Pose of the chain from hips to head.
 
     Attributes
     ----------
     local : dict of int to (F, 4)
-        ``parent_from_joint`` of every joint of the chain but the hips.
+        ``parent_from_joint`` of every joint in the chain except the hips.
     chest, chest_m, head, head_m : arrays
-        World rotation (F, 4) and position (F, 3) of the joint the shoulders hang on, and of the head.
+        World rotation (F, 4) and position (F, 3) of the joint that holds the shoulders, and of the head.
     """
 
     local: dict[int, FloatArray]
@@ -263,7 +264,7 @@ class Trunk:
 
 
 def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> Trunk:
-    """Chain the trunk's angles from the hips to the head."""
+    """Compute the chain from hips to head from the trunk's angles."""
     chest_joint = skeleton.parents[skeleton.index("leftShoulder")]
     hips, head = skeleton.index("hips"), skeleton.index("head")
     chain = [head]
@@ -285,7 +286,7 @@ def trunk(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, mot
 
 
 def torso_forward(skeleton: Skeleton, hips_m: FloatArray, hips_rotation: FloatArray, motion: BodyMotion) -> FloatArray:
-    """Lean forward (F,), radians, of the line from the hips to the top of the chest."""
+    """Forward lean (F,) in radians of the line from the hips to the top of the chest."""
     upper = trunk(skeleton, hips_m, hips_rotation, motion)
     head = skeleton.index("head")
     neck = skeleton.parents[head]

@@ -1,4 +1,4 @@
-"""Hips, trunk and instrument of some frames: what arms and legs are solved on."""
+"""Hips, trunk and instrument at some frames, as base for solving arms and legs."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ pass."""
 
 @dataclass(frozen=True)
 class UpperBody:
-    """Place (F, 3) and rotation (F, 4) of the hips, the trunk, and the instrument."""
+    """Hips (position (F, 3) and rotation (F, 4)), trunk, and instrument."""
 
     hips_m: FloatArray
     hips: FloatArray
@@ -49,7 +49,7 @@ class UpperBody:
 
 
 def joined(parts: Sequence[UpperBody]) -> UpperBody:
-    """Stretches of frames as one."""
+    """Concatenate stretches of frames."""
     if len(parts) == 1:
         return parts[0]
 
@@ -72,7 +72,7 @@ def joined(parts: Sequence[UpperBody]) -> UpperBody:
 
 
 def upper_body(player: StillPlayer, curves: ContactCurves) -> UpperBody:
-    """Build the upper body on which the contacts are solved."""
+    """Compute the upper body on which contacts are solved."""
     hips_m, hips = hips_path(player.place, player.skeleton, curves.body)
     upper = trunk(player.skeleton, hips_m, hips, curves.body)
     carried = _carry(player, curves, upper)
@@ -82,10 +82,10 @@ def upper_body(player: StillPlayer, curves: ContactCurves) -> UpperBody:
 
 
 def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> InstrumentTransform:
-    """Place the instrument: at the lips, or lowered before the body.
+    """Placement of the instrument: at the lips, or lowered in front of the body.
 
-    What head and melody tip beyond the room of the bell, the instrument tips back in the lips; not what the animator
-    does.
+    Tilt from head and melody beyond the bell's range is compensated by tilting the instrument at the lips; the
+    animator's tilt is not.
     """
     played = _played(player, curves, body)
     lowering = curves.body.lowered
@@ -93,8 +93,7 @@ def _carry(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Instrumen
 
 
 def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatArray:
-    """Return where lips have the mouthpiece (F, 3); in a breath one of them alone carries it, and keeps its playing
-    place."""
+    """Return the mouthpiece position (F, 3) at the lips; during a breath only one lip holds it."""
     lips, frames = player.grip.lips, len(curves)
     lips_m = lips.contact_m(curves.morphs, frames)
     # The jaw is far enough down to have left the rim long before the mouth is fully open.
@@ -109,7 +108,7 @@ def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatAr
 
 
 def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> InstrumentTransform:
-    """The instrument at the lips."""
+    """Placement of the instrument at the lips."""
     carriage, base, motion = player.carriage, player.base, curves.body
     pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))
@@ -129,7 +128,7 @@ def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> Instrume
 def _lowered(
     player: StillPlayer, played: InstrumentTransform, body: Trunk, lowering: FloatArray
 ) -> InstrumentTransform:
-    """The instrument on its way before the body, where the chest carries it."""
+    """Placement of the instrument between the lips and its lowered position, carried by the chest."""
     base, lowered = player.base, player.lowered
     with_chest = quaternion.multiply(body.chest, quaternion.conjugate(base.chest))
     base_lips_m = base.head_m + quaternion.rotate(base.head, player.grip.lips.usual_m)

@@ -1,7 +1,7 @@
-"""Wrists kept within their range: the elbow leaves its usual place where the hand would bend too far aside.
+"""Keeps wrists within their range by moving the elbow where the hand would bend sideways too far.
 
-A hand is where its instrument is, so only the elbow is free: it goes round the line from shoulder to wrist. A player
-who lifts the bell lifts the elbows with it. Frame by frame, from nothing but the frame itself.
+The hand's place is given by the instrument, so the elbow rotates about the line from shoulder to wrist, as when a
+player raises the bell. Each frame is computed independently.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ LEAST_SINE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Wrist:
-    """Range of one hand's wrist.
+    """Range of motion of one wrist.
 
     Attributes
     ----------
     axes : (2, 3) float64
-        Of flexion, and of bending aside.
+        Axes of flexion and of sideways bending.
     twist : (3,) float64
-        Axis of the forearm's turn.
+        Axis of forearm rotation.
     low_rad, high_rad : (2,) float64
         The ranges.
     """
@@ -54,18 +54,18 @@ class Wrist:
     high_rad: FloatArray
 
     def aside_rad(self, hand: FloatArray) -> FloatArray:
-        """Angle (F,) aside of ``forearm_from_hand`` (F, 4)."""
+        """Sideways angle (F,) of ``forearm_from_hand`` (F, 4)."""
         aside: FloatArray = np.ascontiguousarray(self._swing(hand)) @ self.axes[1]
         return aside
 
     def outside_rad(self, hand: FloatArray) -> FloatArray:
-        """Return how far (F,) ``forearm_from_hand`` (F, 4) is bent beyond its ranges, any way."""
+        """Return the largest excess (F,) of ``forearm_from_hand`` (F, 4) over its ranges."""
         bent = np.ascontiguousarray(self._swing(hand)) @ self.axes.T
         outside: FloatArray = np.maximum(0.0, np.maximum(bent - self.high_rad, self.low_rad - bent)).max(axis=1)
         return outside
 
     def _swing(self, hand: FloatArray) -> FloatArray:
-        """The shortest turn from the axis of the twist to where that is taken: rotation vectors (F, 3)."""
+        """Rotation vectors (F, 3) of the shortest rotation between the twist axis and its rotated direction."""
         taken = quaternion.rotate(hand, self.twist)
         across = quaternion.cross(self.twist, taken)
         sine = np.sqrt(quaternion.dot(across, across))
@@ -74,7 +74,9 @@ class Wrist:
         return swing
 
     def beyond_rad(self, aside_rad: FloatArray) -> FloatArray:
-        """By how much angles (F,) should be less; exactly 0 well within the range, and where no elbow would help."""
+        """Amount by which sideways angles (F,) should be reduced; 0 well within range and where the elbow cannot
+        help.
+        """
         over = softly_over(aside_rad - self.high_rad[1], EASE_RAD)
         beyond = over - softly_over(self.low_rad[1] - aside_rad, EASE_RAD)
         lost = np.clip(np.abs(beyond) / LOST_RAD - 1.0, 0.0, 1.0)
@@ -84,14 +86,14 @@ class Wrist:
     def relief_rad(
         self, aside_rad: FloatArray, beyond_rad: FloatArray, at: Callable[[FloatArray], FloatArray]
     ) -> FloatArray:
-        """Return how far (F,) the elbow goes round.
+        """Return the rotation (F,) of the elbow about the line from shoulder to wrist.
 
         Parameters
         ----------
         aside_rad, beyond_rad : (F,) float64
-            With the elbow in its usual place.
+            Sideways angle with the elbow in its usual place, and its excess.
         at : callable
-            The angles aside with the elbow gone round so far.
+            Function from elbow rotations to sideways angles.
         """
         slope = (at(np.full(len(aside_rad), PROBE_RAD)) - aside_rad) / PROBE_RAD
         gain = slope**3 / ((slope * slope + STIFF * STIFF) * (slope * slope + VAIN * VAIN))
@@ -121,14 +123,16 @@ def wrists_of(body: Body, profile: SkeletonProfile) -> dict[Side, Wrist]:
 
 @dataclass(frozen=True)
 class BellRoom:
-    """Range in which an instrument tips from the chest while both wrists stay within theirs: down is positive."""
+    """Range of tilt of an instrument relative to the chest within which both wrists stay in range; down positive."""
 
     low_rad: float = -np.inf
     high_rad: float = np.inf
 
     @classmethod
     def within(cls, down_rad: FloatArray, fits: BoolArray) -> BellRoom:
-        """Room around the middle of ascending angles (T,), which is where it is played, as far as the wrists follow."""
+        """Range around the middle of ascending angles (T,), the playing position, within which the wrists can
+        follow.
+        """
         usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
         low, high = misses[misses < usual], misses[misses > usual]
         return cls(
@@ -137,7 +141,7 @@ class BellRoom:
         )
 
     def back_rad(self, down_rad: FloatArray) -> FloatArray:
-        """Correction that brings angles (F,) back into the range; 0 where they are well within."""
+        """Correction that brings angles (F,) into the range; 0 well within it."""
         back: FloatArray = softly_over(self.low_rad - down_rad, ROOM_EASE_RAD)
         return back - softly_over(down_rad - self.high_rad, ROOM_EASE_RAD)
 

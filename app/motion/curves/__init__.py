@@ -1,1 +1,1 @@
-"""Curves of time that all layers are made of."""
+"""Curves of time from which all layers are made."""

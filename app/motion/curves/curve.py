@@ -1,8 +1,8 @@
-"""Curves as values: built once from events, sampled at any times.
+"""Curves of time: built once from events, sampled at any times.
 
-A sample depends on its own time only, never on its neighbours, so a span of a performance sampled alone equals the
-same span of the whole. Moves are minimum-jerk (Flash & Hogan 1985): the profile of an unhurried reach, with no
-velocity and no acceleration at both ends. Its peak speed is 15/8 of the mean, its peak acceleration 10/sqrt(3) d/T².
+Samples are independent of each other, so any part of a performance can be sampled alone with equal results. Moves are
+minimum-jerk (Flash & Hogan 1985), the profile of an unhurried reach: velocity and acceleration are zero at both ends,
+the peak speed is 15/8 of the mean, the peak acceleration 10/sqrt(3) d/T².
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ ROUNDING_S = 1e-9
 
 
 def frame_times(first_frame_s: float, fps: Fraction, first_frame: int, frames: int) -> FloatArray:
-    """Times of ``frames`` frames from frame ``first_frame`` on, seconds; exact to one rounding each."""
+    """Times in seconds of ``frames`` frames from ``first_frame`` on, each rounded once."""
     index = np.arange(first_frame, first_frame + frames, dtype=np.float64)
     return first_frame_s + index * float(fps.denominator) / float(fps.numerator)
 
@@ -40,7 +40,9 @@ EVERYWHERE: FloatArray = np.array([[-np.inf, np.inf]])
 
 
 def rows_changed_s(mine: FloatArray, others: FloatArray, mine_s: FloatArray, others_s: FloatArray) -> FloatArray:
-    """Spans (K, 2) of the rows that are in one table (N, C) and not in the other; ``mine_s`` (N, 2) are a row's own."""
+    """Spans (K, 2) of rows found in only one of two tables (N, C); ``mine_s`` and ``others_s`` (N, 2) are the spans of
+    the rows.
+    """
     shorter = min(len(mine), len(others))
     same = np.all(mine[:shorter] == others[:shorter], axis=1)
     head = shorter if same.all() else int(np.argmin(same))
@@ -56,14 +58,14 @@ def rows_changed_s(mine: FloatArray, others: FloatArray, mine_s: FloatArray, oth
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A value that rests and moves: minimum-jerk segments, held between them.
+    """A value that rests and moves: minimum-jerk segments with constant values in between.
 
     Attributes
     ----------
     start_s, end_s : (S,) float64
-        Segments in order, not overlapping.
+        Segments in order without overlap.
     before, after : (S,) float64
-        Value at a segment's start and end. ``after`` of one is ``before`` of the next.
+        Values at a segment's start and end. ``after`` of one equals ``before`` of the next.
     initial : float
         Value before the first segment.
     """
@@ -96,8 +98,9 @@ class Curve:
         return result
 
     def between(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return, for values that stand for places, the one before, the one after, and the share of the way, (F,)
-        each."""
+        """Return the positions before and after each time and the share of the way between them, (F,) each, for values
+        that are position numbers.
+        """
         rows = self._described(times_s)
         resting = rows[:, 1] == rows[:, 0]
         duration_s = np.where(resting, 1.0, rows[:, 1] - rows[:, 0])
@@ -110,7 +113,7 @@ class Curve:
         return len(self.start_s) == 0
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
-        """Spans (K, 2) outside of which both curves have the same values."""
+        """Spans (K, 2) in seconds outside of which both curves have equal values."""
         if isinstance(other, Trace):
             return EVERYWHERE
         mine = (self.start_s, self.end_s, self.before, self.after)
@@ -127,7 +130,7 @@ class Curve:
         return np.stack((bounds[:-1][differ], bounds[1:][differ]), axis=1)
 
     def _described(self, times_s: FloatArray) -> FloatArray:
-        """(F, 4): what gives the value at each time; equal rows give equal values."""
+        """Data (F, 4) that determines the value at each time; equal rows give equal values."""
         if len(self.start_s) == 0:
             return np.tile([0.0, 0.0, 0.0, self.initial], (len(times_s), 1))
         segment = np.searchsorted(self.start_s, times_s, side="right") - 1
@@ -142,14 +145,14 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """A value that was recorded: samples at equal steps, straight lines between them, the ends hold.
+    """A recorded value: samples at equal steps with linear interpolation; end values extend outwards.
 
     Attributes
     ----------
     start_s, step_s : float
         Sample k is at ``start_s + k * step_s``; ``start_s`` is a multiple of the step.
     values : (K,) float64
-        At least two.
+        At least two samples.
     """
 
     start_s: float
@@ -166,7 +169,7 @@ class Trace:
         return result
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         if isinstance(other, Curve) or other.step_s != self.step_s:
             return EVERYWHERE
         mine, others = (round(trace.start_s / self.step_s) for trace in (self, other))
@@ -185,16 +188,16 @@ class Trace:
 
 
 def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) -> Curve:
-    """A curve from ``(start_s, end_s, value)``: each move starts where the last one ended.
+    """A curve of moves ``(start_s, end_s, value)``, each from the end of the previous one.
 
-    Moves that change nothing are left out. Raises ValueError where they overlap or take no time.
+    Moves without change are dropped. Raises ValueError if moves overlap or take no time.
     """
     table = np.array(segments, dtype=np.float64).reshape(-1, 3)
     return moves_to(table[:, 0], table[:, 1], table[:, 2], initial)
 
 
 def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial: float = 0.0) -> Curve:
-    """The moves of a curve from arrays (S,)."""
+    """A curve of moves given as arrays (S,)."""
     before = np.concatenate(([initial], values[:-1]))[: len(values)]
     kept = values != before
     start_s, end_s, before, after = start_s[kept], end_s[kept], before[kept], values[kept]
@@ -210,7 +213,7 @@ def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial
 
 
 def through(times_s: FloatArray, values: FloatArray) -> Curve:
-    """A curve that passes ``values`` at ascending ``times_s`` and moves all the time between them."""
+    """A curve that passes through ``values`` at ascending ``times_s`` and stops at each."""
     if len(times_s) == 0:
         return moves(())
     return Curve(times_s[:-1], times_s[1:], values[:-1], values[1:], float(values[0]))
@@ -218,9 +221,10 @@ def through(times_s: FloatArray, values: FloatArray) -> Curve:
 
 @dataclass(frozen=True, eq=False)
 class Envelopes:
-    """Raised spans that may overlap: up from ``start_s`` to ``full_s``, level, down from ``fall_s`` to ``end_s``.
+    """Raised spans that may overlap: rising from ``start_s`` to ``full_s``, level, falling from ``fall_s`` to
+    ``end_s``.
 
-    All arrays are (N,) float64; ``height`` is the level in between.
+    All arrays are (N,) float64; ``height`` is the level.
     """
 
     start_s: FloatArray
@@ -230,13 +234,13 @@ class Envelopes:
     height: FloatArray
 
     def changed_s(self, other: Envelopes) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [0, 3]], others[:, [0, 3]])
 
     @property
     def spans_s(self) -> FloatArray:
-        """(N, 2): where it may be raised."""
+        """Spans (N, 2) in seconds in which it may be raised."""
         return np.stack((self.start_s, self.end_s), axis=1)
 
     @property
@@ -245,13 +249,13 @@ class Envelopes:
 
     @classmethod
     def of(cls, rows: Sequence[tuple[float, float, float, float, float]] | FloatArray) -> Envelopes:
-        """A curve of rows (start_s, full_s, fall_s, end_s, height); times that run backwards are put in order."""
+        """Make it from rows (start_s, full_s, fall_s, end_s, height); times in wrong order are sorted."""
         table = np.array(rows, dtype=np.float64).reshape(-1, 5)
         table[:, :4] = np.maximum.accumulate(table[:, :4], axis=1)
         return cls(table[:, 0], table[:, 1], table[:, 2], table[:, 3], table[:, 4])
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """The highest of the raised spans at each of the ascending times, (F,) float64; 0 outside them."""
+        """Largest value of the raised spans at each of the ascending times, (F,); 0 outside them."""
         result = np.zeros(len(times_s))
         first = np.searchsorted(times_s, self.start_s, side="left")
         last = np.searchsorted(times_s, self.end_s, side="right")
@@ -271,7 +275,7 @@ class Envelopes:
 
 
 def bump(times_s: FloatArray, centre_s: float, half_width_s: float) -> FloatArray:
-    """A smooth bump of height 1 whose greatest acceleration, 8 / half_width², lies at its centre; 0 outside.
+    """A smooth bump of height 1 with its largest acceleration, 8 / half_width², at the centre; 0 outside.
 
     ``(1 - u²)⁴``; the side lobes of its second derivative stay below 0.65 of the centre's.
     """
@@ -295,7 +299,9 @@ class Noise:
 
     @classmethod
     def of(cls, random: np.random.Generator, low_hz: float, high_hz: float, terms: int = 4) -> Noise:
-        """Draw noise with frequencies spread log-evenly over ``low_hz`` .. ``high_hz``, weaker towards the top."""
+        """Create noise with frequencies spread logarithmically between ``low_hz`` and ``high_hz``, weaker at the
+        top.
+        """
         edges = np.geomspace(low_hz, high_hz, terms + 1)
         frequency_hz = random.uniform(edges[:-1], edges[1:])
         weight = 1.0 / np.sqrt(frequency_hz)

@@ -1,4 +1,4 @@
-"""Curves that go where gestures go."""
+"""Curves that follow the amounts of gestures."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ QUICK_S = 0.6
 
 
 def follow(events: Sequence[GestureEvent], transition_s: float) -> Curve:
-    """A value that goes to each gesture's amount within ``transition_s`` of its start, and stays."""
+    """A curve that moves to each gesture's amount within ``transition_s`` of its start and stays."""
     return moves_to(*_targets(events, transition_s).T)
 
 
 def path(events: Sequence[GestureEvent]) -> Path:
-    """A value that goes to each gesture's amount over the whole gesture, and does not stop at what it passes."""
+    """A curve that moves to each gesture's amount over the whole gesture, without stopping at values it passes."""
     return Path.through(_targets(events, None))
 
 
 def _targets(events: Sequence[GestureEvent], transition_s: float | None) -> FloatArray:
-    """Return where gestures go and when: ``start_s``, ``end_s`` and value, (S, 3).
+    """Return ``start_s``, ``end_s`` and value, (S, 3), of the moves to gestures' amounts.
 
-    It goes back to 0 where the next gesture is more than its own length (at least a second) away.
+    Returns to 0 if the next gesture is farther away than its own length (at least a second).
     """
     rows = [(event.start_s, event.end_s, event.amount) for event in events]
     start_s, end_s, amount = np.array(rows, np.float64).reshape(-1, 3).T

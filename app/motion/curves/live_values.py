@@ -1,8 +1,7 @@
-"""Values that follow what is only known once it happens: they start from wherever they are, and never jump.
+"""Values that follow live input: they continue from their current state without jumps.
 
-A `Reach` is a minimum-jerk move from a moving state (Flash & Hogan 1985), a `Spring` follows a value that changes all
-the time, and a `Journey` goes from place to place. All of them keep their state only, so an hour takes no more memory
-than a second.
+`Reach` is a minimum-jerk move from a moving state (Flash & Hogan 1985), `Spring` follows a changing value, `Journey`
+moves between discrete places. They store only their state, so memory is constant.
 """
 
 from __future__ import annotations
@@ -21,8 +20,9 @@ long as it takes."""
 
 @dataclass(frozen=True)
 class Reach:
-    """A move to ``target``, where it comes to rest at ``end_s``; ``value``, ``speed`` and ``push`` (the second
-    derivative) are those at ``start_s``."""
+    """A move to ``target`` that ends at ``end_s``; ``value``, ``speed`` and ``push`` (second derivative) apply at
+    ``start_s``.
+    """
 
     start_s: float
     end_s: float
@@ -33,24 +33,24 @@ class Reach:
 
     @classmethod
     def at_rest(cls, value: float) -> Reach:
-        """A value that does not move."""
+        """A value at rest."""
         return cls(0.0, LEAST_MOVE_S, value, 0.0, 0.0, value)
 
     def at(self, now_s: float) -> float:
-        """The value at a time; one that is turned back at speed goes a little beyond its ends."""
+        """The value at a time; it may overshoot if reversed at speed."""
         return self._state(now_s)[0]
 
     def speed_at(self, now_s: float) -> float:
-        """Return how fast the value changes at a time."""
+        """Return the value's rate of change per second at a time."""
         return self._state(now_s)[1]
 
     def toward(self, now_s: float, target: float, length_s: float) -> Reach:
-        """Turn to another target from wherever the value is, with the speed it has."""
+        """Return a move to another target from the current value and speed."""
         value, speed, push = self._state(now_s)
         return Reach(now_s, now_s + max(length_s, LEAST_MOVE_S), value, speed, push, target)
 
     def ended(self, now_s: float) -> bool:
-        """Return whether it has come to rest."""
+        """Return whether the value has come to rest."""
         return now_s >= self.end_s
 
     def _state(self, now_s: float) -> tuple[float, float, float]:
@@ -70,12 +70,12 @@ class Reach:
 
 
 class Spring:
-    """A value that follows another one, critically damped: it neither jumps nor swings.
+    """A value that follows another, critically damped: no jumps, no oscillation.
 
     Parameters
     ----------
     settles_s : float
-        After this long it is as good as there.
+        Seconds until it has practically arrived.
     """
 
     def __init__(self, value: float, settles_s: float) -> None:
@@ -83,7 +83,7 @@ class Spring:
         self._rate = SETTLED / settles_s
 
     def follow(self, target: float, elapsed_s: float) -> float:
-        """Go on for a while towards a target that rests meanwhile."""
+        """Advance towards a target that is constant during ``elapsed_s``."""
         off = self.value - target
         drive = self.speed + self._rate * off
         left = math.exp(-self._rate * elapsed_s)
@@ -93,10 +93,10 @@ class Spring:
 
 
 class Journey:
-    """Place of a moving object, or the two places it is between.
+    """An object that moves between discrete places along given ways.
 
-    A finger on the way to one place when another is requested first goes on to the nearer end: ways lead from place
-    to place only.
+    If another place is requested on the way, the object first continues to the nearer end, since ways only connect
+    places.
     """
 
     def __init__(self) -> None:
@@ -105,7 +105,7 @@ class Journey:
         self._length_s = LEAST_MOVE_S
 
     def go(self, now_s: float, goal: int, length_s: float) -> None:
-        """Begin to move to a value; the way takes this long."""
+        """Start moving to a place; the way takes ``length_s``."""
         self._arrive(now_s)
         if goal == self.goal:
             return
@@ -121,7 +121,7 @@ class Journey:
             self._share = self._share.toward(now_s, end, length_s)
 
     def at(self, now_s: float) -> tuple[int, int, float]:
-        """The place before, the one after, and how far it is on its way between them, 0..1."""
+        """The place before, the place after, and the share of the way between them, 0..1."""
         self._arrive(now_s)
         if self.before == self.after:
             return self.after, self.after, 1.0

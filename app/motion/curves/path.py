@@ -1,4 +1,4 @@
-"""A value that passes places without stopping at each of them: what a body does that swings."""
+"""A smooth curve through values without stopping at each, for swinging body motion."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from app.motion.curves.curve import ROUNDING_S, rows_changed_s
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """A smooth curve through knots: at rest where it turns round or stays, else moving, nowhere with a jerk.
+    """A smooth curve through knots: at rest where it reverses or stays, otherwise moving, without jerk.
 
-    Between two knots it is the quintic with these values and slopes and no acceleration at both ends; of a way from
-    rest to rest that is the minimum-jerk move. Before the first knot and after the last the value is theirs.
+    Between two knots it is the quintic with these values and slopes and no acceleration at the ends; from rest to rest
+    this is the minimum-jerk move. Outside the knots it is constant.
 
     Attributes
     ----------
     times_s, values, slopes : (K,) float64
-        Knots in order, and value and slope at each.
+        Times of the knots in order, with value and slope at each.
     """
 
     times_s: FloatArray
@@ -30,10 +30,9 @@ class Path:
 
     @classmethod
     def through(cls, segments: Sequence[tuple[float, float, float]] | FloatArray) -> Path:
-        """A path of rows ``(start_s, end_s, value)``: it goes to each value over its span, from where it was, 0 at
-        first.
+        """A path from rows ``(start_s, end_s, value)``: it moves to each value over the span, starting at 0.
 
-        Raises ValueError where spans overlap or take no time.
+        Raises ValueError if spans overlap or take no time.
         """
         table = np.array(segments, dtype=np.float64).reshape(-1, 3)
         start_s, end_s, values = table.T
@@ -51,7 +50,7 @@ class Path:
 
     @classmethod
     def of(cls, times_s: FloatArray, values: FloatArray) -> Path:
-        """Through values at ascending times; it never goes beyond two neighbours between them."""
+        """A path through values at ascending times, without overshoot between neighbours."""
         slopes = np.zeros(len(times_s))
         if len(times_s) > 2:
             steep = np.diff(values) / np.diff(times_s)
@@ -78,7 +77,7 @@ class Path:
         return moved
 
     def changed_s(self, other: Path) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         spans = rows_changed_s(self._rows, other._rows, self._rows[:, :2], other._rows[:, :2])
         ends = [
             span

@@ -1,4 +1,4 @@
-"""Random numbers that depend on names and places in the score only, so that a second run is identical to the bit."""
+"""Random numbers that depend only on names and score places, so that runs are bit-identical."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def generator(*names: str | int) -> np.random.Generator:
-    """A generator for one purpose, seeded by a stable hash of what names it (player, seed, layer, event ...)."""
+    """A random generator for one purpose, seeded by a stable hash of its names (player, seed, layer, event ...)."""
     text = "\x1f".join(str(name) for name in names)
     digest = hashlib.blake2b(text.encode(), digest_size=16).digest()
     return np.random.Generator(np.random.Philox(int.from_bytes(digest, "little")))

@@ -1,4 +1,4 @@
-"""Bounds that are approached softly."""
+"""Smooth versions of minimum and maximum."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:
 
 
 def softly_capped(x: FloatArray, most: FloatArray | float, ease: FloatArray | float) -> FloatArray:
-    """``min(x, most)``, rounded where it bends."""
+    """``min(x, most)`` with a rounded corner."""
     return most - softly_over(most - x, ease)

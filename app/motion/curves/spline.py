@@ -1,7 +1,7 @@
-"""Several slow values on one grid of time, smooth between its points.
+"""Several slow values on a common time grid, smooth between its points.
 
-Uniform cubic B-splines: two derivatives without a jump, and a sample depends on four points around it. The grid is that
-of absolute time, so what lies before or after changes nothing.
+Uniform cubic B-splines: two continuous derivatives, and each sample depends on four points. The grid is in absolute
+time, so distant values have no influence.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ REACH = 2
 
 @dataclass(frozen=True, eq=False)
 class Spline:
-    """Values at equal steps; beyond the ends the last ones hold.
+    """Values at equal steps; end values extend outwards.
 
     Attributes
     ----------
@@ -28,9 +28,9 @@ class Spline:
         Point k is at ``(first + k) * step_s``.
     step_s : float
     values : (C, K) float64, or whole numbers
-        A row for each value; at least one point. Whole numbers of a few bytes are a fraction of an hour's memory.
+        A row for each value, at least one point. Small integers save memory in long pieces.
     one : float
-        What 1 is among the values.
+        Stored number that represents 1.
     """
 
     first: int
@@ -39,7 +39,7 @@ class Spline:
     one: float = 1.0
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """(C, F) at any times."""
+        """Values (C, F) at any times."""
         place = times_s / self.step_s
         before = np.floor(place)
         share = place - before
@@ -65,7 +65,7 @@ class Spline:
         return result
 
     def changed_s(self, other: Spline) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         if (other.step_s, other.one, len(other.values)) != (self.step_s, self.one, len(self.values)):
             return EVERYWHERE
         first = min(self.first, other.first)

@@ -1,1 +1,1 @@
-"""Faces and gaze as curves."""
+"""Curves of faces and gaze."""

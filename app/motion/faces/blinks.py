@@ -1,7 +1,7 @@
-"""Blinks: at the ends of phrases, in breaths and rests, seldom within a phrase, never in a quick run or on an entry
-(people blink about 17 times a minute at rest, and much less at a visual task: Bentivoglio et al. 1997).
+"""Blinks: at phrase ends, in breaths and rests, rarely within a phrase, never in a fast run or on an entry (people
+blink about 17 times a minute at rest, and much less in a visual task: Bentivoglio et al. 1997).
 
-Chances belong to places in time, so that an edit changes the blinks around it and no others.
+Random values depend on places in time, so an edit only changes nearby blinks.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ HALF = (0.15, 0.55)
 
 
 def blinks_of(plan: PlayerPlan, silences: Silences, seed: int, amount: float) -> tuple[Envelopes, Envelopes]:
-    """Left and right lids of a whole performance; ``amount`` is how often they close, 1 as usual."""
+    """Closure of the left and right lids over a performance; ``amount`` is the frequency, 1 is usual."""
     random = generator(plan.player_id, seed, "blink")
     lag_s, shut = float(random.uniform(*LAG_S)), float(random.uniform(*LEAST_SHUT))
     left_late = bool(random.random() < 0.5)
@@ -55,7 +55,7 @@ def _closing(starts_s: FloatArray, heights: FloatArray) -> Envelopes:
 def _starts(
     plan: PlayerPlan, silences: Silences, table: FloatArray, amount: float, random: np.random.Generator
 ) -> tuple[FloatArray, FloatArray]:
-    """Starts of blinks, and how far they close the eyes."""
+    """Start times of blinks, and the closure of each."""
     frame = plan.time_frame
     breaths_s = silences.breaths_s
     # By the place in the score: another breath has another chance.

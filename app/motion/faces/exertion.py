@@ -1,8 +1,8 @@
-"""Exertion and direction of the music as the face shows them: slow curves from the notes of a plan.
+"""Slow curves of a face from the notes of a plan: exertion, and the direction of the music.
 
-All of it is worked out in whole numbers on a grid of absolute time, so that a note far away changes not even the last
-bit: after an edit only what is near it is another face. What lasts long (where the melody goes, a phrase, the air left,
-tired lips) follows the music as it was planned: lips set by hand for a note change its load alone.
+Computed in integers on an absolute time grid, so that distant notes have no influence, not even in the last bit. Slow
+quantities (direction of melody, phrase, remaining air, tired lips) follow the generated plan: lips set by hand only
+change the momentary load.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ AFTER_S: Final = 8.0
 
 
 class Exertion(NamedTuple):
-    """At some times, each (F,) float64 0..1, but for ``contour`` and ``swell`` from -1 to 1; see `FaceMotion`."""
+    """Quantities at some times, each (F,), 0..1, but ``contour`` and ``swell`` -1..1; see `FaceMotion`."""
 
     working: FloatArray
     strain: FloatArray
@@ -65,7 +65,7 @@ class Exertion(NamedTuple):
 
 @dataclass(frozen=True)
 class Lungs:
-    """Duration of a full breath at mezzoforte, and its change with loudness."""
+    """Seconds that a full breath lasts at mezzoforte, and its change with loudness."""
 
     full_s: float
     air: Air | None = None
@@ -77,7 +77,7 @@ class Lungs:
 
 
 def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
-    """The members of `Exertion` of a whole plan."""
+    """Compute the `Exertion` curves of a whole plan."""
     frame = plan.time_frame
     first = int(np.floor(frame.first_frame_s / STEP_S)) - 1
     count = int(np.ceil((frame.end_s + AFTER_S) / STEP_S)) - first
@@ -109,7 +109,7 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
 
 
 def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: BoolArray) -> Whole:
-    """Load of the notes, on the grid."""
+    """Load of the notes on the grid."""
     share = face.load
     cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
     return _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))
@@ -118,9 +118,9 @@ def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatA
 def _asked(
     plan: PlayerPlan, at_s: FloatArray, note: IntArray, sounds: BoolArray, *, as_planned: bool
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Tension, air and effort on the grid, 0 in silences: as they were recorded where they were, else by the notes.
+    """Tension, air and effort on the grid, 0 in silences; recorded values where available, otherwise by note.
 
-    ``as_planned`` leaves out what was set by hand.
+    ``as_planned`` excludes values set by hand.
     """
     events, traces = plan.embouchures, plan.traces
     rows = [
@@ -152,14 +152,14 @@ def _sum(values: Whole, before_s: float, after_s: float) -> Whole:
 
 
 def _mean(values: Whole, before_s: float, after_s: float) -> Whole:
-    """Averaged twice: over a window that falls off to both sides."""
+    """Mean over a window, applied twice for a smooth fall-off."""
     for _ in range(2):
         values = _sum(values, before_s, after_s) // (round(before_s / STEP_S) + round(after_s / STEP_S) + 1)
     return values
 
 
 def _apart(values: Whole, playing: Whole) -> Whole:
-    """Return how far what is played here is above what is played around it; nothing in a rest."""
+    """Return the excess of the notes over the surrounding ones; 0 in a rest."""
     sounds = np.flatnonzero(playing)
     here, around = (
         _sum(values, width_s, width_s)[sounds] // _sum(playing, width_s, width_s)[sounds]
@@ -171,7 +171,7 @@ def _apart(values: Whole, playing: Whole) -> Whole:
 
 
 def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
-    """Grows with the mean of a heavy load, and passes when it is over."""
+    """Strain that grows with the mean of a heavy load and decays after it."""
     heavy = np.maximum(load - round(LIGHT * ONE), 0)
     grown = _mean(heavy, rise_s / 2.0, 0.0) * ONE // round((1.0 - LIGHT) * ONE)
     steps = round(decay_s / STEP_S)
@@ -185,7 +185,7 @@ def _strain(load: Whole, rise_s: float, decay_s: float) -> Whole:
 
 
 def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: BoolArray, at_s: FloatArray) -> Whole:
-    """Return how much of the last breath's air is used up."""
+    """Return the share of the last breath's air that is used up."""
     rate = _whole(np.where(sounds, air_rate(loudness, lungs.air), 0.0))
     used = np.cumsum(rate, dtype=np.int64)
     breaths = [event for event in plan.breaths if event.draws_air]
@@ -218,7 +218,7 @@ def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: Floa
 
 
 def _tired(load: Whole) -> Whole:
-    """Tiredness after a long time without a rest; in steps, so that one other note often changes nothing."""
+    """Tiredness of the lips after a long time without rest; in steps, so that single notes rarely change it."""
     mean = _sum(load, TIRES_S, 0.0) // round(TIRES_S / STEP_S)
     more = (mean - round(TIRED_FROM * ONE)) * ONE // round((TIRED_AT - TIRED_FROM) * ONE)
     step = ONE // TIRED_STEPS

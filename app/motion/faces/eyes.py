@@ -1,8 +1,8 @@
-"""Both eyes on what is looked at, and the weights of ARKit's eyeLook shapes that say the same.
+"""Directs both eyes at a target, and converts directions to weights of ARKit's eyeLook shapes.
 
-A target is a point in the player's space, so that eyes stay on it while the head moves, and converge on what is near.
-A shape at its whole weight turns an eye by `SHAPES_RAD`; between, vertices go straight, and the weights are those with
-which the middle of the iris lies exactly in the line of sight.
+A target is a point in the player's space, so that eyes stay on it while the head moves and converge on near targets. A
+shape at full weight turns an eye by `SHAPES_RAD`; in between, vertices move linearly, and weights are chosen so that
+the centre of the iris is exactly in the line of sight.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def eye_joint(side: EyeSide) -> str:
 
 
 def eyes_from_head_m(skeleton: Skeleton) -> dict[EyeSide, FloatArray]:
-    """Places (3,) of the eyes in the head's frame, usual ones where the skeleton has none."""
+    """Positions (3,) of the eyes in the head's frame; average ones if the skeleton has no eyes."""
     mirrored = np.array([-1.0, 1.0, 1.0])
     found: dict[EyeSide, FloatArray] = {"left": USUAL_EYE_M, "right": USUAL_EYE_M * mirrored}
     if all(eye_joint(side) in skeleton.names for side in EYE_SIDES):
@@ -58,15 +58,15 @@ def eyes_from_head_m(skeleton: Skeleton) -> dict[EyeSide, FloatArray]:
 def directions_to(
     target_m: FloatArray, head: FloatArray, head_m: FloatArray, eyes_m: Mapping[EyeSide, FloatArray]
 ) -> dict[EyeSide, FloatArray]:
-    """Line of sight (F, 3) of each eye in the head's frame, unit, as far aside as eyes go.
+    """Unit line of sight (F, 3) of each eye in the head's frame, limited to the eyes' range.
 
     Parameters
     ----------
     target_m, head_m : (F, 3) float64
     head : (F, 4) float64
-        Place and rotation of the head in the target's space.
+        Rotation of the head in the target's space; ``head_m`` is its position.
     eyes_m : mapping of str to (3,) float64
-        As of `eyes_from_head_m`.
+        Eye positions, from `eyes_from_head_m`.
     """
     middle_m = 0.5 * (eyes_m["left"] + eyes_m["right"])
     way = quaternion.rotate(quaternion.conjugate(head), target_m - head_m) - middle_m
@@ -80,13 +80,12 @@ def directions_to(
 
 
 def point(yaw_rad: FloatArray, down_rad: FloatArray, away_m: FloatArray) -> FloatArray:
-    """Point (F, 3) at a distance in a direction: left and down are positive."""
+    """Point (F, 3) at a distance and direction; left and down are positive."""
     return away_m[..., None] * _direction(yaw_rad, -down_rad)
 
 
 def eye_turn(sight: FloatArray) -> FloatArray:
-    """Rotation (F, 4) of an eye in the head that brings its line of sight from straight ahead to a direction, without
-    rolling about it (Listing's law)."""
+    """Rotation (F, 4) of an eye from straight ahead to a direction, without roll (Listing's law)."""
     across = np.hypot(sight[..., 0], sight[..., 1])
     angle = np.arctan2(across, sight[..., 2])
     scale = np.where(across > 1e-12, angle / np.maximum(across, 1e-12), 1.0)
@@ -96,7 +95,7 @@ def eye_turn(sight: FloatArray) -> FloatArray:
 
 
 def weights_for(side: EyeSide, sight: FloatArray) -> dict[str, FloatArray]:
-    """Weights 0..1 (F,) of the four shapes of an eye with which the middle of its iris lies in a direction (F, 3)."""
+    """Weights 0..1 (F,) of the four shapes of an eye for which the centre of its iris is in a direction (F, 3)."""
     ahead = np.maximum(sight[..., 2], 1e-6)
     left, up = sight[..., 0] / ahead, sight[..., 1] / ahead
     outwards = left if side == "left" else -left
@@ -110,7 +109,7 @@ def weights_for(side: EyeSide, sight: FloatArray) -> dict[str, FloatArray]:
 
 
 def sight_by(side: EyeSide, weights: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-    """Direction (F, 3), unit, in which the middle of an iris lies by the shapes' weights; those not named are 0."""
+    """Unit direction (F, 3) of the centre of an iris for shape weights; missing ones are 0."""
     place = np.tile([0.0, 0.0, 1.0], (frames, 1))
     for way in SHAPES_RAD:
         weight = weights.get(shape_name(side, way))

@@ -1,6 +1,6 @@
 """Curves of a face from a plan: embouchure, breath, tongue, effort, expressions, exertion.
 
-`app.motion.faces.morph_weights` makes the weights of a character's morphs of them.
+`app.motion.faces.morph_weights` converts them to a character's morph weights.
 """
 
 from __future__ import annotations
@@ -36,8 +36,9 @@ SHALLOWEST = 0.5
 
 
 def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
-    """A value (N,) that is reached at each onset, held, and (``rest_value``) left in rests longer than `HOLD_S`;
-    the notes are (N, 2) starts and ends."""
+    """A curve that reaches a value (N,) at each onset, holds it, and returns to ``rest_value`` in rests longer than
+    `HOLD_S`; notes are (N, 2) starts and ends.
+    """
     initial = rest_value or 0.0
     if not len(spans_s):
         return moves((), initial)
@@ -65,12 +66,12 @@ def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_valu
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """A value of every embouchure, (N,) or (N, 2): compared by its numbers, which costs less than making curves."""
+    """A value of every embouchure, (N,) or (N, 2); comparing it is cheaper than making curves."""
 
     values: FloatArray
 
     def __eq__(self, other: object) -> bool:
-        """Return whether the numbers are the same."""
+        """Return whether the values are equal."""
         return isinstance(other, Column) and np.array_equal(self.values, other.values)
 
     def __hash__(self) -> int:
@@ -90,7 +91,7 @@ def _at_lips(spans: Column) -> Curve:
 
 
 def _tension(spans: Column, tensions: Column, traces: SampledCurves | None, embouchure_tension: float) -> Curve | Trace:
-    """Tension as recorded, or else from note to note; so are effort and air."""
+    """Lip tension as recorded, or else from note to note."""
     if traces is None:
         return _tracked(spans.values, np.minimum(embouchure_tension * tensions.values, 1.0), SHIFT_S, None)
     return Trace(traces.start_s, traces.step_s, np.minimum(embouchure_tension * traces.tension, 1.0))
@@ -109,7 +110,7 @@ def _air(spans: Column, airs: Column, traces: SampledCurves | None) -> Curve | T
 
 
 def breath_opening(plan: PlayerPlan) -> Envelopes:
-    """Return how far the mouth is open for air: up through a breath's first part, shut again at its end."""
+    """Return the opening of the mouth for breaths: opening in a breath's first part, closed at its end."""
     rows = []
     for breath in plan.breaths:
         if not breath.draws_air:
@@ -133,7 +134,7 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
 
 @dataclass(frozen=True)
 class Drivers:
-    """Inputs of the face at some frames: members as of `FaceCurves`, each (F,) float64."""
+    """Inputs of the face at some frames: fields as in `FaceCurves`, each (F,)."""
 
     at_lips: FloatArray
     tension: FloatArray
@@ -157,15 +158,15 @@ class FaceCurves:
     Attributes
     ----------
     at_lips : Curve
-        1 while the lips are formed.
+        1 while the lips are formed around the mouthpiece.
     tongue, tongue_back, push : Envelopes
-        The tongue's strokes, and the breath behind them (`app.motion.faces.tongue_strokes`).
+        Tongue strokes, and the breath pushes behind them (`app.motion.faces.tongue_strokes`).
     firm, eased, vibrato : Curve
-        What the lips do within notes and between them (`app.motion.faces.lips_within_notes`).
+        Motion of the lips within and between notes (`app.motion.faces.lips_within_notes`).
     exertion : Spline
-        Members of `Exertion`.
+        Fields of `Exertion`.
     expressions : dict of str to Envelopes
-        By name.
+        Strength of expressions by name.
     """
 
     at_lips: Curve

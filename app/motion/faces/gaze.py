@@ -1,9 +1,8 @@
-"""Gaze of a player, and the turn of the head with it.
+"""Gaze of a player, and the head motion that follows it.
 
-The eyes read the music line by line, leave it for the glances of the plan and for a cue, wander in rests and now and
-then while playing, and meet the audience at the end. Saccades last 50 ms and more (Bahill et al.
-1975); the head follows larger ones some 100 ms later, and more slowly. Whatever chance decides belongs to a place in
-time, so that an edit changes only what is near it.
+The eyes read the music line by line, leave it for planned glances and cues, wander in rests and occasionally while
+playing, and look at the audience at the end. Saccades last 50 ms or more (Bahill et al. 1975); the head follows larger
+ones about 100 ms later and more slowly. Random values depend on places in time, so an edit only changes what is near.
 """
 
 from __future__ import annotations
@@ -66,7 +65,7 @@ is."""
 
 @dataclass(frozen=True)
 class GazeFrames:
-    """Eyes and lids in some frames: members as of `Gaze`, each (F,) float64."""
+    """Eyes and lids at some frames: fields as in `Gaze`, each (F,)."""
 
     yaw_rad: FloatArray
     pitch_rad: FloatArray
@@ -79,8 +78,8 @@ class GazeFrames:
 
 
 def with_instrument(look: GazeFrames, lowered: FloatArray) -> GazeFrames:
-    """The look of a head with an instrument at its mouth: it turns little, since the hands cannot follow it far, and
-    the eyes do the rest as far as they go.
+    """Limit the head's part of a look while the instrument is at the mouth, since hands cannot follow far; the eyes
+    compensate as far as they can.
 
     Parameters
     ----------
@@ -96,21 +95,20 @@ def with_instrument(look: GazeFrames, lowered: FloatArray) -> GazeFrames:
 
 @dataclass(frozen=True)
 class Gaze:
-    """Direction of the eyes in the world, and the lids.
+    """Direction of the eyes in the world, and closure of the lids.
 
     Attributes
     ----------
     yaw_rad, pitch_rad : Curve
-        Left and down are positive.
+        Direction; left and down are positive.
     near_per_m : Curve
-        One divided by the distance of what is looked at.
+        Reciprocal of the target's distance.
     own : Curve
-        1: the directions are from the eyes and the head as the posture holds them, 0: from above the feet and level,
-        as places on the stage are.
+        Reference of the directions: 1: eyes and head in the posture; 0: above the feet and level, like stage places.
     head : Spline
-        Yaw and pitch of what the head follows of it.
+        Yaw and pitch that the head follows.
     left_lid, right_lid : Envelopes
-        Closed at 1.
+        1 is closed.
     """
 
     yaw_rad: Curve
@@ -122,7 +120,7 @@ class Gaze:
     right_lid: Envelopes
 
     def sample(self, times_s: FloatArray) -> GazeFrames:
-        """Return where the eyes look at ascending times."""
+        """Sample the gaze at ascending times."""
         head_yaw_rad, head_pitch_rad = self.head.sample(times_s)
         turned_rad = HEAD_TURNS * head_yaw_rad
         return GazeFrames(
@@ -138,12 +136,12 @@ class Gaze:
 
 
 class Watching(NamedTuple):
-    """Influences on a gaze besides the plan.
+    """Influences on a gaze other than the plan.
 
     Attributes
     ----------
     gaze, blink : float
-        How much the eyes leave the music, and how often the lids close; 1 as usual.
+        Frequency of looks away from the music, and of blinks; 1 is usual.
     """
 
     seed: int = 0
@@ -152,7 +150,7 @@ class Watching(NamedTuple):
 
 
 def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
-    """Plan the fixations and blinks of a whole performance, seeded by the player."""
+    """Plan fixations and blinks of a whole performance, with the player's seed."""
     at_s, looks = _fixations(plan, silences, watching)
     yaw, pitch = looks.yaw, looks.pitch
     far = np.hypot(np.diff(yaw, prepend=yaw[:1]), np.diff(pitch, prepend=pitch[:1]))
@@ -172,7 +170,7 @@ def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
 
 
 class _Fixed(NamedTuple):
-    """Fixations of the eyes, members as of `Gaze` and what share of the turn the head follows; (K,) each."""
+    """Fixations of the eyes, fields as in `Gaze`, and the share that the head follows; (K,) each."""
 
     yaw: FloatArray
     pitch: FloatArray
@@ -182,7 +180,7 @@ class _Fixed(NamedTuple):
 
 
 class _Looks(NamedTuple):
-    """Looks away from the music: spans (K, 2) in order, and where to."""
+    """Looks away from the music: spans (K, 2) in order, and their directions."""
 
     spans_s: FloatArray
     at: _Fixed
@@ -200,7 +198,7 @@ def _looks(
 
 
 def _fixations(plan: PlayerPlan, silences: Silences, watching: Watching) -> tuple[FloatArray, _Fixed]:
-    """Times (K,), and where the eyes go then."""
+    """Times (K,) of fixations, and their targets."""
     random, frame = _random(plan, watching, "reads"), plan.time_frame
     line_s, side = float(random.uniform(*LINE_S)), 1.0 if random.random() < 0.5 else -1.0
     layers = [
@@ -240,7 +238,7 @@ def _random(plan: PlayerPlan, watching: Watching, purpose: str) -> np.random.Gen
 
 
 def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
-    """About in rests, and now and then up while playing."""
+    """Looks around in rests, and occasional looks up while playing."""
     frame = plan.time_frame
     slots = int(np.ceil((frame.end_s - frame.first_frame_s) / LOOK_S))
     chances = _random(plan, watching, "about").random((slots, 3))
@@ -261,7 +259,7 @@ def _about(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
 
 
 def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Looks:
-    """Still on the last note, then up to the audience, here and there."""
+    """Gaze after the end: still during the last note, then at several places in the audience."""
     chances = _random(plan, watching, "audience").normal(0.0, 1.0, (4, 2))
     last_s = float(silences.ends_s[-1]) if len(silences.ends_s) else np.inf
     at_s = last_s + np.array([-0.3, AUDIENCE_S, AUDIENCE_S + 1.7, AUDIENCE_S + 3.9, np.inf])
@@ -271,7 +269,9 @@ def _audience(plan: PlayerPlan, silences: Silences, watching: Watching) -> _Look
 
 
 def _cues(plan: PlayerPlan, side: float) -> _Looks:
-    """Up from the music while giving a cue, and back for the entry; whom to look at the plan says (`_glances`)."""
+    """Looks up from the music while giving a cue, and back for the entry; the plan provides their targets
+    (`_glances`).
+    """
     spans_s = [(cue.start_s - CUE_LEAD_S, cue.end_s - CUE_BACK_BEATS * cue.beat_s) for cue in plan.cues]
     rows = np.array(spans_s).reshape(-1, 2)
     return _looks(rows, np.full(len(rows), side * ASIDE_RAD), np.zeros(len(rows)), PLAYING_SHARE)
@@ -291,7 +291,7 @@ def _glances(plan: PlayerPlan) -> _Looks:
 
 
 def _head(plan: PlayerPlan, at_s: FloatArray, yaw: FloatArray, pitch: FloatArray) -> Spline:
-    """The head goes after the eyes: late, and as slowly as a head turns."""
+    """Head motion that follows the eyes, delayed and slow."""
     first = int(np.floor(plan.time_frame.first_frame_s / HEAD_STEP_S)) - 1
     count = int(np.ceil(plan.time_frame.end_s / HEAD_STEP_S)) + 2 - first
     grid_s = (first + np.arange(count)) * HEAD_STEP_S

@@ -1,4 +1,4 @@
-"""Individual traits of a player's face: the stronger side, the rate of the vibrato, slow wandering."""
+"""Individual traits of a player's face: asymmetry, vibrato rate, slow variation."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _BANDS: Final = {
 
 @dataclass(frozen=True, eq=False)
 class Wandering:
-    """Slow wandering of a face at some frames, each (F,) float64 of about 1; ``sides`` within -1 and 1."""
+    """Slow variation of a face at some frames, each (F,) about 1; ``sides`` is -1..1."""
 
     lips: FloatArray
     corners: FloatArray
@@ -63,11 +63,11 @@ class OwnFace:
     Attributes
     ----------
     left_more : dict of str to float
-        By what share of the size the left one of a pair of `PAIRS` is larger than the right one.
+        Relative excess of the left morph over the right for each pair of `PAIRS`.
     vibrato_hz, vibrato_rad : float
-        Rate and phase.
+        Rate and phase of the vibrato.
     noises : dict of str to Noise
-        By member of `Wandering`.
+        Noise for each field of `Wandering`.
     """
 
     left_more: dict[str, float]
@@ -88,13 +88,13 @@ class OwnFace:
         return Wandering(**sampled)
 
     def vibrato(self, times_s: FloatArray, wandering: Wandering) -> FloatArray:
-        """The swing of a full vibrato, -1 to 1."""
+        """Oscillation of a full vibrato, -1 to 1."""
         turns: FloatArray = 2.0 * np.pi * self.vibrato_hz * times_s + self.vibrato_rad
         swing: FloatArray = np.sin(turns + RATE_VARIES_RAD * wandering.rate)
         return swing
 
     def lopsided(self, morphs: dict[str, FloatArray], wandering: Wandering) -> None:
-        """Make left and right differ, in place; weights stay within 0 and 1."""
+        """Make left and right weights differ, in place, within 0..1."""
         varies = VARIES * wandering.sides
         for pair in PAIRS:
             left, right = morphs.get(pair + LEFT), morphs.get(pair + RIGHT)
@@ -107,7 +107,7 @@ class OwnFace:
 
 @lru_cache(maxsize=512)
 def own_face(player_id: str, seed: int, least: float, most: float, vibrato_hz: tuple[float, float]) -> OwnFace:
-    """The face of a player; left and right differ by a share between ``least`` and ``most``."""
+    """Traits of a player's face; left and right differ by a share between ``least`` and ``most``."""
     random = generator(player_id, seed, "own face")
     side = 1.0 if random.random() < 0.5 else -1.0
     with_it = np.where(random.random(len(PAIRS)) < STRONGER_SIDE, side, -side)
@@ -124,5 +124,5 @@ def own_face(player_id: str, seed: int, least: float, most: float, vibrato_hz: t
 
 
 def face_of_player(player_id: str, seed: int, face: FaceMotion, embouchure: EmbouchureWeights) -> OwnFace:
-    """The face of a player, with sizes from a body's tables."""
+    """Traits of a player's face, with sizes from a body's tables."""
     return own_face(player_id, seed, *face.left_right, embouchure.vibrato_hz)

@@ -1,7 +1,7 @@
-"""Lips within a note: they firm up just before an attack and settle soon after it, give way between notes, and a
-vibrato comes in on held notes.
+"""Lip motion within notes: firming before an attack, settling after it, release between notes, and vibrato on held
+notes.
 
-Muscles of the lips are active before a tone begins (trumpeters: Heuser and McNitt-Gray 1991).
+Lip muscles are active before a tone begins (trumpeters: Heuser and McNitt-Gray 1991).
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ VIBRATO_AFTER_S, VIBRATO_IN_S, VIBRATO_OUT_S = 0.28, 0.75, 0.12
 
 
 def _notes(plan: PlayerPlan) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Onsets, ends and loudness of the notes that last at all, in order."""
+    """Onsets, ends and loudness of the notes with a length, in order."""
     events = plan.embouchures
     starts_s = np.array([event.start_s for event in events])
     ends_s = np.minimum(np.array([event.end_s for event in events]), np.append(starts_s[1:], np.inf))
@@ -48,7 +48,7 @@ def _notes(plan: PlayerPlan) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def firmness(plan: PlayerPlan) -> Curve:
-    """Up before each attack, less before a slur, and down again soon after it."""
+    """Firmness of the lips: rising before each attack, less before a slur, and falling soon after."""
     if not plan.embouchures:
         return moves(())
     starts_s, ends_s, air = _notes(plan)
@@ -70,7 +70,7 @@ def firmness(plan: PlayerPlan) -> Curve:
 
 
 def tension_release(plan: PlayerPlan) -> Curve:
-    """Return how far the tension lets go between notes, and after the last one."""
+    """Return the release of lip tension between notes and after the last one."""
     starts_s, ends_s, _ = _notes(plan)
     # All notes may be too short to be seen.
     if not len(starts_s):
@@ -91,7 +91,7 @@ def tension_release(plan: PlayerPlan) -> Curve:
 
 
 def vibrato_size(plan: PlayerPlan) -> Curve:
-    """Return how much vibrato there is, 0..1: none where lips were recorded, whose own it then is."""
+    """Return the amount of vibrato, 0..1; none with recorded lips, which contain their own."""
     if not plan.embouchures or plan.has_recorded_lips:
         return moves(())
     starts_s, ends_s, air = _notes(plan)

@@ -1,8 +1,8 @@
-"""Weights of the face's morphs (ARKit's 52) from what moves it: embouchure, breath, tongue, effort, expression, lids.
+"""Weights of the face's morphs (ARKit's 52) from embouchure, breath, tongue, effort, expression and lids.
 
-Every morph is a sum of drivers, each a curve of time, with weights from `metadata`, clipped to 0..1. The jaw also
-opens as far as lips need that close around something, or blow through an opening: that is solved from how the
-character's own morphs move its lips, last of all, so that whatever the lips do they close around it.
+Every morph is a sum of curves with weights from `metadata`, clipped to 0..1. Finally the jaw is opened so that the lips
+close around the mouthpiece, or leave an opening to blow through; this is solved from the effect of the character's own
+morphs on its lips.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class FaceSizes:
     embouchure : EmbouchureWeights
         Weights of the instrument's kind of embouchure.
     upper, lips, vibrato : float or (F,) float64
-        Size of what is above the mouth, of what the lips do within notes, and of a full vibrato.
+        Size of motion above the mouth, of lip motion within notes, and of a full vibrato.
     """
 
     own: OwnFace
@@ -53,7 +53,7 @@ class FaceSizes:
     vibrato: FloatArray | float
 
     def shared(self, upper: FloatArray | float, lips: FloatArray | float) -> FaceSizes:
-        """Shares of them, at some frames where they are not the same throughout."""
+        """Sizes scaled at frames where they vary."""
         if isinstance(upper, float) and isinstance(lips, float):
             return self
         return replace(self, upper=upper * self.upper, lips=lips * self.lips, vibrato=lips * self.vibrato)
@@ -73,9 +73,9 @@ def face_sizes(
     Parameters
     ----------
     kind, vibrato : str, float
-        How the instrument is played, and how much vibrato its held notes usually have.
+        Kind of embouchure, and usual amount of vibrato on held notes.
     recorded : bool
-        Whether a controller says what the lips do.
+        Whether a controller recorded the lips.
     """
     motion, embouchure, amplitude = body.face, body.embouchure[kind], parameters.amplitude
     lips = acting.lips * at_amplitude(motion.lips_size, amplitude)
@@ -98,16 +98,16 @@ def face_morphs(
     sizes: FaceSizes,
     times_s: FloatArray,
 ) -> dict[str, FloatArray]:
-    """Weights 0..1 of every morph that moves, each (F,) float64.
+    """Weights 0..1 of all morphs that move, each (F,).
 
     Parameters
     ----------
     lips : Lips
-        Of the character, with the instrument.
+        Lips of the character with the instrument.
     expressions : mapping of str to Expression
-        All that ``face`` names.
+        Definitions of the expressions in ``face``.
     look : GazeFrames
-        Lids, and how far down the eyes look.
+        Lids and downward gaze.
     lowered : (F,) float64
         0 with the instrument at the lips, 1 with it lowered.
     """
@@ -144,7 +144,7 @@ def _lips(
     wandering: Wandering,
     times_s: FloatArray,
 ) -> list[Driver]:
-    """The embouchure, and what it does within notes."""
+    """Contributions of the embouchure and of lip motion within notes."""
     embouchure = sizes.embouchure
     # In a breath the upper lip stays where the mouthpiece is.
     alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)
@@ -170,7 +170,7 @@ def _lips(
 
 
 def usual_morphs(embouchure: EmbouchureWeights, lips: Lips) -> dict[str, float]:
-    """The face of a middling tension, with the jaw as it closes the lips around what lies between them."""
+    """The face at medium tension, with the jaw closing the lips around what is between them."""
     morphs = {name: np.array([weight]) for name, weight in embouchure.usual.items()}
     one = np.ones(1)
     if lips.jaw:
@@ -179,7 +179,7 @@ def usual_morphs(embouchure: EmbouchureWeights, lips: Lips) -> dict[str, float]:
 
 
 def _part_lips(morphs: dict[str, FloatArray], lips: Lips, around: FloatArray, formed: FloatArray) -> None:
-    """Open the jaw until the lips are as far apart as they must be, and by what it opens for a breath beyond that."""
+    """Open the jaw so that the lips have the required distance, plus the opening for a breath."""
     needed = lips.jaw_for(lips.apart_m + lips.opening_m * formed, morphs, len(around))
     beyond = morphs.get(lips.jaw, np.zeros(len(around)))
     morphs[lips.jaw] = np.clip(around * needed + beyond, 0.0, 1.0)

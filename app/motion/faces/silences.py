@@ -1,4 +1,4 @@
-"""The notes of a plan as times: where there is silence, where it is quick, where phrases begin and end."""
+"""Times in a plan that affect faces: silences, fast runs, phrase starts and ends."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class Silences:
     Attributes
     ----------
     starts_s, ends_s : (N,) float64
-        Notes in order.
+        Times of the notes, in order.
     rests_s : (R, 2) float64
-        Silences of at least `REST_S`; the first is the one before the first note, the last the one after the last,
-        however long.
+        Silences of at least `REST_S`; the first one is before the first note and the last one after the last, of any
+        length.
     quick_s : (Q, 2) float64
-        Where notes follow each other within `QUICK_S`.
+        Spans of notes that follow each other within `QUICK_S`.
     breaths_s : (B, 2) float64
     carried_s : (C, 2) float64
-        Where the instrument goes down from the lips, or up to them.
+        Spans in which the instrument moves from or to the lips.
     """
 
     starts_s: FloatArray
@@ -43,7 +43,7 @@ class Silences:
 
     @classmethod
     def of(cls, plan: PlayerPlan) -> Silences:
-        """Silences of a plan."""
+        """Collect the times of a plan."""
         events, frame = plan.fingerings, plan.time_frame
         starts_s = np.array([event.start_s for event in events])
         ends_s = np.array([event.end_s for event in events])
@@ -62,7 +62,7 @@ class Silences:
         )
 
     def __eq__(self, other: object) -> bool:
-        """Return whether all times are the same: then gazes are."""
+        """Return whether all times are equal, so that gazes are equal too."""
         if not isinstance(other, Silences):
             return NotImplemented
         return all(np.array_equal(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
@@ -72,7 +72,7 @@ class Silences:
 
     @property
     def entries_s(self) -> FloatArray:
-        """First notes after rests."""
+        """Onsets of the first notes after rests."""
         return self.rests_s[:-1, 1]
 
 
@@ -90,12 +90,12 @@ def _lowered_s(plan: PlayerPlan) -> list[tuple[float, float]]:
 
 
 def holds(spans_s: FloatArray, times_s: FloatArray) -> BoolArray:
-    """(F,): whether any of the spans (K, 2), in order of their starts, begins at or before a time and ends after it."""
+    """Mask (F,) of times within one of the spans (K, 2), which are ordered by start."""
     return overlaps(spans_s, times_s, times_s)
 
 
 def overlaps(spans_s: FloatArray, from_s: FloatArray, to_s: FloatArray) -> BoolArray:
-    """(F,): whether any of the spans (K, 2) begins at or before ``to_s`` and ends after ``from_s``."""
+    """Mask (F,) of intervals ``from_s``..``to_s`` that overlap one of the spans (K, 2)."""
     ends_s = np.append(-np.inf, np.maximum.accumulate(spans_s[:, 1]))
     found: BoolArray = ends_s[np.searchsorted(spans_s[:, 0], to_s, side="right")] > from_s
     return found

@@ -1,8 +1,7 @@
-"""Visible strokes of the tongue: it comes up, touches, and leaves at the onset; jaw and lips go along, slower than its
-tip.
+"""Visible tongue strokes: the tongue rises, touches and leaves at the onset; jaw and lips follow more slowly.
 
-A stroke of the tip (*ta*, soft *da*) and one of the tongue's back (*ka*) are curves of their own, since other parts of
-the mouth go along with each. An attack with stress is pushed by the breath as well.
+Strokes of the tip (*ta*, soft *da*) and of the back (*ka*) are separate curves, since they move different parts of the
+mouth. Stressed attacks also have a push of breath.
 """
 
 from __future__ import annotations
@@ -32,12 +31,12 @@ PUSH_UNTIL_S: Final = 0.20
 
 
 def tip_strokes(plan: PlayerPlan) -> Envelopes:
-    """Return how far the tip of the tongue is up, 1 in a plain stroke."""
+    """Return the height of the tongue's tip, 1 in a plain stroke."""
     return _strokes(plan.tongues, by_back=False)
 
 
 def back_strokes(plan: PlayerPlan) -> Envelopes:
-    """Return how far the back of the tongue is up; smaller than a stroke of the tip, as planned."""
+    """Return the height of the tongue's back, smaller than a stroke of the tip."""
     return _strokes(plan.tongues, by_back=True)
 
 
@@ -54,7 +53,7 @@ def _strokes(tongues: Sequence[TongueEvent], *, by_back: bool) -> Envelopes:
 
 
 def attack_pushes(plan: PlayerPlan) -> Envelopes:
-    """Return how hard the breath pushes, 0..1, at attacks that are short or stressed."""
+    """Return the strength of breath pushes, 0..1, at short or stressed attacks."""
     rows = []
     for event in plan.tongues:
         hard = PUSHED.get(event.articulation, 0.0)

@@ -1,4 +1,4 @@
-"""Brows, lids, cheeks and nostrils: weights of what the face above the mouth follows."""
+"""Motion of brows, lids, cheeks and nostrils."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def upper_face(
     face: FaceMotion,
     size: FloatArray | float,
 ) -> list[Driver]:
-    """Drivers and their weights, at the size of a player."""
+    """Curves and morph weights of the upper face, scaled to a player."""
     up, down = np.maximum(exertion.contour, 0.0), np.maximum(-exertion.contour, 0.0)
     louder, softer = np.maximum(exertion.swell, 0.0), np.maximum(-exertion.swell, 0.0)
     followed = (

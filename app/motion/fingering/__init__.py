@@ -1,1 +1,1 @@
-"""Controls and fingers as curves."""
+"""Curves of controls and fingers."""

@@ -1,7 +1,7 @@
-"""Update of curves after an edit: made again around it, and taken from the former curves elsewhere.
+"""Updates curves after an edit: recomputed around it, reused elsewhere.
 
-In a silence long enough every control is at rest and every finger at home, whatever is played on either side. So the
-notes between two such silences can be made by themselves.
+In a long silence all controls are at rest and all fingers at home, so the notes between two such silences can be
+computed separately.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ APART_S = 3.0
 
 @dataclass(frozen=True)
 class ChangedStretch:
-    """The notes ``first`` .. ``last - 1`` of a part around an edit, with the silences next to them.
+    """Notes ``first`` .. ``last - 1`` of a part around an edit, with the silences next to them.
 
     Attributes
     ----------
     start_s, end_s : float
-        In the middle of the silences; infinite where the line begins or ends.
+        Middle of the silences; infinite at the ends of the part.
     """
 
     first: int
@@ -35,14 +35,14 @@ class ChangedStretch:
     end_s: float
 
     def notes(self, fingerings: Sequence[FingeringEvent]) -> Sequence[FingeringEvent]:
-        """The stretch with a note on either side."""
+        """The fingerings of the stretch, plus one note on either side."""
         return fingerings[max(self.first - 1, 0) : self.last + 1]
 
 
 def changed_stretch(
     before: Sequence[FingeringEvent], after: Sequence[FingeringEvent], felt_beats: FeltBeats
 ) -> ChangedStretch | None:
-    """The shortest stretch that holds everything in which two lines differ; None where it is the whole line."""
+    """The shortest stretch with all differences between two versions of a part; None if it is the whole part."""
     most = min(len(before), len(after))
     head = _alike(before[:most], after[:most])
     tail = _alike(before[head:][::-1], after[head:][::-1])
@@ -61,7 +61,7 @@ def changed_stretch(
 
 
 def _alike(before: Sequence[FingeringEvent], after: Sequence[FingeringEvent]) -> int:
-    """Return how many notes two lines begin with alike."""
+    """Return the number of equal notes at the start of two versions."""
     pairs = enumerate(zip(before, after, strict=False))
     differ = (index for index, (one, other) in pairs if one is not other and one != other)
     return next(differ, min(len(before), len(after)))
@@ -76,7 +76,9 @@ def _apart(fingerings: Sequence[FingeringEvent], index: int, felt_beats: FeltBea
 def spliced(
     before: Mapping[str, Curve], within: Mapping[str, Curve], stretch: ChangedStretch
 ) -> dict[str, Curve] | None:
-    """Curves of the line before, with those of a stretch (`ChangedStretch.notes`); None where they do not fit."""
+    """Curves of the previous version with those of a stretch (`ChangedStretch.notes`) inserted; None if they do not
+    fit.
+    """
     if before.keys() != within.keys():
         return None
     result = {}
@@ -104,5 +106,5 @@ def _spliced(before: Curve, within: Curve, stretch: ChangedStretch) -> Curve | N
 
 
 def _crossed(curve: Curve, stretch: ChangedStretch) -> bool:
-    """Return whether something still moves in the middle of a silence."""
+    """Return whether something still moves in the middle of the silences."""
     return any(bool(((curve.start_s < at_s) & (at_s < curve.end_s)).any()) for at_s in (stretch.start_s, stretch.end_s))
