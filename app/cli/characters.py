@@ -255,15 +255,23 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
     lines += ["", said("characters.meshes", names=", ".join(listed))]
     if found["missing_joints"]:
         lines += ["", said("characters.without_bone", names=", ".join(found["missing_joints"]))]
-    lines += ["", said("characters.face", profile=found["face"] or said("characters.unknown_face"))]
-    for shape, own in found["morphs"].items():
-        lines.append(f"  {on_left(shape, 26)}  {' + '.join(_share(name, weight) for name, weight in own.items())}")
-    if found["missing_morphs"]:
-        lines.append(said("characters.without_morph", names=", ".join(found["missing_morphs"])))
+    lines += ["", *_face(found)]
     if found["notes"] or found["required_joints"]:
         lines += ["", *found["notes"]]
     if found["required_joints"]:
         lines.append(said("characters.required", names=", ".join(found["required_joints"])))
+    return lines
+
+
+def _face(found: Mapping[str, Any]) -> list[str]:
+    """Findings on the face as text."""
+    if not found["morphs"]:
+        return [said("characters.no_face", count=len(found["missing_morphs"]))]
+    lines = [said("characters.face", profile=found["face"] or said("characters.unknown_face"))]
+    for shape, own in found["morphs"].items():
+        lines.append(f"  {on_left(shape, 26)}  {' + '.join(_share(name, weight) for name, weight in own.items())}")
+    if found["missing_morphs"]:
+        lines.append(said("characters.without_morph", names=", ".join(found["missing_morphs"])))
     return lines
 
 
