@@ -1,4 +1,4 @@
-"""Generated values of a channel that the animator can lay a curve over."""
+"""Generated values of a channel on which the animator can add a curve."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ _JOINTS: Final = {"head": tuple(NECK_SHARES), "torso": tuple(TRUNK_SHARES)}
 
 
 def generated(curves: PerformanceCurves, channel: str, times_s: FloatArray) -> FloatArray:
-    """Values (F,) of a channel at ascending times without its curves, in the channel's unit; angles are seen from the
-    posture at rest."""
+    """Values (F,) of a channel at ascending times without additive curves, in the channel's unit; angles are relative
+    to the posture at rest.
+    """
     asked = curves.curves(replace(curves.frames(times_s), added={}))
     if channel.startswith(FACE):
         return asked.morphs.get(channel.removeprefix(FACE), np.zeros(len(times_s)))

@@ -1,4 +1,4 @@
-"""Motion of a performance: sampled arrays at a frame rate, derived from a plan and never edited."""
+"""Motion of a performance: arrays sampled at a frame rate, generated from a plan and never edited."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ class Motion:
     fps : Fraction
         Frames per second.
     first_frame_s : float
-        Time of frame 0 in the performance, seconds; usually negative.
+        Performance time of frame 0 in seconds; usually negative.
     rotations : (F, J, 4) float32
         ``parent_from_joint`` rotations, unit quaternions xyzw, in the order of the character's skeleton.
     hips_m : (F, 3) float32
         Translation of the hips in the root's frame, metres.
     morphs : dict of str to (F,) float32
-        Weights 0..1 of the ARKit morph targets that move.
+        Weights 0..1 of those ARKit morph targets that move.
     controls : dict of str to (F,) float32
-        Value 0..1 of every control of the instrument, and of how far its endpin is drawn out, by the pin's node.
+        Value 0..1 of every control of the instrument, and extension of its endpin under the name of the pin's node.
     instrument_position_m : (F, 3) float32
-        Origin of the instrument (``world_from_instrument``), metres.
+        Position of the instrument's origin (``world_from_instrument``), metres.
     instrument_rotation : (F, 4) float32
         Rotation of the instrument (``world_from_instrument``), xyzw.
     """
@@ -53,7 +53,7 @@ class Motion:
 
 
 def joined(pieces: Sequence[Motion]) -> Motion:
-    """Frames of several motions, one after the other."""
+    """Concatenate the frames of several motions."""
     if len(pieces) == 1:
         return pieces[0]
     first = pieces[0]

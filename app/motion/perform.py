@@ -1,5 +1,4 @@
-"""Turns a player's plan into motion: controls, face and body as curves, then the contacts, all vectorised over
-frames."""
+"""Turns a player's plan into motion: curves of controls, face and body, then contacts, vectorised over frames."""
 
 from __future__ import annotations
 
@@ -60,41 +59,42 @@ OWN: Final = ("raised", "inhaling", "stopping", "_further", "additive", "danced_
 
 @dataclass(frozen=True, eq=False)
 class PerformanceCurves:
-    """One player's plan as curves over the whole performance: what any of its frames are made from.
+    """One player's plan as curves over the whole performance, from which all frames are computed.
 
     Attributes
     ----------
     felt_beats : tuple of (tick, ticks)
+        Felt beat from each tick on.
     parameters : PlayerParameters
-        As set, with less sway where the instrument lies still.
+        Parameters as set, with less sway for an instrument that rests.
     acting : Acting
-        What these parameters show, with less where the instrument lies still or a dance takes its place.
+        Acting by these parameters, reduced for an instrument that rests or by a dance.
     posture : Posture
-        With head and trunk turned to the instrument.
+        Posture with head and trunk turned to the instrument.
     expressions : dict of str to Expression
-        Those the plan names.
+        Expressions used in the plan.
     player : PlayerBody
-        What does not change with time.
+        Time-independent data of the player.
     controls : dict of str to Curve
-        By the instrument's control.
+        Curve of each control of the instrument.
     stations : dict of str to Curve
-        Which of its places a finger is at, by finger (`app.motion.fingering.finger_curves`).
+        Station of each finger (`app.motion.fingering.finger_curves`).
     raised : Curve
-        How high fingers wait over their keys.
+        Height of waiting fingers above their keys.
     dance : BodyLayer or None
-        What hips, trunk and head dance, by the amount of the parameters.
+        Dance of hips, trunk and head, scaled by the parameters.
     danced_feet : DancedFeet
-        What feet dance, where the animator leaves it to them.
+        Dance of the feet, where not corrected by the animator.
     inhaling : Envelopes
-        When the dance gives way to breaths.
+        Spans in which the dance gives way to breaths.
     stowed : Curve or None
-        How far the instrument is put aside for another one (`app.motion.doubling`).
+        Share by which the instrument is put aside (`app.motion.doubling`).
     additive : Additive
-        The animator's curves.
+        The animator's additive curves.
     stopping : Envelopes
-        How far a hand closes the bell.
+        Closure of the bell by a hand.
     runs : StepRuns
-        That made the curves: those of events that an edit leaves alone are taken over.
+        Cache of the steps that made the curves, for reuse after edits.
     """
 
     plan: PlayerPlan
@@ -131,8 +131,9 @@ class PerformanceCurves:
         return self.plan.time_frame.first_frame_s
 
     def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
-        """Make some frames of the motion, or every how many-th of them, at the rate that makes. The same frames are the
-        same in every span."""
+        """Compute some frames of the motion, or every n-th of them, with the resulting rate. A frame is equal in every
+        span.
+        """
         pad = padding_frames(fps)
         times_s = frame_times(self.start_s, fps, first_frame - pad, frames + 2 * pad)
         curves = self.curves(self.frames(times_s))
@@ -204,7 +205,7 @@ class PerformanceCurves:
         )
 
     def _moved(self, levels: LayerSamples, look: GazeFrames, times_s: FloatArray) -> BodyMotion:
-        """The body without dance and the animator's curves, with the instrument in the hands."""
+        """Body motion without dance and additive curves, with the instrument in the hands."""
         return body_motion(
             levels,
             Sizes(self.body, self.parameters, self.player_id, self.acting, self.posture),
@@ -219,8 +220,9 @@ class PerformanceCurves:
         return leaning_further(self.plan.breaths, self.layers.full, self._torso_rad)
 
     def _torso_rad(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Lean of the torso forward at ascending times, without what breaths do and with it; both without dance, which
-        gives way to breaths, and without what the animator holds differently."""
+        """Forward lean of the torso at ascending times, without and with breathing; without dance, which gives way to
+        breaths, and without the animator's poses.
+        """
         levels = self._breathing(replace(self.layers.sample(times_s), held={}), times_s)
         look, skeleton, place = self.gaze.sample(times_s), self.player.skeleton, self.player.place
 
@@ -231,7 +233,7 @@ class PerformanceCurves:
         return lean_rad(replace(levels, full=np.zeros(len(times_s)))), lean_rad(levels)
 
     def _breathing(self, levels: LayerSamples, times_s: FloatArray) -> LayerSamples:
-        """The layers with as much of the breath as regions of a style show."""
+        """The layers with breathing scaled by style spans."""
         share = share_at(self.plan.styles, "breath", times_s)
         if isinstance(share, float):
             return levels
@@ -239,7 +241,7 @@ class PerformanceCurves:
         return replace(levels, **shown)
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
-        """Stations of the fingers, and of the hands that give way for some of them, at ascending times."""
+        """Stations of fingers and of hands that give way, at ascending times."""
         hands = self.player.grip.hands
         asked = {table.finger for hand in hands for table in hand.fingers}
         asked |= {giving_for(finger) for hand in hands for lean in hand.leans for finger, _ in lean.places}
@@ -254,7 +256,7 @@ class PerformanceCurves:
         return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
-        """Spans (K, 2) of seconds outside of which, and of `padding_frames` around them, both make the same frames."""
+        """Spans (K, 2) in seconds outside of which, and of `padding_frames` around them, both have equal frames."""
         mine, others = self._settings, other._settings
         if mine[0] != others[0] or any(a is not b for a, b in zip(mine[1:], others[1:], strict=True)):
             return EVERYWHERE
@@ -293,7 +295,7 @@ class PerformanceCurves:
 
     @property
     def _settings(self) -> tuple[object, ...]:
-        """Settings that every frame depends on: values first, the others by identity."""
+        """Settings that affect every frame: plain values first, then objects compared by identity."""
         still = self.player
         endpin = None if still.stand is None else still.stand.endpin
         shown, put = deciding_values(self.parameters, "motion"), (still.aside, self.stowed is None)
@@ -325,13 +327,12 @@ def prepare(
     expressions: Mapping[str, Expression] | None = None,
     dance: BodyLayer | None = None,
 ) -> PerformanceCurves:
-    """Make a plan ready to be seen.
+    """Make the curves of a plan.
 
-    Parameters set amplitude, posture, seed and the sizes of layers; ``grip`` is fitted for this character and
-    instrument; a rest as long as a felt beat brings controls back to rest; expressions are the bundled ones by default.
-    Curves that are as in the former runs of ``runs`` (`PerformanceCurves.runs` prior to an edit) are taken from there.
-    ``dance`` is added to the body by the parameters' amount, and takes the place of as much of the generated sway and
-    shift of weight.
+    ``parameters`` set amplitude, posture, seed and sizes of layers; ``grip`` must be fitted for this character and
+    instrument; a rest of a felt beat brings controls back to rest; bundled expressions are the default. Unchanged
+    curves are reused from ``runs`` (`PerformanceCurves.runs` before an edit). ``dance`` is added by the parameters'
+    amount and replaces as much of the generated sway and weight shift.
     """
     known = load_expressions() if expressions is None else expressions
     carriage = instrument_map.hold.carriage(parameters.posture)
@@ -385,7 +386,7 @@ def _given(
     felt_beats: FeltBeats,
     dances: bool,
 ) -> dict[str, object]:
-    """Return what the steps that make the curves read."""
+    """Return the inputs of the steps that make the curves."""
     return {
         "plan": plan,
         "embouchure_tension": parameters.embouchure_tension,

@@ -22,20 +22,20 @@ class PlayedFrames:
     times_s : (F,) float64
         Ascending.
     levels, look, face
-        Body, eyes and face.
+        Samples of body, eyes and face.
     controls : dict of str to (F,) float64
     raised : (F,) float64
-        As the curves of `PerformanceCurves`.
+        As in `PerformanceCurves`.
     danced : (F, 12) float64 or None
-        Of its layer; None: nothing is danced.
+        Values of the dance layer; None: no dance.
     stepped : dict of str to (F,) float64
-        What dancing feet do (`app.motion.gestures.danced_feet`).
+        Motion of dancing feet (`app.motion.gestures.danced_feet`).
     stowed : (F,) float64 or None
-        How far the instrument is put aside.
+        Share by which the instrument is put aside.
     added : dict of str to Added
-        What the animator's curves add, by channel.
+        Additive curves by channel.
     stopping : (F,) float64 or None
-        How far a hand closes the bell; None: no note of the player is stopped.
+        Closure of the bell by a hand; None: never.
     """
 
     times_s: FloatArray

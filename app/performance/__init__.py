@@ -1,1 +1,1 @@
-"""The pipeline: Project snapshot to plan to motion, by player and time span."""
+"""The pipeline from a project to plans and motion, by player and time span."""

@@ -1,4 +1,4 @@
-"""Problems of a player's acting and dancing: styles, habits and choreographies that are missing."""
+"""Problems with a player's style, habits and choreography: missing ones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from metadata.library import MetadataLibrary
 
 
 def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, ...]:
-    """Warnings about a missing style or habits, which change nothing."""
+    """Warnings about a missing style or missing habits, which have no effect."""
     styles, habits = library.styles.items, library.habits.items
     style, found = player.parameters.style, list[Message]()
     if style not in styles:
@@ -27,16 +27,16 @@ def unknown_acting(player: Player, library: MetadataLibrary) -> tuple[Message, .
 
 
 class JudgeOfChoreographies(Protocol):
-    """Interface for checks by the package that makes dances, which the core may not import, before there is a
-    performance."""
+    """Interface to the module that makes dances, which the core may not import, for checks before there is a
+    performance.
+    """
 
     def unfit_choreography(self, player: Player, frame: TimeFrame) -> Message | None:
-        """Reason why a player cannot dance the selected choreography; None if none is selected, or nothing is wrong
-        with it."""
+        """Reason why a player cannot dance the selected choreography; None if it is possible or none is selected."""
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> tuple[Message, ...]:
-    """Warnings about a choreography that a player cannot dance. Makers of dances are loaded for it."""
+    """Warnings about a choreography that a player cannot dance; loads the module that makes dances."""
     if not player.parameters.choreography:
         return ()
     for _, module in modules("dances"):

@@ -1,4 +1,4 @@
-"""Characters, bodies, instruments, models and grips of players; each is made once."""
+"""Characters, bodies, instruments, models and grips of players, each cached."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ _SUITED: IdentityCache[FittedInstrument] = IdentityCache(256)
 
 
 def character_of(player: Player) -> Character:
-    """The character that plays. Raises UsageError where there is none of its id."""
+    """The player's character. Raises UsageError for an unknown id."""
     return character_named(player.character_id)
 
 
 def dressed_character(performer: Player | Dancer) -> Character:
-    """Return the character of a player or dancer in the outfit; nothing but its meshes differs from who plays.
+    """The player's body, with motion scaled by the length of its legs.
 
     Raises UsageError where there is none of its id.
     """
@@ -49,7 +49,7 @@ def dressed_character(performer: Player | Dancer) -> Character:
 
 
 def body_of(player: Player) -> Body:
-    """Return the player's body, with motion scaled to the length of its legs."""
+    """The model of an instrument map at its size; cached. Raises MapError or FileError."""
     return _body(round(leg_size(character_of(player).skeleton), 3))
 
 
@@ -59,7 +59,7 @@ def _body(size: float) -> Body:
 
 
 def model_of(instrument: InstrumentMap) -> InstrumentModel:
-    """The model a map names, of the size it says; loaded once. Raises MapError or FileError."""
+    """The instrument fitted to a player's body (size and contacts); cached for each pair."""
     return _MODELS.step(_loaded, instrument)
 
 
@@ -68,7 +68,7 @@ def _loaded(instrument: InstrumentMap) -> InstrumentModel:
 
 
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
-    """An instrument as a player's body plays it: its size, and what touches it; found once for each pair."""
+    """Grip of a player's body on a fitted instrument; cached for each pair."""
     if player.character_id in our_characters():
         # Ours are adult and complete: plans are made before any character is loaded.
         return FittedInstrument(instrument, ())
@@ -83,9 +83,10 @@ def _suited(character: Character, instrument: InstrumentMap, body: Body) -> Fitt
 
 
 def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
-    """Grip of a player's body on an instrument that is suited to it; fitted once for each pair.
+    """Return position (3,) and rotation (4,) of an unused instrument in the player's frame while the musician plays
+    another. None as long as the grip is not computed.
 
-    ``progress`` is called with the share of a fit that is done, and may stop it.
+    Map of the instrument library.
     """
     return _HOLDS.helped(_hold, progress, character_of(player), model_of(instrument), instrument, body_of(player))
 
@@ -104,13 +105,13 @@ def _hold(
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
-    """Return where an instrument lies in the player's frame while the musician has another in the hands: position (3,)
-    and rotation (4,). None as long as it would take time to say how it is held.
+    """Convert failures with a user's own character or instrument, whose shape may be unusable, into problems of the
+    player. For bundled ones the exception is raised, since it is a bug.
 
     Parameters
     ----------
     instrument : InstrumentMap
-        Of the library.
+        The grip could not be computed.
     number : int
         Which of the musician's instruments it is, from 0.
     """
@@ -124,8 +125,7 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
 
 @contextlib.contextmanager
 def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[None]:
-    """Turn failures with a user's own character or instrument, whose shape may be unusable, into problems of its
-    player. With bundled ones they would be faults of the program and are raised.
+    """Return whether the grip of a player on a library instrument is available without computing it.
 
     Raises
     ------
@@ -143,7 +143,7 @@ def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[Non
 
 
 def is_held(player: Player, instrument: InstrumentMap) -> bool:
-    """Return whether it takes no time to say how a player holds an instrument of the library. Never slow itself."""
+    """Compute the grip of a player on a library instrument, so that `is_held` is true afterwards."""
     ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
     return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
 

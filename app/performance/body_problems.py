@@ -1,4 +1,4 @@
-"""Problems of a player's body with its instrument: what it lacks and what its hands do not reach."""
+"""Problems of a player's body with its instrument: missing features and notes out of reach."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class BodyProblems(NamedTuple):
     Attributes
     ----------
     lacking : tuple of Message
-        From beginning to end.
+        Missing features, which affect the whole performance.
     unreached : tuple of Problem
-        Note by note.
+        Notes out of reach.
     unseen : Message or None
-        Why the player cannot be seen.
+        Reason why the player cannot be shown.
     """
 
     lacking: tuple[Message, ...]
@@ -49,11 +49,11 @@ def body_problems(
     Parameters
     ----------
     instrument : InstrumentMap
-        Of the library.
+        Map of the instrument library.
     waiting : bool
-        Whether another task is computing how the instrument is held.
+        Whether another task is computing the grip.
     runs : StepRuns
-        What was found in former runs is not looked for again.
+        Cache of earlier results.
     """
     try:
         held, lacking = suited_to(player, instrument)
@@ -74,7 +74,7 @@ def body_problems(
 
 
 def _posed(player: Player) -> Player:
-    """The player as far as it matters to what the hands reach: whose body it is, and how it is held."""
+    """The player with only the data that affects reach: character, instrument and posture."""
     posture = PlayerParameters(posture=player.parameters.posture)
     return Player(player.id, "", "", player.instrument_id, player.character_id, posture, StagePosition(0.0, 0.0, 0.0))
 

@@ -1,6 +1,4 @@
-"""Cast of visible players: prepared one by one; a player that lacks something is excluded with the reason, and the
-others continue.
-"""
+"""Prepares the visible players one by one; a player that lacks something is excluded with the reason."""
 
 from __future__ import annotations
 
@@ -27,7 +25,7 @@ Wording = Callable[[Message], str]
 
 
 class LeftOut(msgspec.Struct, frozen=True):
-    """A player or dancer who cannot be seen, and why."""
+    """A player or dancer that cannot be shown, with the reason."""
 
     player: Player | Dancer
     reason: Message
@@ -44,9 +42,9 @@ class Attempt(Generic[T]):
     Attributes
     ----------
     made : dict of str to T
-        By player id, in the order of the players.
+        Results by player id, in the order of the players.
     left_out : tuple of LeftOut
-        Those of whom it could not be made, in the same order.
+        Excluded players in the same order.
     """
 
     made: dict[str, T]
@@ -55,12 +53,12 @@ class Attempt(Generic[T]):
 
 @dataclass(frozen=True, eq=False)
 class Performer:
-    """A player with everything that the motion is made from.
+    """A player with all inputs of its motion.
 
     Attributes
     ----------
     instrument : InstrumentMap
-        As the body plays it (`app.performance.bodies.suited_to`).
+        Instrument fitted to the body (`app.performance.bodies.suited_to`).
     """
 
     player: Player
@@ -72,16 +70,17 @@ class Performer:
 
     @cached_property
     def dressed(self) -> Character:
-        """The character in the player's outfit, as it is seen; motion is the same in any."""
+        """Make something for every player or dancer; one that raises an `AppError` is excluded with its message."""
         return dressed_character(self.player)
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRequested = lambda: False) -> Attempt[T]:
-    """Make something of every player or dancer; those that raise an `AppError` are excluded with its message.
+    """Collect all inputs of a player's motion; computing the grip may take seconds.
 
     Raises
     ------
     Cancelled
+        The instrument or character is missing or damaged.
     """
     made, left_out = dict[str, T](), list[LeftOut]()
     for player in players:
@@ -96,7 +95,7 @@ def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRe
 
 
 def performer_of(performance: Performance, player: Player) -> Performer:
-    """A player with everything that the motion is made from; finding out how the instrument is held may take seconds.
+    """Run `performer_of` for each player.
 
     Raises
     ------
@@ -119,14 +118,14 @@ def performer_of(performance: Performance, player: Player) -> Performer:
 def performers_of(
     performance: Performance, players: Iterable[Player], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Performer]:
-    """`performer_of` each player."""
+    """Run `app.performance.dances.dancing_of` for each dancer."""
     return attempt(players, lambda player: performer_of(performance, player), stop_requested)
 
 
 def dancings_of(
     performance: Performance, dancers: Iterable[Dancer], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Dancing]:
-    """`app.performance.dances.dancing_of` each dancer."""
+    """Raise FileError if all players were excluded."""
     return attempt(dancers, lambda dancer: dancing_of(performance, dancer), stop_requested)
 
 

@@ -1,4 +1,4 @@
-"""Chunks of frames: how a performance is cut, what is kept of one player's motion, and poses between two frames."""
+"""Chunks of frames: division of a performance, stored motion of a player, and poses between frames."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ OVERHEAD_BYTES = 1024
 
 @dataclass(frozen=True)
 class Pose:
-    """One player at one moment, in the player's own frame (feet at the origin, facing +Z); members as of
+    """One player's pose at one moment, in the player's frame (feet at the origin, facing +Z); fields as in
     `app.motion.model.Motion`, for one frame.
 
     Attributes
@@ -31,7 +31,7 @@ class Pose:
     rotations : (J, 4) float32
     hips_m : (3,) float32
     morphs, controls : dict of str to float
-        Morphs that are not named are 0.
+        Missing morphs are 0.
     instrument_position_m, instrument_rotation : (3,) and (4,) float32
     """
 
@@ -61,7 +61,7 @@ Posed: TypeAlias = Callable[[str, float, Pose], Pose]
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
-    """Consecutive frames of one player's motion; joints that do not move in them are stored once.
+    """Consecutive frames of one player's motion; joints that do not move are stored once.
 
     ``values`` (F, M + C) are morphs, then controls.
     """
@@ -101,9 +101,9 @@ class Chunk:
 
 
 def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
-    """The poses of players at a frame of their chunks, or between it and the next one of the chunk.
+    """Poses of players at a frame of their chunks, or between it and the next frame.
 
-    All at once: fifty players one after the other cost twice as much.
+    Computed for all players at once, which takes half the time.
     """
     if not chunks:
         return []
@@ -140,7 +140,7 @@ def poses_of(chunks: Sequence[Chunk], frame: int, share: float) -> list[Pose]:
 
 
 def between(before: SingleArray, after: SingleArray, share: float) -> SingleArray:
-    """Rotations (N, 4) on the straight way from one frame's to the next one's, which are near each other."""
+    """Rotations (N, 4) linearly interpolated between two similar frames and normalised."""
     sign = np.where(np.einsum("ji,ji->j", before, after) < 0.0, np.float32(-share), np.float32(share))
     mixed: SingleArray = before * np.float32(1.0 - share) + after * sign[:, None]
     mixed /= np.sqrt(np.einsum("ji,ji->j", mixed, mixed))[:, None]
@@ -165,7 +165,7 @@ class FrameGrid:
         return -(-self.frames // self.length)
 
     def place(self, time_s: float) -> tuple[int, float]:
-        """The frame at or before a time, and how far the time is on its way to the next one; within the performance."""
+        """Frame at or before a time, and the share of the way to the next one; clipped to the performance."""
         exact = (time_s - self.start_s) * self.fps.numerator / self.fps.denominator
         frame = math.floor(exact + 1e-6)
         if frame < 0:
@@ -175,16 +175,16 @@ class FrameGrid:
         return frame, max(exact - frame, 0.0) if exact - frame > 1e-6 else 0.0
 
     def span(self, chunk: int) -> tuple[int, int]:
-        """First frame and number of frames of a chunk; the last one is as long as the others, cut at the end."""
+        """First frame and number of frames of a chunk; the last chunk may be shorter."""
         first = chunk * self.length
         return first, min(self.length, self.frames - first)
 
     def same_frames(self, other: FrameGrid) -> bool:
-        """Return whether a frame of one is the same moment in the other."""
+        """Return whether equal frame numbers mean equal times in both grids."""
         return self.fps == other.fps and self.start_s == other.start_s
 
     def touched(self, spans_s: FloatArray) -> list[bool]:
-        """For every chunk whether one of the spans (N, 2) lies in it, or in the frames around that it is made from."""
+        """For every chunk, whether one of the spans (N, 2) overlaps it, including the padding frames it depends on."""
         rate = self.fps.numerator / self.fps.denominator
         pad = padding_frames(self.fps) + 2
         result = np.zeros(self.chunks + 1, np.int64)

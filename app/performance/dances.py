@@ -1,6 +1,6 @@
-"""Dances, as far as a performance, its exports and its streams know them; `app.optional_features` names who makes them.
+"""Interface to dances for performances, exports and streams; `app.optional_features` names the implementation.
 
-Without a maker of dances, dancers are excluded and players who were to dance move as generated, both with the reason.
+Without an implementation, dancers are excluded and players with a choreography move as generated; both are reported.
 """
 
 from __future__ import annotations
@@ -21,54 +21,54 @@ from app.rig.model import Character
 
 
 class Dancing(Protocol):
-    """One dancer's dance, generated when frames of it are requested; the interface keeps its maker out of the core."""
+    """One dancer's dance, generated when frames are requested; the interface keeps the implementation out of the
+    core.
+    """
 
     dancer: Dancer
     character: Character
 
     @property
     def choreography_name(self) -> str:
-        """The name that the choreography bears."""
+        """Name of the choreography."""
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Problems of the dance, once it is generated."""
+        """Problems of the dance, once generated."""
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
-        """Motion of some frames of the performance; the same frames are identical to the bit whichever span they are
-        asked for in."""
+        """Motion of some frames of the performance; a frame is bit-identical in every span."""
 
     def changed_s(self, before: object) -> FloatArray:
         """Spans (K, 2) in which the motion differs from that of another dance."""
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
-        """(count, 2) in which frames the left and the right foot stand."""
+        """Mask (count, 2) of the frames in which the left and right foot stand."""
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
         """Seconds at which basic motions begin."""
 
 
 class MakerOfDances(Protocol):
-    """Functions of the module that the table of features names; the core may not import it."""
+    """Functions of the module that implements dances, which the core may not import."""
 
     def dancing_of(self, performance: Performance, dancer: Dancer) -> Dancing:
-        """A dancer's dance. Raises AppError where the dancer lacks something."""
+        """A dancer's dance. Raises AppError if something is missing."""
 
     def layer_of(self, performance: Performance, player: Player) -> BodyLayer | None:
         """Dance of a player while playing; None: none."""
 
     def layer_is_made(self, performance: Performance, player: Player) -> bool:
-        """Return whether asking for a player's layer takes no time."""
+        """Return whether a player's dance layer is available without computing it."""
 
 
 def maker_of_dances() -> MakerOfDances | None:
-    """Return the feature that makes dances, loaded; ask only for pieces with dances, for it takes time. None: there is
-    none."""
+    """Return the module that implements dances, loading it, which takes time; None if there is none."""
     return next((cast(MakerOfDances, module) for _, module in modules("dances")), None)
 
 
 def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
-    """A dancer's dance. Raises AppError where the dancer lacks something."""
+    """A dancer's dance. Raises AppError if something is missing."""
     maker = maker_of_dances()
     if maker is None:
         raise AppError("project.no_dances", dancer=dancer.name)
@@ -76,18 +76,18 @@ def dancing_of(performance: Performance, dancer: Dancer) -> Dancing:
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
-    """Dance of a player while playing; None: none. Making it may take seconds."""
+    """Dance of a player while playing; None: none. Generating it may take seconds."""
     maker = maker_of_dances()
     return None if maker is None else maker.layer_of(performance, player)
 
 
 def danced_feet(performance: Performance, player: Player) -> DancedFeet:
-    """Moves of the feet of a player who dances, without those that give way to the animator's."""
+    """Foot movements of a dancing player, without those replaced by the animator's."""
     layer = layer_of(performance, player) if player.parameters.choreography else None
     return DancedFeet.none() if layer is None else layer.feet.giving_way(performance.plan(player).gestures)
 
 
 def layer_is_made(performance: Performance, player: Player) -> bool:
-    """Return whether asking for a player's layer takes no time."""
+    """Return whether a player's dance layer is available without computing it."""
     maker = maker_of_dances()
     return maker is None or maker.layer_is_made(performance, player)

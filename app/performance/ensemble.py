@@ -1,4 +1,4 @@
-"""Plans of all players of a project, made once from a snapshot and shared."""
+"""Plans of all players of a project, computed once from a snapshot and shared."""
 
 from __future__ import annotations
 
@@ -47,27 +47,27 @@ _CHECKED: Final = {""}
 
 
 class Performance:
-    """A project, played.
+    """A project with the plans of its players.
 
-    A player without a map of the instrument, or with a character that is not installed, keeps a place: the plan has
-    a problem and, without a map, no events; the others play on.
+    A player without instrument map or with a missing character stays in the ensemble: the plan has a problem and,
+    without a map, no events.
 
-    Its instruments, characters, styles, habits and expressions are those there are when it is made.
+    Instruments, characters, styles, habits and expressions are those available at its creation.
 
     Parameters
     ----------
     project : Project
-        A value: what is made from it once stays right.
+        The immutable project.
     before : Performance, optional
-        Of the same document before an edit: what has not changed is taken from there, to the object. The result is
-        the same without it.
+        The performance before an edit, whose unchanged results are reused as the same objects. The result does not
+        depend on it.
     waiting : frozenset of str
-        Players who are not seen yet, because another task first computes how they hold their instruments (`hold`).
+        Players not shown yet, because another task is still computing their grips (`hold`).
 
     Raises
     ------
     AppError
-        ``piece.too_long``: a few wrong bytes can make a piece of months, whose bars alone would fill the memory.
+        The piece is too long to be processed; damaged files can claim months.
     """
 
     def __init__(
@@ -130,7 +130,7 @@ class Performance:
 
     @cached_property
     def parts(self) -> tuple[MonophonicPart, ...]:
-        """Parts of the players with an instrument, in the order of the project's players."""
+        """Parts of the players with an instrument, in project order."""
         with self._lock:
             parts = []
             for player in self.project.players:
@@ -143,12 +143,12 @@ class Performance:
 
     @cached_property
     def velocity_reading(self) -> VelocityReading:
-        """The reading of the velocities of all parts together."""
+        """Interpretation of the velocities of all parts together."""
         with self._lock:
             return self._whole.of(read_velocities)
 
     def marks(self, player: Player) -> dict[str, str]:
-        """The dynamic mark in force at each of a player's notes, by note id."""
+        """The dynamic in force at each of a player's notes, by note id."""
         part = self.project.part(player)
         marks = corrected_marks(part.marks, self.project.corrections.get(player.id, ()))
         written = written_dynamics(marks, part.source, self.piece.clock.ticks_per_quarter)
@@ -176,7 +176,7 @@ class Performance:
 
     @cached_property
     def span_ticks(self) -> tuple[int, int]:
-        """Onset of the first note that someone plays or dances to, and end of the last one."""
+        """Onset of the first note and end of the last note that is played or danced to."""
         players = [self.project.player(part.player_id) for part in self.parts]
         played = [part for part in map(self.project.part, players) if part.notes]
         first_ticks = [part.notes[0].onset_tick for part in played]
@@ -189,7 +189,7 @@ class Performance:
 
     @cached_property
     def time_frame(self) -> TimeFrame:
-        """The span that every player's motion covers."""
+        """The time span of every player's motion."""
         first_tick, last_tick = self.span_ticks
         beat_ticks = self.project.metre_map.felt_ticks_at(first_tick)
         frame = frame_around(first_tick, last_tick, self.piece.clock, self.project.preroll_beats, beat_ticks)
@@ -197,7 +197,7 @@ class Performance:
 
     @cached_property
     def places(self) -> dict[str, StagePlace]:
-        """Places of the players on the stage, and of the conductor who stands there."""
+        """Stage places of the players and of the conductor, if there is one."""
         found = {}
         for player in self.project.players:
             stage, eyes_m = player.stage, EYES_M[player.parameters.posture]
@@ -214,21 +214,21 @@ class Performance:
         first: Callable[[], Sequence[str]] = tuple,
         planned: Callable[[tuple[str, ...]], None] = lambda player_ids: None,
     ) -> None:
-        """Make all plans, if they are not made yet; another thread may use those that are made.
+        """Make all plans not made yet; other threads may use finished ones meanwhile.
 
         Parameters
         ----------
         stop_requested, progress : callable
-            Asked, and called with the share 0..1 that is done, between two musicians.
+            Called between musicians; ``progress`` with the share done, 0..1.
         first : callable
-            Asked there too: ids of the players to plan before all others. The plans are the same in any order.
+            Called between musicians: returns ids of players to plan next. The order does not affect results.
         planned : callable
-            Called there with the ids of a musician's players, whose `plan` and `problems` are final.
+            Called with the ids of a musician's players whose `plan` and `problems` are final.
 
         Raises
         ------
         Cancelled
-            ``stop_requested`` said so; the next one begins again.
+            ``stop_requested`` returned True; the next call starts again.
         """
         with self._planning:
             if self.planned:
@@ -266,7 +266,7 @@ class Performance:
     def _plan_musician(
         self, planning: EnsemblePlanning, played: tuple[Player, ...], stop_requested: StopRequested
     ) -> None:
-        """Plan everything that one musician plays, and find its problems."""
+        """Plan all players of one musician, and find their problems."""
         made = {player.id: planning.plan(player.id) for player in played if player.id in planning.player_ids}
         turns = (first_played(made), changes(made)) if len(made) > 1 else None
         for player in played:
@@ -283,13 +283,12 @@ class Performance:
         self.planned, self.begun, self._before = True, None, None
 
     def prepare_within(self, cpu_s: float) -> bool:
-        """Make all plans unless that takes the calling thread longer; whether they are made.
+        """Make all plans if this takes less of the calling thread's time; returns whether they are made.
 
         Parameters
         ----------
         cpu_s : float
-            Of the thread's own time: what else the machine does is no reason to give up. Nothing is made where a
-            choreography has to be read first.
+            Limit of the thread's own processor time. If a choreography must be loaded first, no plan is made.
         """
         if any(player.parameters.choreography not in _CHECKED for player in self.project.players):
             return False
@@ -306,8 +305,9 @@ class Performance:
         made: Mapping[str, PlayerPlan],
         turns: tuple[str, tuple[InstrumentChange, ...]] | None,
     ) -> PlayerPlan:
-        """A player's plan, empty without an instrument; of a musician with several, without what is done while this one
-        is put aside. ``made`` are the plans of what the musician plays, ``turns`` the changes of instruments."""
+        """A player's plan, empty without an instrument. For a musician with several, events while this one is put aside
+        are removed; ``made`` are the plans of all the musician's players, ``turns`` the instrument changes.
+        """
         plan = made.get(player.id)
         if plan is None:
             return no_events(player.id, self.time_frame)
@@ -325,7 +325,7 @@ class Performance:
         return held.of(with_parts)
 
     def _problems_of(self, player: Player, plan: PlayerPlan) -> tuple[Problem, ...]:
-        """Problems of a player's plan, and what the player lacks for it."""
+        """Problems of a player's plan, and missing resources."""
         lacking, unreached = self.lacking(player), tuple[Problem, ...]()
         if lacking:
             self.unseen[player.id] = lacking[0]
@@ -347,22 +347,24 @@ class Performance:
         return self._plans
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a player's performance by time, known before its motion: of the plan, of the instrument and
-        character, and of the body's reach. Dancers have none."""
+        """Problems of a player known before its motion, by time: of the plan, of instrument and character, and of
+        reach. Empty for dancers.
+        """
         if player_id not in self._plans:
             self.prepare()
         return self._problems.get(player_id, ())
 
     @cached_property
     def expressions(self) -> dict[str, Expression]:
-        """Every expression by name; the project's own win over the user's, and those over the bundled ones."""
+        """All expressions by name; the project's override the user's, and those override bundled ones."""
         with self._lock:
             return self._whole.of(all_expressions)
 
     @property
     def unplanned_notes(self) -> int:
-        """Return how many notes have to be planned, about; those of players whom an edit has not touched are planned
-        already, and an edit that moves no breath and no cue costs little."""
+        """Return an estimate of the number of notes to be planned; players unaffected by an edit count nothing, and
+        edits that move no breath or cue count little.
+        """
         if self.planned:
             return 0
         before = self._before
@@ -375,7 +377,7 @@ class Performance:
         return sum(work_of(part, known.get(part.player_id)) for part in self.parts)
 
     def is_planned(self, player_id: str) -> bool:
-        """Return whether a player's plan is made already; the others' may not be."""
+        """Return whether a player's plan is made."""
         return player_id in self._plans
 
     def plan(self, player: Player) -> PlayerPlan:
@@ -384,7 +386,7 @@ class Performance:
         return self.plans[player.id] if known is None else known
 
     def instrument(self, player: Player) -> InstrumentMap:
-        """The map of what a player plays. Raises MapError where there is none: see `lacking`."""
+        """Instrument map of a player. Raises MapError if there is none: see `lacking`."""
         instrument = self.library.maps.get(player.instrument_id)
         if instrument is None:
             message = self._no_instrument(player)
@@ -392,7 +394,7 @@ class Performance:
         return instrument
 
     def lacking(self, player: Player) -> tuple[Message, ...]:
-        """Missing instrument or character of a player, and the reason where its file is damaged."""
+        """Messages about a player's missing or damaged instrument or character."""
         found = []
         if player.instrument_id not in self.library.maps:
             found.append(self._no_instrument(player))
@@ -410,7 +412,7 @@ class Performance:
 
     @property
     def unheld(self) -> tuple[Player, ...]:
-        """The players of whom it is not known yet how they hold their instruments: finding out takes seconds each."""
+        """Players whose grips are not computed yet, which takes seconds each."""
         found = []
         for player in self.project.players:
             instrument = self.library.maps.get(player.instrument_id)
@@ -424,19 +426,19 @@ class Performance:
         progress: Progress = lambda share: None,
         players: Iterable[Player] | None = None,
     ) -> None:
-        """Find out how the players hold their instruments, where that is not known yet.
+        """Compute the missing grips of players.
 
         Parameters
         ----------
         stop_requested, progress : callable
-            Asked and called often; ``progress`` is given the share 0..1 that is done.
+            Called often; ``progress`` with the share done, 0..1.
         players : iterable of Player, optional
-            Only these; all by default.
+            Players to include; all by default.
 
         Raises
         ------
         Cancelled
-            ``stop_requested`` said so; holds that were finished stay.
+            ``stop_requested`` returned True; finished grips are kept.
         """
         chosen = None if players is None else {player.id for player in players}
         unheld = [player for player in self.unheld if chosen is None or player.id in chosen]
@@ -451,12 +453,11 @@ class Performance:
             hold_now(player, self.instrument(player), reported)
 
     def held(self, player: Player) -> InstrumentMap:
-        """The instrument's map at the size that the player's body plays, with the touch points that the body has.
-        Raises AppError."""
+        """The instrument map fitted to the player's body in size and contacts. Raises AppError."""
         return suited_to(player, self.instrument(player)).instrument
 
 
 def changes_of(performance: Performance, played: Sequence[Player]) -> tuple[str, tuple[InstrumentChange, ...]]:
-    """For a musician who plays several instruments: which is in the hands first, and when they change."""
+    """For a musician with several instruments: the player whose instrument is in hand first, and the changes."""
     plans = {player.id: performance.plan(player) for player in played}
     return first_played(plans), changes(plans)

@@ -1,5 +1,4 @@
-"""Steps from a project to what every player plays, and to what remains of a plan where a player has several
-instruments."""
+"""Cached steps from a project to every player's part, and to plans of players with several instruments."""
 
 from __future__ import annotations
 
@@ -50,7 +49,7 @@ def _actings(
     styles: Mapping[str, Style],
     habits: Mapping[str, Habit],
 ) -> tuple[tuple[str, Acting], ...]:
-    """Return what a player shows in other styles, by style; those that are not there are left out."""
+    """Return a player's acting in other styles, by style; unknown styles are left out."""
     named = sorted({item.style for item in corrections if isinstance(item, PlayStyle) and item.style in styles})
     shown = (msgspec.structs.replace(own_parameters, style=style) for style in named)
     acted = (with_style(other, musician_id, section_intensity, styles, habits) for other in shown)
@@ -62,7 +61,9 @@ def _styled(corrections: tuple[Correction, ...]) -> bool:
 
 
 def _named(name: str, styled: bool) -> str:
-    """Return the player's name where regions of styles are reported by it: else another name changes no line."""
+    """Return the player's name if messages about style spans need it, else an empty one, so that renaming does not
+    change the part.
+    """
     return name if styled else ""
 
 
@@ -75,7 +76,7 @@ def _kept(value: tuple[object, ...]) -> tuple[object, ...]:
 
 
 def with_parts(plan: PlayerPlan, parts: tuple[tuple[object, ...], ...]) -> PlayerPlan:
-    """Return the plan with other events where the instrument is put aside."""
+    """Return the plan with other events while the instrument is put aside."""
     return msgspec.structs.replace(plan, **dict(zip(ASIDE, parts, strict=True)))
 
 

@@ -1,8 +1,8 @@
-"""A large piece as far as it is seen at first: planned from the notes around the playhead, before all of it is.
+"""Excerpt of a long piece shown first: players are planned from the notes around the playhead before the whole piece is
+planned.
 
-Plans depend on notes before and after only as far as a phrase, a breath or a rest reaches. Players who are planned from
-the notes of a minute move as they do once everything is planned, or nearly so, in a fraction of the time; then the
-plans of the whole take the place of these.
+Plans depend on other notes only within a phrase, a breath or a rest. Planned from about a minute of notes, players move
+nearly as they will in the full plan, after a fraction of the time; the full plans then replace these.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ WORTH: Final = 4
 
 
 class PerformanceExcerpt(Performance):
-    """Plans of players around a moment, to be seen while the whole performance is being planned.
+    """Plans of players around a moment, shown while the whole performance is being planned.
 
-    Dancers, and players who move by a choreography, are not in it.
+    Excludes dancers and players with a choreography.
 
     Parameters
     ----------
     whole : Performance
-        Its planning has begun: what is read of all notes, and what concerns all players, is taken from there.
+        The whole performance, whose planning has begun: shared results are taken from it.
     around_s : float
     """
 
@@ -52,7 +52,7 @@ class PerformanceExcerpt(Performance):
         """Span whose motion may be shown, seconds."""
 
     def prepare(self, stop_requested: StopRequested = lambda: False, *_: Callable[..., object]) -> None:
-        """Plan everyone who can be in it. Raises Cancelled."""
+        """Plan all included players. Raises Cancelled."""
         for musician in self.project.bodies:
             raise_if_stopped(stop_requested)
             with self._lock:
@@ -60,12 +60,12 @@ class PerformanceExcerpt(Performance):
 
     @property
     def shown_players(self) -> tuple[Player, ...]:
-        """The players to be seen in it: players with a choreography are left out, as it takes seconds to generate."""
+        """The included players: those without a choreography, which would take seconds to generate."""
         danced = {one.doubles or one.id for one in self.project.players if one.parameters.choreography}
         return tuple(one for one in self.project.players if (one.doubles or one.id) not in danced)
 
     def plan(self, player: Player) -> PlayerPlan:
-        """One player's plan; never waits."""
+        """One player's plan, or an empty one if it is not made yet; never waits."""
         known = self._plans.get(player.id)
         return no_events(player.id, self.time_frame) if known is None else known
 
@@ -75,6 +75,6 @@ class PerformanceExcerpt(Performance):
 
 
 def is_worth_it(whole: Performance) -> bool:
-    """Return whether a performance is long enough for an excerpt to take much less time than the whole."""
+    """Return whether a performance is so long that an excerpt saves much time."""
     span_s = whole.time_frame.end_s - whole.time_frame.first_frame_s
     return span_s >= WORTH * (BEFORE_S + AFTER_S)

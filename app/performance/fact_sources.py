@@ -1,4 +1,4 @@
-"""Origins of what a plan says: the score, the sound of a file, a person's hand, or a guess."""
+"""Sources of a plan's facts: score, sound of a file, correction by hand, or guess."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _TONGUING: Final = "_tongue"
 
 
 def breath_source(event: BreathEvent) -> FactSource:
-    """Return what a breath is from: a breath mark, the breath that a controller recorded, a hand, or rests and air."""
+    """Return the source of a breath: a breath mark, a recorded breath, a correction by hand, or rests and air."""
     if event.corrected:
         return "hand"
     for id in (event.reason.id, str(event.reason.arguments.get("why"))):
@@ -38,7 +38,7 @@ def breath_source(event: BreathEvent) -> FactSource:
 
 
 def tempo_source(score: Score) -> FactSource:
-    """Return what the tempo is from; of a score one of 120 from end to end may be none at all."""
+    """Return the source of the tempo; a score with 120 throughout may have none."""
     if all(part.source != "score" for part in score.parts):
         return "sound"
     return "guess" if [bpm for _, bpm in score.tempo_map.bpm] == [USUAL] else "score"
@@ -47,12 +47,12 @@ def tempo_source(score: Score) -> FactSource:
 def note_sources(
     part: Part, notes: Sequence[Note], plan: PlayerPlan, corrections: tuple[Correcting, ...], quarter: int
 ) -> list[dict[str, FactSource]]:
-    """Return what each of `FACTS` is from.
+    """Return the source of each of `FACTS` for each note.
 
     Parameters
     ----------
     notes : sequence of Note
-        Those of the part that are played.
+        Notes of the part that are played.
     quarter : int
         Ticks per quarter.
     """
@@ -79,7 +79,7 @@ def note_sources(
 
 
 def _marked(same: bool) -> FactSource:
-    """The source of a mark: the score has the same, or a hand wrote it."""
+    """Source of a mark: the score if it has the same, else by hand."""
     return "score" if same else "hand"
 
 
@@ -94,7 +94,7 @@ def _dynamic(index: int, written: WrittenMarks, read: WrittenMarks) -> FactSourc
 
 
 def _slur(index: int, notes: Sequence[Note], written: WrittenMarks, read: WrittenMarks) -> FactSource:
-    """The source of whether a note is slurred to."""
+    """Source of whether a note is slurred to."""
     if not index:
         return "score" if written.is_score else "sound"
     before = index - 1

@@ -1,8 +1,7 @@
-"""The motion of all players as the viewport needs it: what is looked at first, the rest behind it, memory bounded.
+"""Motion of all players for the viewport: visible frames first, then the rest, within bounded memory.
 
-The performance is cut into chunks of frames. The owner of the worker thread calls `LiveMotion.work` as long as it
-makes something; the viewport calls `LiveMotion.pose`, which never waits. After an edit only the chunks are made again
-whose curves changed.
+The performance is divided into chunks of frames. The worker thread calls `LiveMotion.work` repeatedly; the viewport
+calls `LiveMotion.pose`, which never waits. After an edit only chunks with changed curves are computed again.
 """
 
 from __future__ import annotations
@@ -34,19 +33,19 @@ BEHIND_COSTS = 3
 
 
 class PlayerFault(Exception):
-    """A fault of the program in one player's motion, its cause: that player is made no more, the others are."""
+    """A bug in the computation of one player's motion (its cause); only that player is stopped."""
 
 
 class LiveMotion:
-    """Poses of all players of the newest performance.
+    """Poses of all players of the current performance.
 
-    One thread works (`work`); any thread may ask (`pose`), say what is requested, and have it made at once
+    One thread computes (`work`); any thread may read (`pose`), set the visible span, and compute a frame immediately
     (`make_now`).
 
     Parameters
     ----------
     budget_bytes : int
-        What all chunks together may take; what is farthest from the playhead goes first.
+        Largest memory of all chunks; those farthest from the playhead are dropped first.
     """
 
     def __init__(self, performance: Performance, budget_bytes: int = BUDGET_BYTES) -> None:
@@ -66,12 +65,13 @@ class LiveMotion:
 
     @property
     def performance(self) -> Performance:
-        """The performance that is shown."""
+        """The performance shown."""
         return self._shown.performance
 
     def show_first(self, performance: Performance, player_ids: Sequence[str]) -> None:
-        """Show players of a performance whose other players are being planned yet: beside those that were shown in this
-        way, and in place of another performance."""
+        """Show some players of a performance while the others are still being planned: in addition to those shown this
+        way before, and replacing another performance.
+        """
 
         def begun(player: Player, old: LiveTrack | None, grid: FrameGrid) -> LiveTrack:
             plan, known = performance.plan(player), performance.problems(player.id)
@@ -80,7 +80,7 @@ class LiveMotion:
         self._show_more(performance, map(performance.project.player, player_ids), begun)
 
     def show_excerpt(self, performance: Performance, excerpt: PerformanceExcerpt) -> None:
-        """Show a performance by its excerpt while it is being planned; players already planned stay as shown."""
+        """Show a performance by its excerpt while it is being planned; already planned players stay."""
 
         def begun(player: Player, old: LiveTrack | None, grid: FrameGrid) -> LiveTrack:
             return old or LiveTrack(player, excerpt.plan(player), excerpt=excerpt)
@@ -107,7 +107,9 @@ class LiveMotion:
             self._report(self._shown)
 
     def show(self, performance: Performance) -> None:
-        """Show another performance. What did not change stays; what did is shown as it was until it is made again."""
+        """Show another performance. Unchanged parts stay; changed ones are shown in their old state until
+        recomputed.
+        """
         grid = FrameGrid.of(performance.time_frame, performance.project.fps)
         with self._lock:
             before = self._shown
@@ -166,7 +168,7 @@ class LiveMotion:
             self._report(self._shown)
 
     def request(self, time_s: float, span_s: float = SEEN_S, player_ids: tuple[str, ...] = ()) -> None:
-        """Say what is looked at: from a time on, for some seconds, these players before the others (empty: all)."""
+        """Set the visible span: from a time on, for some seconds, with these players first (empty: all)."""
         grid, (last_s, last_span_s, last_ids) = self._shown.grid, self._requested
         self._requested = (time_s, span_s, player_ids)
         moved = grid.place(time_s)[0] // grid.length != grid.place(last_s)[0] // grid.length
@@ -175,14 +177,14 @@ class LiveMotion:
                 self._todo = None
 
     def pose(self, player_id: str, time_s: float) -> Pose | None:
-        """A player's pose at a time, between two frames too; None if there is none yet. Never waits.
+        """A player's pose at a time, interpolated between frames; None if not computed yet. Never waits.
 
-        After an edit it is the pose before it, until the new one is made.
+        After an edit it is the previous pose until the new one is computed.
         """
         return self.poses((player_id,), time_s)[0]
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> list[Pose | None]:
-        """`pose` of several players, in their order."""
+        """Poses of several players in order; see `pose`."""
         shown = self._shown
         frame, share = shown.grid.place(time_s)
         index, inner = divmod(frame, shown.grid.length)
@@ -199,10 +201,10 @@ class LiveMotion:
         return result
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """A player's pose at a time as the newest performance has it, made here and now where it is not there yet; of
-        who dances a dance that is not generated yet, the one that is shown.
+        """A player's pose at a time in the current performance, computed immediately if missing; for a dance not
+        generated yet, the shown one.
 
-        None for a player who cannot be seen (see `error`).
+        None for a player that cannot be shown (see `error`).
         """
         shown = self._shown
         track = shown.tracks.get(player_id)
@@ -223,13 +225,12 @@ class LiveMotion:
             return poses_of([made], 0, share)[0]
 
     def error(self, player_id: str) -> Message | None:
-        """Reason why a player cannot be seen; None if none is known."""
+        """Reason why a player cannot be shown; None if none is known."""
         track = self._shown.tracks.get(player_id)
         return None if track is None else track.error
 
     def work(self, stop_requested: StopRequested = lambda: False) -> bool:
-        """Make the most requested chunk that is missing; whether there was one. Raises PlayerFault, once for a
-        player."""
+        """Compute the most urgent missing chunk; returns whether there was one. Raises PlayerFault once per player."""
         if self.is_moving or len(self._made) >= MOST_UNJUDGED:
             self._judge_made()
         more = self._make_missing(stop_requested)
@@ -256,12 +257,11 @@ class LiveMotion:
         return False
 
     def make_now(self, player_id: str, time_s: float) -> None:
-        """Make a player's frames around a time here and now, in any thread.
+        """Compute a player's frames around a time immediately, in any thread.
 
-        Not of players that were never shown, or whose dance is not generated: that takes long. Nor while the worker
-        thread makes something of the very player, since it makes next what is shown. What of the performance before is
-        still right is left to the worker: a picture waits for this, and comparing takes as long as making. Raises
-        PlayerFault.
+        Does nothing for players never shown, for dances not generated yet, and while the worker computes the same
+        player. Reuse of unchanged frames of the previous performance is left to the worker, since comparing takes as
+        long as computing. Raises PlayerFault.
         """
         shown = self._shown
         track = shown.tracks.get(player_id)
@@ -275,7 +275,7 @@ class LiveMotion:
             track.making.release()
 
     def _make(self, shown: ShownTracks, track: LiveTrack, index: int, *, prove: bool = True) -> bool | None:
-        """Make a chunk: None where that is not needed or not possible, False where there is no room for it."""
+        """Compute a chunk; None if it is not needed or not possible, False if there is no room for it."""
         if not track.reaches(shown.grid, index):
             return None
         with self._own_fault(track):
@@ -303,7 +303,9 @@ class LiveMotion:
         return True
 
     def _judge_made(self) -> None:
-        """Judge what was made last: not with the frames, for which a picture waits, and while others are made."""
+        """Check the contacts of recently computed chunks; separate from their computation, so that no picture waits for
+        it.
+        """
         with self._lock:
             shown, made = self._shown, self._made
             # What is made from an excerpt is judged once it proves to be that of the whole.
@@ -320,9 +322,10 @@ class LiveMotion:
                     self._judge(track, index, motion)
 
     def judge(self, stop_requested: StopRequested = lambda: False) -> bool:
-        """Judge the contacts of some frames that there is no room to keep, once `work` is done; whether there were any.
+        """Check the contacts of some frames that there is no room to store, once `work` is done; returns whether there
+        were any.
 
-        Of the same thread as `work`. Raises PlayerFault.
+        Must be called on the thread of `work`. Raises PlayerFault.
         """
         with self._lock:
             shown = self._shown
@@ -348,17 +351,17 @@ class LiveMotion:
 
     @property
     def seen(self) -> int:
-        """Another number once `work` has made poses around the time that is requested."""
+        """Counter that changes when `work` has computed poses around the requested time."""
         return self._seen
 
     @property
     def made(self) -> int:
-        """Return how many chunks were made so far."""
+        """Return the number of chunks computed so far."""
         return self._made_chunks
 
     @property
     def is_seen(self) -> bool:
-        """True if everything that is looked at is made, so that no one waits for what is left."""
+        """True if everything visible is computed."""
         shown = self._shown
         places = self._in_sight(shown.grid)
         return shown.is_whole and all(
@@ -378,7 +381,7 @@ class LiveMotion:
 
     @property
     def broken(self) -> dict[str, tuple[Problem, ...]]:
-        """Contacts that the motion breaks, by player, as far as it was made; a new dict whenever anything is new."""
+        """Broken contacts by player in the frames computed so far; a new dict whenever it changes."""
         return self._broken
 
     @contextmanager
@@ -398,7 +401,7 @@ class LiveMotion:
             self._name_problems(track)
 
     def _name_problems(self, track: LiveTrack) -> None:
-        """Report the contacts that a player breaks, or corrections that a dance does not hold."""
+        """Report a player's broken contacts, or a dance's unmet corrections."""
         problems = track.found_problems()
         if problems != track.problems:
             track.problems = problems
@@ -412,7 +415,7 @@ class LiveMotion:
 
     @property
     def ready_share(self) -> float:
-        """Return how much is made of what there is room for, 0..1."""
+        """Return the share of storable frames that is computed, 0..1."""
         shown = self._shown
         ready = sum(len(track.chunks) for track in shown.tracks.values())
         performers = len(shown.performance.project.performers)
@@ -423,7 +426,7 @@ class LiveMotion:
 
     @property
     def bytes(self) -> int:
-        """Memory of all chunks."""
+        """Memory of all chunks in bytes."""
         return sum(track.bytes for track in tuple(self._shown.tracks.values()))
 
     def _playing(self, shown: ShownTracks, track: LiveTrack) -> PerformanceCurves | Dancing | None:
@@ -435,7 +438,7 @@ class LiveMotion:
         return playing
 
     def _prove(self, shown: ShownTracks, track: LiveTrack) -> None:
-        """Find out which chunks of the performance before are still right."""
+        """Find the chunks of the previous performance that are still valid."""
         curves = self._playing(shown, track)
         if curves is None:
             track.unproven, track.outdated, track.basis = {}, {}, None
@@ -458,7 +461,7 @@ class LiveMotion:
             self._name_problems(track)
 
     def _missing(self, shown: ShownTracks) -> Iterator[tuple[str, int]]:
-        """Players and chunks, the most requested first: what is looked at, then the rest by its distance in time."""
+        """Yield players and chunks to compute, most urgent first: visible ones, then by distance in time."""
         grid, player_ids = shown.grid, self._requested[2]
         asked = [player_id for player_id in player_ids if player_id in shown.tracks]
         everyone = asked + [player_id for player_id in shown.tracks if player_id not in asked]
@@ -472,12 +475,12 @@ class LiveMotion:
             yield from ((player_id, index) for player_id in everyone)
 
     def _in_sight(self, grid: FrameGrid) -> range:
-        """The chunks that are looked at; the first one holds the playhead."""
+        """The visible chunks; the first one contains the playhead."""
         time_s, span_s, _ = self._requested
         return range(grid.place(time_s)[0] // grid.length, grid.place(time_s + span_s)[0] // grid.length + 1)
 
     def _make_room(self, shown: ShownTracks, track: LiveTrack, index: int) -> bool:
-        """Let go of what is farther away than a chunk, as much as it needs; False if there is nothing farther."""
+        """Drop chunks farther away than a chunk, as many as it needs; returns False if that is impossible."""
         player_ids, places = self._requested[2], self._in_sight(shown.grid)
         here = places[0]
 

@@ -1,5 +1,4 @@
-"""Lungs, lips and eyes of a live player: they follow breath, bite and bend, and breathe in when the breath
-pauses."""
+"""Lungs, lips and eyes of a live player: they follow breath, bite and bend, and inhale when the breath pauses."""
 
 from __future__ import annotations
 
@@ -66,7 +65,7 @@ BELL_RISES = 0.5
 
 @dataclass(frozen=True)
 class BreathFrames:
-    """Body and face for `FRAMES` equal frames; members as of `app.motion.perform.Frames`."""
+    """Body and face for `FRAMES` equal frames; fields as in `app.motion.played_frames.PlayedFrames`."""
 
     levels: LayerSamples
     face: Drivers
@@ -78,9 +77,9 @@ class LiveBreath:
     Parameters
     ----------
     curves : PerformanceCurves
-        Of the player, with what faces look like: ``neutral``, and those that rules show.
+        Curves of the player, with definitions of ``neutral`` and of expressions used by rules.
     rules : tuple of Rule, optional
-        Ours without it.
+        Rules; the bundled ones by default.
     """
 
     def __init__(self, curves: PerformanceCurves, rules: tuple[Rule, ...] | None = None) -> None:
@@ -122,11 +121,11 @@ class LiveBreath:
 
     @property
     def loudness(self) -> float:
-        """Loudness by the breath, or by the note's velocity where no breath is sent."""
+        """Loudness 0..1 by the breath, or by the note's velocity if no breath is sent."""
         return self._struck if self._breath is None else self._breath
 
     def play(self, now_s: float, pitch: int, velocity: int, attacked: bool) -> None:
-        """A note begins; ``attacked`` is one that is tongued."""
+        """Begin a note; ``attacked``: with a tongue stroke."""
         self.advance(now_s)
         self._pitch, self._struck = float(pitch), velocity / 127.0
         self._onset_s, self._sounding = now_s, True
@@ -135,7 +134,7 @@ class LiveBreath:
         self._turn(now_s)
 
     def rest(self, now_s: float) -> None:
-        """No note sounds any more."""
+        """End the notes: silence begins."""
         self.advance(now_s)
         self._sounding = False
         self._turn(now_s)
@@ -159,7 +158,7 @@ class LiveBreath:
         return self._sounding or (self._breath is not None and self._breath > SILENT)
 
     def _turn(self, now_s: float) -> None:
-        """Change from blowing to a pause, or back."""
+        """Switch between blowing and pausing."""
         if self._blown and self._paused_s < math.inf:
             self._begin(now_s)
         elif not self._blown and self._paused_s == math.inf:
@@ -178,7 +177,7 @@ class LiveBreath:
         self._full = self._full.toward(now_s, 0.0, EXHALE_S)
 
     def advance(self, now_s: float) -> None:
-        """Do what time brings."""
+        """Update the state to a time."""
         elapsed_s = max(now_s - self._now_s, 0.0)
         if math.isinf(elapsed_s):
             elapsed_s = 0.0
@@ -191,7 +190,7 @@ class LiveBreath:
         self._follow(now_s, elapsed_s)
 
     def _pause(self, now_s: float) -> None:
-        """Breathe in, hold the breath, and release it."""
+        """Update a pause: inhale, hold the breath, release it."""
         waits_s = FULL_PAUSE_S + (EMPTY_PAUSE_S - FULL_PAUSE_S) * self._spent
         paused_s = now_s - self._paused_s
         if now_s >= self._inhaled_s:
@@ -208,7 +207,7 @@ class LiveBreath:
             self._full = self._full.toward(now_s, 0.0, EXHALE_S)
 
     def _follow(self, now_s: float, elapsed_s: float) -> None:
-        """Bring lips, cheeks and face towards what is played."""
+        """Move lips, cheeks and face towards the values for the current playing."""
         loud = np.array([self.loudness if self._blown else 0.0])
         pitch = np.array([self._middle if self._pitch is None else self._pitch])
         held_s = np.array([now_s - self._onset_s if self._sounding else 0.0])
@@ -236,7 +235,7 @@ class LiveBreath:
             spring.follow(strengths[name], elapsed_s)
 
     def at(self, now_s: float) -> BreathFrames:
-        """Body and face now."""
+        """Body and face at a time."""
         self.advance(now_s)
         nothing, still = np.zeros(FRAMES), Overlapped.nothing(FRAMES)
 
@@ -290,7 +289,7 @@ class LiveBreath:
 
 
 class LiveLook:
-    """Eyes that rest on the music, and lids that close now and then, but not on an entry."""
+    """Eyes that rest on the music, with occasional blinks that avoid entries."""
 
     def __init__(self, curves: PerformanceCurves) -> None:
         self._random = generator(curves.player_id, curves.parameters.seed, "look")
@@ -300,7 +299,7 @@ class LiveLook:
         self._moves_s = self._blinks_s = self._opens_s = math.inf
 
     def at(self, now_s: float) -> GazeFrames:
-        """Eyes and lids now, `FRAMES` equal frames."""
+        """Eyes and lids at a time, as `FRAMES` equal frames."""
         random = self._random
         if math.isinf(self._moves_s):
             self._moves_s, self._blinks_s = now_s + random.uniform(0.4, 1.5), now_s + random.uniform(0.5, 2.5)

@@ -1,8 +1,8 @@
-"""Fingers and slide of a live player: the fingering of every note as it begins, and the way there.
+"""Fingers and slide of a live player: fingering of each note as it begins, and the motion to it.
 
-Nothing is known beforehand: a control leaves its place with the onset and is in place as soon as a hand is there. A
-finger goes to its key with it and stays where it is until it is needed elsewhere, or home once it was not for a while
-(`app.motion.fingering.finger_curves` says what of this is seen where the notes are known).
+Notes are not known in advance: a control starts at the onset and arrives as fast as a hand can move. A finger moves to
+its key with it, and stays until needed elsewhere, or goes home after a while (`app.motion.fingering.finger_curves`
+describes the case of known notes).
 """
 
 from __future__ import annotations
@@ -38,8 +38,9 @@ _ON_WAY = np.linspace(0.0, 1.0, FRAMES)
 
 @dataclass(frozen=True)
 class Hands:
-    """Hands and fingers at a moment, and (other frames) on their way; members as of `app.motion.perform.Frames`, of
-    `FRAMES` frames."""
+    """Hands and fingers at a moment (first frame) and on the way to their goals (other frames); fields as in
+    `app.motion.played_frames.PlayedFrames`.
+    """
 
     controls: dict[str, FloatArray]
     placed: dict[str, StationBlend]
@@ -50,8 +51,9 @@ class Hands:
 
 @dataclass(frozen=True)
 class _Grip:
-    """A fingering, and what it asks: values of all controls, those of a held note that are others, and the station of
-    each finger that is at work."""
+    """A fingering with its control values, the values for a held note where they differ, and the station of each
+    working finger.
+    """
 
     fingering: Fingering
     values: dict[str, float]
@@ -60,17 +62,17 @@ class _Grip:
 
 
 def _due_s(control: Control) -> float:
-    """Return how long a note is held before a control corrects it, or is let go."""
+    """Return the seconds after which a control corrects a held note, or is released."""
     return control.held_min_s or control.attack_s or 0.0
 
 
 class LiveHands:
-    """The hands of one player.
+    """The hands of one live player.
 
     Parameters
     ----------
     playing : PerformanceCurves
-        Whose instrument and hold; its notes are not looked at.
+        Curves of the player, for instrument and grip; its notes are not used.
     """
 
     def __init__(self, curves: PerformanceCurves) -> None:
@@ -99,12 +101,12 @@ class LiveHands:
 
     @property
     def fingering(self) -> Fingering | None:
-        """Last fingering; None before any note and after it was released."""
+        """Last fingering; None before any note and after its release."""
         return None if self._grip is None else self._grip.fingering
 
     @property
     def carries(self) -> bool:
-        """True if some control carries a hand."""
+        """True if some control moves a hand along."""
         return bool(self._carrying)
 
     def play(self, now_s: float, pitch: int, loudness: float) -> None:
@@ -122,14 +124,14 @@ class LiveHands:
         self._take(now_s, self._grip_of(pitch, column))
 
     def rest(self, now_s: float) -> None:
-        """No note sounds any more."""
+        """End the notes: silence begins."""
         self.advance(now_s)
         if self._before:
             self._end_last(now_s)
         self._silent_s = min(self._silent_s, now_s)
 
     def advance(self, now_s: float) -> None:
-        """Do what is due now: correct a held note, release in a silence, return to rest."""
+        """Perform what is due: correct a held note, release in a silence, return to rest."""
         grip = self._grip
         if grip is not None and now_s >= self._silent_s + LET_GO_S:
             self._let_go(self._silent_s + LET_GO_S)
@@ -148,7 +150,7 @@ class LiveHands:
                 del self._free_s[name]
 
     def at(self, now_s: float) -> Hands:
-        """The hands now, and where they are going."""
+        """The hands now, and on the way to their goals."""
         self.advance(now_s)
         controls = {}
         for name, reach in self._reaches.items():
@@ -161,7 +163,7 @@ class LiveHands:
         return Hands(controls, placed, np.full(FRAMES, raised), arrived_s)
 
     def carry(self, now_s: float, length_s: float) -> None:
-        """Let controls that carry a hand take at least this long from now on."""
+        """Slow down controls that move a hand along, so that they take at least this long from now."""
         for name in self._carrying if length_s > 0.0 else ():
             reach = self._reaches[name]
             if not reach.ended(now_s) and reach.end_s < now_s + length_s:
@@ -186,7 +188,7 @@ class LiveHands:
         return grip
 
     def _vents(self, fingering: Fingering) -> dict[str, float]:
-        """Controls of a fingering that only help the attack, at rest."""
+        """Controls of a fingering used only for the attack, at their rest values."""
         if "attack" not in fingering.tags:
             return {}
         controls = (self._controls[name] for name in fingering.controls)
@@ -196,7 +198,7 @@ class LiveHands:
         return {name: min(value, self._farthest.get(name, 1.0)) for name, value in values.items()}
 
     def _take(self, now_s: float, grip: _Grip) -> None:
-        """Take a grip: fingers go with the keys they go to."""
+        """Change to a grip: fingers move with their keys."""
         self._grip = grip
         goes = [name for name, station in grip.at_work.items() if self._fingers[name].goal != station]
         least_s = LEAST_TRAVEL_S if goes else 0.0
@@ -215,7 +217,7 @@ class LiveHands:
                 self._givings[name].go(now_s, station, longest_s)
 
     def _move(self, now_s: float, control: Control, value: float, least_s: float = 0.0) -> float:
-        """Bring a control to a value; how long that takes, 0 where it is there or on its way."""
+        """Move a control to a value; returns the seconds it takes, 0 if it is there or already moving there."""
         reach = self._reaches[control.name]
         if reach.target == value:
             return 0.0
@@ -224,7 +226,7 @@ class LiveHands:
         return length_s
 
     def _let_go(self, now_s: float) -> None:
-        """Back to rest, unhurried."""
+        """Return controls to rest, unhurried."""
         self._grip = None
         for name, reach in self._reaches.items():
             control = self._controls[name]
@@ -236,7 +238,7 @@ class LiveHands:
                 self._free_s.setdefault(name, now_s)
 
     def _raise(self, now_s: float) -> None:
-        """Fingers wait the higher the faster the last notes followed one another."""
+        """Update the height of waiting fingers: higher after faster notes."""
         if self._raised is None or len(self._before) < 2:
             return
         onsets_s = np.array([note.onset_s for note in self._before])

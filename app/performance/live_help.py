@@ -1,7 +1,7 @@
-"""Help of trunk and shoulders for the far hands of a live player.
+"""Help of trunk and shoulders for far hands of a live player.
 
-Where the notes are known a body begins to turn before its hand goes far (`app.motion.contacts.solve`). Here it turns as
-the hand goes: it has to be there before the hand needs it, so a hand that a control carries waits for it.
+With known notes the body turns before a hand goes far (`app.motion.contacts.solve`). Live, it starts together with the
+hand; a hand that a control moves along is slowed down until the body is there.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ _SHARES = minimum_jerk(_PHASES)
 
 
 class LiveHelp:
-    """The help given to one player's hands.
+    """The help currently given to a player's hands.
 
     Attributes
     ----------
     carries_s : float
-        How long a control that carries a hand has to take from now on, so that the body is there before its hand; 0
-        where it may be as quick as it is.
+        Least seconds that a control with a hand must take from now on, so that the body arrives before its hand; 0: no
+        limit.
     """
 
     def __init__(self) -> None:
@@ -47,14 +47,14 @@ class LiveHelp:
         self.carries_s = 0.0
 
     def at(self, now_s: float, arrived_s: float, needed: Help) -> Help:
-        """The help given now, in one frame.
+        """The help at a time, as one frame.
 
         Parameters
         ----------
         arrived_s : float
-            When the hands are where they are going.
+            Time at which the hands arrive.
         needed : Help
-            On the way from where the hands are now (first frame) to where they are going (last frame).
+            Help needed on the way from the current place of the hands (first frame) to their goals (last frame).
         """
         self.carries_s = 0.0
 
@@ -92,8 +92,9 @@ class LiveHelp:
 
 
 def _waits_s(values: FloatArray, here: float, length_s: float) -> float:
-    """Return how long a way of the hand must take that needs ``values`` of help, evenly spaced along it, so that a move
-    of help from ``here`` to the last of them, which takes ``length_s``, is never behind."""
+    """Return the least seconds of a hand's way that needs ``values`` of help, evenly spaced, so that a change of help
+    from ``here`` to the last value within ``length_s`` is never late.
+    """
     gone = np.linspace(0.0, 1.0, len(values))[1:]
     shares = np.clip((values[1:] - here) / (values[-1] - here), 0.0, 1.0)
     helped_s = length_s * np.interp(shares, _SHARES, _PHASES)

@@ -1,4 +1,4 @@
-"""The tongue of a live player: the strokes of its tip and of its back, and the breath that pushes a hard attack."""
+"""Tongue of a live player: strokes of tip and back, and breath pushes of hard attacks."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class _Stroke:
 class LiveTongue:
     """Tongue of one live player.
 
-    Two quick strokes are made with the tip; in a longer run of them the back of the tongue makes every other one.
-    Threes are not told from twos: what comes next is not known. An attack louder than those before it is pushed.
+    Two quick strokes use the tip; in a longer run the back makes every other one. Triple tonguing is not detected,
+    since later notes are unknown. An attack louder than those before it gets a push.
     """
 
     def __init__(self, curves: PerformanceCurves) -> None:
@@ -69,6 +69,7 @@ class LiveTongue:
             self._push.begin(now_s, PUSHED["accent"])
 
     def at(self, now_s: float) -> tuple[float, float, float]:
-        """Return how far tip and back of the tongue are up, 1 in a plain stroke of the tip, and how hard the breath
-        pushes."""
+        """Return the height of the tongue's tip and back (1 in a plain stroke of the tip), and the strength of the
+        breath push.
+        """
         return self._tip.at(now_s), self._back.at(now_s), self._push.at(now_s)

@@ -40,7 +40,7 @@ TURNS = {"spine": 0.09, "chest": 0.16, "upperChest": 0.12}
 
 @dataclass(frozen=True)
 class Aside:
-    """How an instrument is put aside: the hand, and the instrument's index among the musician's."""
+    """Options for putting an instrument aside: the hand, and the instrument's index among the musician's."""
 
     side: Side
     number: int

@@ -1,8 +1,8 @@
-"""Valves, slides, keys, triggers and rings as curves of time.
+"""Curves of an instrument's controls over time: valves, slides, keys, triggers and rings.
 
-A control is in place at the onset of its note. It leaves its last place only just before the next onset; repeated
-notes do not lift it; in a rest of a beat or more it returns to rest once its note has ended. How quickly each control
-moves, and in how much of a note, the instrument map says.
+A control is in place at its note's onset. It leaves the previous place only just before the next onset; repeated notes
+do not lift it; in a rest of a beat or more it returns to rest after the note. The instrument map gives the speed of
+each control and the share of a note it may use.
 """
 
 from __future__ import annotations
@@ -44,31 +44,31 @@ CARRY_BACK_SHARE = 0.5
 
 
 def need_s(control: Control, distance: float) -> float:
-    """Least time of a move over ``distance`` (0..1 of the travel); 0 where the map gives no speed."""
+    """Least time in seconds for a move over ``distance`` (0..1 of the travel); 0 if the map gives no speed."""
     if control.max_speed_m_s is None or not control.travel_m:
         return 0.0
     return abs(distance) * control.travel_m / control.max_speed_m_s
 
 
 def _unhurried_s(control: Control, distances: FloatArray) -> FloatArray:
-    """Times of moves over ``distances`` (M,) for which there is time enough; 0 where the map gives no such speed."""
+    """Times in seconds of unhurried moves over ``distances`` (M,); 0 if the map gives no such speed."""
     if control.unhurried_speed_m_s is None:
         return np.zeros(len(distances))
     return np.abs(distances) * control.travel_m / control.unhurried_speed_m_s
 
 
 def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, gaps_s: FloatArray) -> FloatArray:
-    """Return how long before its onsets (M,) a control may leave its place.
+    """Return the seconds before its onsets (M,) at which a control may leave its place.
 
-    A way that its share of the note is enough for is unhurried. Where the share is too short for a human speed (the
-    plan flags such notes) the control starts earlier, but leaves the note its first frame at 24 frames/s.
+    A move that fits into its share of the note is unhurried. If the share is too short for a human speed (the plan
+    reports such notes), the control starts earlier, but not before the note's first frame at 24 frames/s.
 
     Parameters
     ----------
     distances : (M,) float
-        How far it goes, 0..1 of its travel.
+        Distances, 0..1 of the control's travel.
     durations_s, gaps_s : (M,) float
-        Sounding lengths of the notes before, and the rests between those notes and the onsets.
+        Sounding lengths of the previous notes, and rests between them and the onsets.
     """
     needs = np.zeros(len(distances))
     if control.max_speed_m_s is not None and control.travel_m:
@@ -81,9 +81,9 @@ def window_s(control: Control, distances: FloatArray, durations_s: FloatArray, g
 
 
 def _unseen_phase(control: Control, distances: FloatArray) -> FloatArray:
-    """Time, as a share of moves over ``distances`` (M,), in which a control still looks as if it stood in its place.
+    """Initial share of the time of moves over ``distances`` (M,) in which a control visibly still is in place.
 
-    That is where finger or hand gathers speed, so that it need not jerk.
+    Finger or hand accelerate in this time, so that the motion is not jerky.
     """
     if control.kind != "slide" or not control.travel_m:
         return np.full(len(distances), _PRESSED_PHASE)
@@ -92,8 +92,9 @@ def _unseen_phase(control: Control, distances: FloatArray) -> FloatArray:
 
 
 def _unseen_s(control: Control, distances: FloatArray, windows_s: FloatArray) -> FloatArray:
-    """Return how much earlier than its windows (M,) a control may begin to move, because when the window opens it is
-    still in place."""
+    """Return the seconds by which a control may start moving before its windows (M,), since it is still visibly in
+    place.
+    """
     phase = _unseen_phase(control, distances)
     return windows_s * phase / (1.0 - phase)
 
@@ -104,9 +105,9 @@ def control_curves(
     felt_beats: FeltBeats,
     farthest: Mapping[str, float] = MappingProxyType({}),
 ) -> dict[str, Curve]:
-    """Curves 0..1 of all controls of an instrument, by name; some go no farther than ``farthest`` (values by name).
+    """Curves 0..1 of all controls of an instrument by name; values are limited to ``farthest`` (by name).
 
-    Fingerings are in order, each from its note's onset to its end; a control they do not name is at rest.
+    Fingerings are in order, each from onset to end of its note; controls they do not name are at rest.
     """
     notes = _Notes.of(fingerings, felt_beats)
     return {control.name: _curve(notes, control, farthest.get(control.name, 1.0)) for control in controls}
@@ -120,12 +121,12 @@ class _Notes:
     ----------
     fingerings : sequence of FingeringEvent
     kinds : (N,) int
-        Which of ``places`` each has.
+        Index in ``places`` for each note.
     places : list of mapping of str to float
-        Different values of controls.
+        Distinct combinations of control values.
     start_s, end_s : (N,) float
     rests : (N,) bool
-        True if a rest precedes the note that brings controls back to rest.
+        True if the rest before the note is long enough for controls to return to rest.
     """
 
     fingerings: Sequence[FingeringEvent]
@@ -155,7 +156,7 @@ class _Notes:
 
 
 def _curve(notes: _Notes, control: Control, farthest: float) -> Curve:
-    """One control's curve."""
+    """Curve of one control."""
     if not notes.fingerings:
         return moves((), control.rest_value)
     name, rest = control.name, control.rest_value
@@ -204,14 +205,14 @@ def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: Inde
 
 
 def _free_window_s(control: Control, distance: float) -> float:
-    """Time of the way to a note that nothing precedes."""
+    """Time in seconds of the move to a note without a previous note."""
     distances = np.array([distance])
     windows_s = window_s(control, distances, np.array([0.0]), np.array([np.inf]))
     return float(windows_s[0] + (_unseen_s(control, distances, windows_s)[0] if distance else 0.0))
 
 
 def release_s(control: Control, value: float) -> float:
-    """Unhurried time of the way back to rest."""
+    """Time in seconds of an unhurried return to rest."""
     distance = value - control.rest_value
     need = need_s(control, distance)
     unhurried = float(_unhurried_s(control, np.array([distance]))[0])
@@ -221,9 +222,9 @@ def release_s(control: Control, value: float) -> float:
 def _through_rest(
     control: Control, end_s: float, onset_s: float, value: float, target: float
 ) -> list[tuple[float, float, float]]:
-    """Back to rest once the note has ended, and out again just before the next onset.
+    """Moves through a rest: back to rest after the note, and out again just before the next onset.
 
-    A control that both ways would hurry, and that has an unhurried speed, waits out there and goes straight on.
+    If both moves would be hurried, a control with an unhurried speed stays out and moves directly to the next value.
     """
     rest = control.rest_value
     gap_s = onset_s - end_s

@@ -1,8 +1,8 @@
-"""Curves of every finger between its places, made from the notes.
+"""Curves of every finger between its positions, made from the notes.
 
-A finger is over its key before the key goes down and stays for repeats. Once it has let go it goes straight to the next
-key it is needed at, and home where that is a while off. It waits higher over its keys in fast passages (Palmer &
-Dalla Bella 2004; Goebl & Palmer 2008).
+A finger is above its key before the key goes down, and stays for repeated notes. After release it moves directly to its
+next key, or home if that is needed much later. It waits higher above keys in fast passages (Palmer & Dalla Bella 2004;
+Goebl & Palmer 2008).
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ Span: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True)
 class _Visit:
-    """A finger at work at one station.
+    """A finger working at one station.
 
-    ``down`` is while what it works there goes down, ``up`` while that comes up again; None where the finger already
-    worked all of it at the station before, or goes on working it at the next. ``start_s`` and ``end_s`` are the notes',
-    which are those from ``first`` to before ``end``.
+    ``down`` and ``up`` are the spans in which its controls go down and come up; None if the finger already worked all
+    of them at the previous station, or continues at the next. ``start_s`` and ``end_s`` span the notes from ``first``
+    to before ``end``.
     """
 
     station: int
@@ -63,18 +63,18 @@ class _Visit:
 def station_curves(
     fingerings: Sequence[FingeringEvent], instrument: InstrumentMap, controls: Mapping[str, Curve]
 ) -> dict[str, Curve]:
-    """Return which station each finger is at, by finger; only those that leave their home.
+    """Return the station curve of each finger that leaves its home.
 
-    A curve's moves go from the number of one station to that of another, as `sampled` reads them. Under the name
-    `giving_for` a finger: at which of its stations it works, for the hand that gives way for it. A finger waits over
-    its key while others are still at theirs, and the hand goes along only as the key goes down.
+    Moves lead from one station number to another, as `sampled` reads them. The name `giving_for` a finger has the
+    station for which the hand gives way: a finger waits above its key while others are still at theirs, and the hand
+    moves only as the key goes down.
 
     Parameters
     ----------
     fingerings : sequence of FingeringEvent
-        In order.
+        Fingerings in order.
     controls : mapping of str to Curve
-        What `app.motion.fingering.control_curves.control_curves` makes of the same fingerings.
+        Curves from `app.motion.fingering.control_curves.control_curves` for the same fingerings.
     """
     travelled = {finger: places for finger, places in stations(instrument).items() if len(places) > 1}
     if not travelled:
@@ -96,7 +96,7 @@ def station_curves(
 def _others_away(
     finger: str, travelled: Mapping[str, Sequence[Station]], at_work: Sequence[Mapping[str, frozenset[str]]]
 ) -> list[frozenset[tuple[str, int]]]:
-    """The stations away from home of the same hand's other fingers, for every kind of note."""
+    """Stations away from home of the other fingers of the hand, for every kind of note."""
     hand = finger.split(".")[0]
     others = {name: places for name, places in travelled.items() if name != finger and name.split(".")[0] == hand}
     found = [
@@ -106,7 +106,7 @@ def _others_away(
 
 
 def _silences_s(fingerings: Sequence[FingeringEvent]) -> FloatArray:
-    """(N - 1,): from each note's end to the next one's onset."""
+    """Seconds (N - 1,) from each note's end to the next onset."""
     starts_s, ends_s = (
         np.array([getattr(event, name) for event in fingerings], np.float64) for name in ("start_s", "end_s")
     )
@@ -119,7 +119,7 @@ def sampled(curve: Curve, times_s: FloatArray) -> StationBlend:
 
 
 def raised_curve(fingerings: Sequence[FingeringEvent]) -> Curve:
-    """Return how high fingers wait over their keys, 0..1, from the pace of the notes around."""
+    """Return the height of waiting fingers above their keys, 0..1, by the pace of the surrounding notes."""
     if len(fingerings) < 2:
         return moves(())
     onsets_s = np.array([event.start_s for event in fingerings])
@@ -141,10 +141,10 @@ def _visits(
     places: Sequence[Station],
     controls: Mapping[str, Curve],
 ) -> list[_Visit]:
-    """The finger's times at work; notes that follow one another at one station are one visit.
+    """Spans in which a finger works; consecutive notes at one station form one visit.
 
-    ``worked`` (N,) names one of ``sets`` of controls for each note; ``follows`` (N,) whether it follows the one before
-    without a rest that would take a finger off.
+    ``worked`` (N,) selects one of ``sets`` of controls for each note; ``follows`` (N,) marks notes that follow the
+    previous one without a rest that would lift the finger.
     """
     found: list[_Visit] = []
     if not fingerings:
@@ -186,10 +186,10 @@ def _hull(spans: Sequence[Span]) -> Span | None:
 
 
 class _Moves(NamedTuple):
-    """The moves of a control by which a finger comes to its visits and leaves them.
+    """Moves of a control before and after a finger's visits.
 
-    ``coming`` and ``leaving`` are indices of the moves ``start_s``..``end_s`` for every visit; past the last, there is
-    none.
+    ``coming`` and ``leaving`` are indices into the moves ``start_s``..``end_s`` for every visit; an index past the end
+    means none.
     """
 
     start_s: list[float]
@@ -204,19 +204,19 @@ class _Moves(NamedTuple):
         return cls(curve.start_s.tolist(), curve.end_s.tolist(), coming.tolist(), leaving.tolist())
 
     def down(self, visit: int, onset_s: float) -> Span:
-        """Span in which the control goes to its place at the onset of a visit."""
+        """Span in which the control moves to its place at the onset of a visit."""
         index = self.coming[visit]
         there = index < len(self.end_s) and abs(self.end_s[index] - onset_s) < 1e-6
         return (self.start_s[index] if there else onset_s), onset_s
 
     def up(self, visit: int, end_s: float) -> Span:
-        """Span in which the control leaves its place after the last onset of a visit."""
+        """Span in which the control leaves its place after the end of a visit."""
         index = self.leaving[visit]
         return (end_s, end_s) if index == len(self.start_s) else (self.start_s[index], self.end_s[index])
 
 
 def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
-    """Moves (start_s, end_s, station) between visits."""
+    """Moves (start_s, end_s, station) of a finger between visits."""
     ways: list[tuple[float, float, float]] = []
     here = 0
 
@@ -247,10 +247,10 @@ def _ways(visits: Sequence[_Visit]) -> list[tuple[float, float, float]]:
 def _givings(
     visits: Sequence[_Visit], kinds: IndexArray, others: Sequence[frozenset[tuple[str, int]]]
 ) -> list[tuple[float, float, float]]:
-    """Moves (start_s, end_s, station) of a hand that gives way: with the keys, and kept where a trill comes back.
+    """Moves (start_s, end_s, station) of a hand that gives way: together with the keys, and held where a trill returns.
 
-    Not where its other fingers go away from home meanwhile: ``others`` has their stations for all ``kinds`` (N,) of
-    notes.
+    Excludes times when other fingers of the hand are away from home: ``others`` has their stations for all ``kinds``
+    (N,) of notes.
     """
     ways: list[tuple[float, float, float]] = []
 
@@ -282,7 +282,9 @@ def _givings(
 
 
 def _straight(last: _Visit, visit: _Visit) -> Span:
-    """Return when a finger goes from a key to another that it needs soon: between the two, or while they move."""
+    """Return the span in which a finger moves from one key to another that it needs soon: between the notes, or while
+    the keys move.
+    """
     if last.up is not None and visit.down is not None:
         room_s = visit.down[0] - last.up[1]
         if room_s >= LEAST_TRAVEL_S:

@@ -1,4 +1,4 @@
-"""Curves of fingers: of the controls they work, of the places they are at, and of how high they wait."""
+"""Curves of controls, finger positions and heights of waiting fingers."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Fingers(NamedTuple):
     ----------
     grips : tuple of FingeringEvent
     made_for : tuple
-        What else the curves depend on.
+        Further inputs of the curves.
     controls, stations, raised
-        As of `PerformanceCurves`.
+        As in `PerformanceCurves`.
     """
 
     grips: tuple[FingeringEvent, ...]
@@ -42,7 +42,7 @@ def fingers_of(
     farthest: Mapping[str, float],
     before: Fingers | None,
 ) -> Fingers:
-    """Make the curves of the controls, of the places of the fingers and of how high they wait; around an edit only."""
+    """Compute the curves of controls, finger positions and waiting heights; after an edit only around it."""
     made_for = (instrument, felt_beats, farthest)
     stretch = controls = stations = None
     if before is not None and before.made_for == made_for:

@@ -1,1 +1,1 @@
-"""Gestures as layers of the body."""
+"""Gestures as motion layers of the body."""

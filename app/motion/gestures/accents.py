@@ -1,4 +1,4 @@
-"""Accents of the body: it rises a little before, goes down on the note, and comes back beyond where it was."""
+"""Accents of the body: a small rise before, a dip on the note, and a rebound above the start."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ BEFORE, AFTER = 0.25, 0.14
 
 @dataclass(frozen=True, eq=False)
 class Accents:
-    """Dips of trunk and head, each deepest, and its acceleration greatest, on its note.
+    """Dips of trunk and head; each is deepest, with the largest acceleration, on its note.
 
     Attributes
     ----------
     start_s, length_s, amount : (N,) float64
-        In order of their starts.
+        In order of start.
     """
 
     start_s: FloatArray
@@ -43,7 +43,7 @@ class Accents:
         return cls(table[:, 0], table[:, 1], table[:, 2])
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Return how far down the body goes, 1 on an accent of amount 1, at ascending times, (F,) float64."""
+        """Return the downward motion at ascending times, 1 on an accent of amount 1, (F,)."""
         first = np.searchsorted(times_s, self.start_s)
         counts = np.maximum(np.searchsorted(times_s, self.start_s + self.length_s) - first, 0)
         if not counts.any():
@@ -59,14 +59,14 @@ class Accents:
         return total
 
     def changed_s(self, other: Accents) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = (np.stack((one.start_s, one.length_s, one.amount), axis=1) for one in (self, other))
         spans = [np.stack((row[:, 0], row[:, 0] + row[:, 1]), axis=1) for row in (mine, others)]
         return rows_changed_s(mine, others, *spans)
 
 
 def _bump(phase: FloatArray, centre: float, half: float) -> FloatArray:
-    """`app.motion.curves.curve.bump` of phases."""
+    """Evaluate `app.motion.curves.curve.bump` at phases."""
     inside = 1.0 - np.square(np.clip((phase - centre) / half, -1.0, 1.0))
     bump: FloatArray = np.square(np.square(inside))
     return bump

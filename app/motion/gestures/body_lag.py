@@ -1,4 +1,4 @@
-"""Parts of a body that follow one another: the hips begin, the chest comes after them, then head and elbows."""
+"""Delays between parts of a body: the hips begin, then the chest, then head and elbows."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from metadata.model import Overlap
 
 
 class Overlapped(NamedTuple):
-    """A value as each part of the body has it, delayed, at some frames; (F,) float64 each."""
+    """A value delayed for each part of the body, at some frames; (F,) each."""
 
     hips: FloatArray
     chest: FloatArray
@@ -20,7 +20,7 @@ class Overlapped(NamedTuple):
 
     @classmethod
     def nothing(cls, frames: int) -> Overlapped:
-        """The value of a body at rest."""
+        """Zero values, for a body at rest."""
         return cls(*(np.zeros(frames) for _ in cls._fields))
 
 
@@ -31,7 +31,7 @@ class Sampled(Protocol):
 
 
 class Leads(NamedTuple):
-    """Lead of each part over the head, seconds. The head is in time: what is before it prepares."""
+    """Lead of each part over the head in seconds. The head is on time; the others prepare."""
 
     hips_s: float
     chest_s: float
@@ -40,18 +40,18 @@ class Leads(NamedTuple):
 
     @classmethod
     def of(cls, overlap: Overlap) -> Leads:
-        """Leads of the parts of a body over the part that comes last."""
+        """Leads of the body's parts, from the delays in its table."""
         return cls(overlap.chest_s + overlap.head_s, overlap.head_s, 0.0, overlap.head_s - overlap.elbows_s)
 
     def at(self, times_s: FloatArray) -> Overlapped:
-        """The time of a curve at which each part is, by ascending times."""
+        """Times to sample a curve at for each part, for ascending times."""
         return Overlapped(*(times_s + lead_s for lead_s in self))
 
     def sample(self, curve: Sampled, times_s: FloatArray) -> Overlapped:
-        """A curve as each part has it."""
+        """Sample a curve for each part."""
         return Overlapped(*map(curve.sample, self.at(times_s)))
 
     def widened(self, spans_s: FloatArray) -> FloatArray:
-        """Spans (K, 2) in which something changes, by those in which the curves do."""
+        """Spans (K, 2) of changes in the body, from the spans in which curves change."""
         widened: FloatArray = spans_s + np.array([-max(self), -min(self)])
         return widened

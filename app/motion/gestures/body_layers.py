@@ -1,9 +1,9 @@
-"""Layers of body motion: sway, lean, accents, weight, knees, breath, cue, bell, gaze, feet, and the residue of a body
-asked to keep still.
+"""Layers of body motion: sway, lean, accents, weight, knees, breath, cue, bell, gaze, feet, and the residual motion of
+a still body.
 
-Hips, chest, head and elbows have the same layers one after another (`app.motion.gestures.body_lag`). Every layer is a
-function of time in anatomical angles. Layers are added, so each can be left out and none knows the others; contacts are
-solved afterwards and are never broken by them. Sizes come from `metadata` at the player's amplitude.
+Hips, chest, head and elbows have the same layers with delays (`app.motion.gestures.body_lag`). Every layer is a
+function of time in anatomical angles. Layers are independent and added, so each can be omitted; contacts are solved
+afterwards. Sizes come from `metadata` at the player's amplitude.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ STEP_IN_HIPS = 0.3
 
 
 class StyleShares(NamedTuple):
-    """Shares of some layers that regions of a style show: of gestures, and of what wanders with sway and weight."""
+    """Shares of layers in style spans: of gestures, and of random motion with sway and weight."""
 
     gestures: FloatArray | float = 1.0
     sway: FloatArray | float = 1.0
@@ -115,12 +115,12 @@ def body_motion(
 
 
 def _wandering_rad(name: str, sizes: Sizes, times_s: FloatArray, share: FloatArray | float) -> FloatArray:
-    """Return the slow turn of the head while nothing else moves it, in radians."""
+    """Return the slow random turn of the head in radians."""
     return np.deg2rad(sizes.wander(name, sizes.body.sway.head_deg, times_s, share))
 
 
 def _breathe(total: Sum, levels: LayerSamples, sizes: Sizes) -> tuple[FloatArray, FloatArray]:
-    """Add the breath to trunk and neck, and return how far it lifts the shoulders and takes the elbows out."""
+    """Add the breath to trunk and neck, and return the lift of the shoulders and the outward turn of the elbows."""
     breath, deg = sizes.body.breath, np.deg2rad
     shown, (with_trunk, with_shoulders) = sizes.acting.breath * sizes.of(breath.shown), sizes.breathing
     inhaled = shown * (levels.full + QUIET * levels.quiet)
@@ -133,7 +133,7 @@ def _breathe(total: Sum, levels: LayerSamples, sizes: Sizes) -> tuple[FloatArray
 
 
 def _give_cue(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
-    """Add cues to trunk and neck, and return how far they take the bell up."""
+    """Add cues to trunk and neck, and return the rise of the bell."""
     cue = sizes.body.cue
     dip, lift = sizes.acting.cue * levels.dip, sizes.acting.cue * levels.lift
     total.forward(TRUNK_SHARES, sizes.rad(cue.trunk_deg) * (dip - LIFT_SHARE * lift))
@@ -143,7 +143,7 @@ def _give_cue(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
 
 
 def _raise_bell(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
-    """Return how far the bell goes up with the melody; the head follows it a little, the trunk less."""
+    """Return the rise of the bell with the melody, and add it to the head, and less to the trunk."""
     bell, height = sizes.body.bell, sizes.acting.bell_height * levels.height
     raised, sunk = np.maximum(height, 0.0), np.minimum(height, 0.0)
     up_rad: FloatArray = raised * sizes.rad(bell.up_deg) + sunk * sizes.rad(bell.down_deg)
@@ -153,7 +153,7 @@ def _raise_bell(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
 
 
 def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArray:
-    """Knees give way on an accent, in a nod, and as they take the weight."""
+    """Return the bend of the knees in radians on accents, in nods, and with weight shifts."""
     body, acting = sizes.body, sizes.acting
     dipped = acting.cue * levels.dip * sizes.rad(body.cue.knee_deg)
     giving = acting.weight_shift * levels.giving * sizes.rad(body.weight_shift.knee_deg)
@@ -162,7 +162,7 @@ def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArra
 
 
 def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
-    """Angles by which the animator holds the bell differently."""
+    """The animator's angles for the bell."""
     if "bell" not in held:
         return {}
     bell = held["bell"]
@@ -170,7 +170,7 @@ def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
 
 
 def _hold_posture(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArray:
-    """Add a posture, and return how far the head is turned to the instrument."""
+    """Add a posture, and return the turn of the head towards the instrument."""
     still = np.ones(len(lowered))
     for joint, angle_deg in posture.spine_deg.items():
         total.forward({joint: 1.0}, np.deg2rad(angle_deg) * still)
@@ -186,7 +186,7 @@ def _hold_posture(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArr
 def _aside_m(
     levels: LayerSamples, sizes: Sizes, steps: bool, times_s: FloatArray, uneasy: FloatArray | float
 ) -> FloatArray:
-    """Hips to the left: with the weight, and over the foot that stands during a step."""
+    """Sideways motion of the hips (left positive): with the weight, and over the standing foot during a step."""
     side_m, acting = sizes.body.weight_shift.side_m, sizes.acting
     aside_m: FloatArray = acting.weight_shift * levels.weight.hips * sizes.of(side_m)
     aside_m = aside_m + sizes.wander("weight", side_m, times_s, uneasy)
@@ -205,7 +205,9 @@ def _ahead_m(
     times_s: FloatArray,
     uneasy: FloatArray | float,
 ) -> FloatArray:
-    """Hips ahead: back as the trunk leans forward, aslant with the weight, half as far as a foot that is put ahead."""
+    """Forward motion of the hips: back as the trunk leans forward, diagonally with the weight, and half as far as a
+    foot that steps ahead.
+    """
     phrase, shift, acting = sizes.body.phrase, sizes.body.weight_shift, sizes.acting
     back = acting.phrase * (levels.lean.hips + 0.5 * levels.accent.hips) * sizes.of(phrase.ahead_m)
     aslant = sizes.aslant * acting.weight_shift * levels.weight.hips * sizes.of(shift.ahead_m)

@@ -1,10 +1,9 @@
-"""A learned motion as a layer of a player's body: hips, trunk and head about the place where the player stands or sits.
+"""A learned dance as a layer of a player's body: hips, trunk and head around the player's place.
 
-The layer is a function of time like all others and is added to them before the contacts are solved: the instrument goes
-with the head, and hands and fingers stay on it. Feet have moves of their own (`app.motion.gestures.danced_feet`).
-While the instrument is played the head goes with the chest, so that head, instrument, shoulders and arms move as one
-and no wrist is bent further than without a dance; while it is lowered the head dances by itself. Angles are bounded
-where the layer is made (`app.choreography.body_layer`).
+The layer is added to the others before contacts are solved, so the instrument follows the head, and hands stay on it.
+Feet have separate moves (`app.motion.gestures.danced_feet`). While the instrument is played the head follows the chest,
+so that wrists bend no further than without a dance; while it is lowered the head dances independently. Angles are
+limited where the layer is made (`app.choreography.body_layer`).
 """
 
 from __future__ import annotations
@@ -45,16 +44,16 @@ LEGS_EASE_M: Final = 0.008
 
 @dataclass(frozen=True, eq=False)
 class BodyLayer:
-    """Contribution of a dance to a body.
+    """Motion of a dance to be added to a body.
 
     Attributes
     ----------
     start_s, step_s : float
         Sample k is at ``start_s + k * step_s``.
     values : (K, 12) float64
-        In the order of `CHANNELS`; at least two.
+        Values in the order of `CHANNELS`; at least two samples.
     feet : DancedFeet
-        What feet do meanwhile.
+        Foot movements of the dance.
     """
 
     start_s: float
@@ -63,7 +62,7 @@ class BodyLayer:
     feet: DancedFeet = field(default_factory=DancedFeet.none)
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values (F, 12) at any times, smooth between the samples; the ends hold."""
+        """Values (F, 12) at any times, smoothly interpolated; end values extend outwards."""
         last = len(self.values) - 1
         place = np.clip((times_s - self.start_s) / self.step_s, 0.0, float(last))
         at = np.minimum(place.astype(np.int64), last - 1)
@@ -82,7 +81,7 @@ _TURNS: Final = [CHANNELS.index(f"{part}_{angle}_rad") for part in ("hips", "tru
 
 
 def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
-    """Return when a dance gives way to breaths, and how far, 0..1."""
+    """Return the degree to which a dance gives way to breaths, 0..1."""
     drawn = [breath for breath in breaths if breath.draws_air]
     return Envelopes.of(
         [
@@ -93,7 +92,7 @@ def breath_envelopes(breaths: Sequence[BreathEvent]) -> Envelopes:
 
 
 def giving_way(dance: FloatArray, to_breath: FloatArray) -> FloatArray:
-    """A dance (F, 12) that gives way to breaths, (F,) of 0..1."""
+    """Reduce a dance (F, 12) during breaths, by shares (F,) 0..1."""
     given = dance.copy()
     given[:, _NODS] *= (1.0 - to_breath)[:, None]
     given[:, _TURNS] *= _turned_less(to_breath)[:, None]
@@ -101,7 +100,7 @@ def giving_way(dance: FloatArray, to_breath: FloatArray) -> FloatArray:
 
 
 def leaning_less(danced: Mapping[str, FloatArray], to_breath: FloatArray) -> dict[str, FloatArray]:
-    """Samples of feet that dance (`DancedFeet.sample`), whose hips and trunk give way to breaths as in `giving_way`."""
+    """Reduce hips and trunk in samples of dancing feet (`DancedFeet.sample`) during breaths, as in `giving_way`."""
     less = {"leans": danced["leans"] * _turned_less(to_breath)} if "leans" in danced else {}
     return {**danced, **less}
 
@@ -111,20 +110,20 @@ def _turned_less(to_breath: FloatArray) -> FloatArray:
 
 
 def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body, *, legs: bool) -> BodyMotion:
-    """The body with a dance added.
+    """Add a dance to the body.
 
     Parameters
     ----------
     motion : BodyMotion
-        (F,) frames of it.
+        Motion with (F,) frames.
     dance : (F, 12) float64
-        Of a `BodyLayer`.
+        Values of a `BodyLayer`.
     amount : float
-        1: as the layer has it.
+        Factor of the dance; 1: unchanged.
     body : Body
-        With the ranges of the joints.
+        Body with the ranges of its joints.
     legs : bool
-        False: the hips stay where they are.
+        False: the hips do not move from their place.
     """
     sizes = np.array([amount if name.endswith("forward_rad") else amount**GROWTH for name in CHANNELS])
     of = dict(zip(CHANNELS, (sizes * dance).T, strict=True))

@@ -1,7 +1,7 @@
-"""Feet of a player who dances: steps in place, heels and toes, each down on its beat.
+"""Feet of a dancing player: steps in place, heels and toes, each landing on its beat.
 
-A foot stays where it was put down until it leaves the ground again, by heel first and ball last, and comes down on the
-ball. Where hips may not leave their place, feet only lift heels and toes.
+A foot stays where it was put down; to leave, the heel rises first and the ball last, and it lands on the ball. Where
+hips may not leave their place, feet only lift heels and toes.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ GROWTH: Final = 0.45
 
 
 class _Moves(NamedTuple):
-    """Columns of the moves of one foot, in their order."""
+    """Columns of one foot's moves, in order."""
 
     kinds: IntArray
     start_s: FloatArray
@@ -80,20 +80,20 @@ class _Moves(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class DancedFeet:
-    """Everything that the feet of a dancing player do: a row for each move, ascending by its landing.
+    """All foot movements of a dancing player: one row for each, ordered by landing.
 
     Attributes
     ----------
     sides : (N,) int64
-        0 the left foot, 1 the right one.
+        0: left foot, 1: right foot.
     kinds, seated : (N,) int64
-        Place in `MOVE_KINDS`; the second is the move of a player whose feet do not leave their place.
+        Index in `MOVE_KINDS`; ``seated`` applies to a player whose feet stay in place.
     start_s, lands_s : (N,) float64
-        A step is in the air from the one to the other; a heel or toes go up and are down again. Each lands on its beat.
+        A step is in the air between them; heel or toes rise and come down between them. Landings are on beats.
     size : (N,) float64
         0..1.
     place_m : (N, 2) float64
-        Where a step puts the foot, to the left and ahead of where it stands without a dance.
+        Target of a step, to the left and ahead of the foot's place without a dance.
     """
 
     sides: IntArray
@@ -106,7 +106,7 @@ class DancedFeet:
 
     @classmethod
     def none(cls) -> DancedFeet:
-        """Feet that stand."""
+        """Feet that stand throughout."""
         whole, real = np.zeros(0, np.int64), np.zeros(0)
         return cls(whole, whole, whole, real, real, real, np.zeros((0, 2)))
 
@@ -114,11 +114,11 @@ class DancedFeet:
         return len(self.sides)
 
     def sample(self, times_s: FloatArray, *, steps: bool) -> dict[str, FloatArray]:
-        """Sample the feet at ascending times; parts at rest are left out.
+        """Sample the feet at ascending times; parts at rest are omitted.
 
         ``left_heel`` and ``left_toes`` (radians), ``left_up``, ``left_ahead`` and ``left_aside`` (metres, to the left)
-        are parts of a foot; ``over`` is the weight that goes to the left foot, -1..1, ``leans`` as much as hips and
-        trunk turn and lean with it, ``sunk`` the give of the knees, 0..1. Without ``steps`` feet stay at their place.
+        are parts of a foot; ``over`` is the weight on the left foot, -1..1, ``leans`` the turn and lean of hips and
+        trunk with it, ``sunk`` the bend of the knees, 0..1. Without ``steps`` feet stay in place.
         """
         found: dict[str, FloatArray] = {}
         if not len(times_s) or not len(self):
@@ -149,26 +149,26 @@ class DancedFeet:
         return {name: values for name, values in found.items() if np.any(values)}
 
     def lifted_s(self, side: Literal["left", "right"]) -> list[tuple[float, float]]:
-        """Spans in which a foot, or a part of it, is off the ground."""
+        """Spans in which a foot, or part of it, is off the ground."""
         foot = ("left", "right").index(side)
         own, steps = self._of(foot), (self.sides != foot) & (self.kinds == MOVE_KINDS.index("step"))
         eased = [(lands_s - EASED_S[0], lands_s + EASED_S[1] + EASED_S[2]) for lands_s in self.lands_s[steps].tolist()]
         return [(start_s - PEELS_S, lands_s + PEELS_S) for start_s, lands_s in zip(*own[1:3], strict=True)] + eased
 
     def steps_before(self, side: Literal["left", "right"], times_s: FloatArray) -> IntArray:
-        """Count of the steps of a foot before each time."""
+        """Number of steps of a foot before each time."""
         steps = (self.sides == ("left", "right").index(side)) & (self.kinds == MOVE_KINDS.index("step"))
         return np.searchsorted(self.lands_s[steps], times_s, side="right")
 
     def changed_s(self, other: DancedFeet) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         if self is other:
             return np.zeros((0, 2))
         (mine, mine_s), (theirs, theirs_s) = self._rows(), other._rows()
         return rows_changed_s(mine, theirs, mine_s, theirs_s)
 
     def giving_way(self, gestures: Iterable[GestureEvent]) -> DancedFeet:
-        """The moves without those near corrected gestures of the feet, which are the animator's."""
+        """The moves without those close to foot gestures corrected by the animator."""
         kinds = answered_by("feet")
         spans = [(event.start_s, event.end_s) for event in gestures if event.corrected and event.kind in kinds]
         if not spans or not len(self):
@@ -189,8 +189,9 @@ class DancedFeet:
         return _Moves(own.kinds, own.start_s, own.lands_s, own.size, own.seated, places_m[before], places_m[after])
 
     def _rows(self) -> tuple[FloatArray, FloatArray]:
-        """Rows (N, C) of all moves with their places, and the spans (N, 2) in which each is seen: a place until the
-        foot has come down elsewhere."""
+        """Rows (N, C) of all moves with their places, and the spans (N, 2) of their effect: a place lasts until the
+        foot lands elsewhere.
+        """
         rows, spans_s = list[FloatArray](), list[FloatArray]()
         for side in range(2):
             own = self._of(side)
@@ -210,7 +211,7 @@ class DancedFeet:
 def with_danced(
     moved: Mapping[str, FloatArray], danced: Mapping[str, FloatArray], amount: float
 ) -> dict[str, FloatArray]:
-    """The moves of feet (`app.motion.gestures.feet.feet_moved`) with the danced ones."""
+    """Combine generated foot moves (`app.motion.gestures.feet.feet_moved`) with danced ones."""
     feet, size = dict(moved), amount**GROWTH
     for name, values in danced.items():
         if name not in IN_HIPS:
@@ -221,16 +222,16 @@ def with_danced(
 def with_danced_feet(
     motion: BodyMotion, danced: Mapping[str, FloatArray], amount: float, body: Body, *, steps: bool
 ) -> BodyMotion:
-    """The body with its feet dancing.
+    """Add dancing feet to a body's motion.
 
     Parameters
     ----------
     danced : dict of str to (F,) float64
-        As of `DancedFeet.sample`.
+        Values from `DancedFeet.sample`.
     amount : float
         0..1.
     body : Body
-        With the ranges of the joints.
+        Body with the ranges of its joints.
     """
     if not danced or amount <= 0.0:
         return motion
@@ -261,13 +262,13 @@ def with_danced_feet(
 
 
 def within_range(angle_rad: FloatArray, further_rad: FloatArray, range_deg: tuple[float, float]) -> FloatArray:
-    """An angle (F,) that goes further, softly no farther than the range of its joint."""
+    """Add to an angle (F,), softly limited to its joint's range."""
     low, high = np.deg2rad(range_deg)
     return np.asarray(angle_rad + within(further_rad, high - angle_rad, angle_rad - low))
 
 
 def _put(found: dict[str, FloatArray], name: str, moves: _Moves, times_s: FloatArray) -> None:
-    """Add where a foot is: at the place where it came down last, or on the way to the next one."""
+    """Add the place of a foot: where it landed last, or on the way to the next place."""
     if not len(moves.kinds):
         return
     begun = np.searchsorted(moves.start_s, times_s, side="right")
@@ -288,40 +289,40 @@ def _add(found: dict[str, FloatArray], name: str, values: FloatArray) -> None:
 
 
 def _air(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
-    """0 on the ground, 1 half way."""
+    """Height profile of a step: 0 on the ground, 1 half way."""
     phase = np.clip((times_s - span_s[0]) / (span_s[1] - span_s[0]), 0.0, 1.0)
     height: FloatArray = np.where((phase > 0.0) & (phase < 1.0), np.sin(np.pi * phase) ** 2, 0.0)
     return height
 
 
 def _peeled(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
-    """The heel of a step above its ball: up before the ball leaves the ground, down after that is back."""
+    """Height profile of a step's heel above its ball: up before the ball leaves, down after it has landed."""
     part_s = PEELED * (span_s[1] - span_s[0])
     return _bump(times_s, span_s[0] - PEELS_S, span_s[0] + part_s, span_s[1] - part_s, PEELS_S + part_s)
 
 
 def _lifted(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
-    """Up, and quicker down to be there when it lands."""
+    """Height profile of a lifted heel or toes: slow rise, faster fall to the landing."""
     start_s, lands_s = span_s
     falls_s = 0.42 * (lands_s - start_s)
     return _bump(times_s, start_s, lands_s - falls_s, lands_s - falls_s, falls_s)
 
 
 def _bump(times_s: FloatArray, rises_s: float, up_s: float, falls_s: float, lasts_s: float) -> FloatArray:
-    """Rise from 0 to 1 between the first two times, and fall to 0 within some time from the third on."""
+    """Rise from 0 to 1 between the first two times, fall to 0 from the third on within ``lasts_s``."""
     up = minimum_jerk(np.clip((times_s - rises_s) / (up_s - rises_s), 0.0, 1.0))
     down = minimum_jerk(np.clip((times_s - falls_s) / lasts_s, 0.0, 1.0))
     return np.asarray(up * (1.0 - down))
 
 
 def _sunk(times_s: FloatArray, lands_s: float) -> FloatArray:
-    """Give of the knees around a landing, 0..1."""
+    """Bend of the knees around a landing, 0..1."""
     before_s, after_s = SINK_S
     low_s = lands_s + after_s / 3.0
     return _bump(times_s, lands_s - before_s, low_s, low_s, after_s - after_s / 3.0)
 
 
 def _eased(times_s: FloatArray, lands_s: float) -> FloatArray:
-    """Heel of the foot behind around a landing of the other one, 0..1."""
+    """Lift of the rear foot's heel around the landing of the other foot, 0..1."""
     before_s, up_s, after_s = EASED_S
     return _bump(times_s, lands_s - before_s, lands_s + up_s, lands_s + up_s, after_s)

@@ -1,4 +1,4 @@
-"""Steps, taps and heels: feet leave the ground as planned, and stand where they are put until they leave it again."""
+"""Planned steps, taps and heel lifts; feet stand still between them."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ STRIKE_SHARE = 0.35
 
 @dataclass(frozen=True, eq=False)
 class Feet:
-    """All that a player's feet do, a row for each gesture.
+    """All foot gestures of a player, one per row.
 
     Attributes
     ----------
     kinds, sides : (N,) float64
-        Place in `FOOT_KINDS`; 1 the left foot, -1 the right one.
+        Index in `FOOT_KINDS`; 1: left foot, -1: right foot.
     start_s, end_s, size : (N,) float64
     step_s : float
-        How long a foot is in the air.
+        Seconds for which a stepping foot is in the air.
     """
 
     kinds: FloatArray
@@ -45,8 +45,9 @@ class Feet:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], step_s: float, generated_feet: float = 1.0) -> Feet:
-        """Feet of a player by the gestures; generated ones have ``generated_feet`` of their size, those that the
-        animator has set all of it."""
+        """Foot gestures of a player; generated ones are scaled by ``generated_feet``, those set by the animator are
+        not.
+        """
         rows = [
             (
                 FOOT_KINDS.index(event.kind),
@@ -62,11 +63,10 @@ class Feet:
         return cls(kinds, sides, start_s, end_s, size, step_s)
 
     def sample(self, times_s: FloatArray) -> dict[str, FloatArray]:
-        """Sample the feet at ascending times, each (F,) of 0..1; parts at rest are left out.
+        """Sample the feet at ascending times, each (F,), 0..1; parts at rest are omitted.
 
-        ``left_ahead`` is how far ahead the left foot is put, ``left_up`` how high it is, ``left_push`` how its heel
-        leaves before its toes, ``left_heel`` and ``left_toes`` how far these are lifted, ``left_unloaded`` how far
-        the weight is on the other foot for it.
+        ``left_ahead``: forward position of the left foot; ``left_up``: its height; ``left_push``: lead of its heel over
+        its toes; ``left_heel`` and ``left_toes``: their lift; ``left_unloaded``: weight shifted to the other foot.
         """
         result: dict[str, FloatArray] = {}
         if not len(times_s):
@@ -88,7 +88,7 @@ class Feet:
         return result
 
     def changed_s(self, other: Feet) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         return rows_changed_s(self._rows, other._rows, self._spans_s, other._spans_s)
 
     @property
@@ -102,7 +102,7 @@ class Feet:
 
 
 def _step(times_s: FloatArray, span_s: tuple[float, float], step_s: float) -> dict[str, FloatArray]:
-    """Out at the begin of a span, and home again at its end."""
+    """A step: out at the start of a span, back at its end."""
     ahead, up, push, unloaded = (np.zeros(len(times_s)) for _ in range(4))
     for (begin_s, end_s), way in zip(moves_s(span_s, step_s), (1.0, -1.0), strict=True):
         phase = np.clip((times_s - begin_s) / (end_s - begin_s), 0.0, 1.0)
@@ -117,7 +117,7 @@ def _step(times_s: FloatArray, span_s: tuple[float, float], step_s: float) -> di
 
 
 def _lifted(times_s: FloatArray, span_s: tuple[float, float], kind: str) -> dict[str, FloatArray]:
-    """Toes up and down on the beat with which a tap ends; a heel up, held and down again."""
+    """Toes or heel lifted: toes come down on the beat at the end of a tap; a heel is raised, held and lowered."""
     start_s, end_s = span_s
     length_s = end_s - start_s
     falls_s = STRIKE_SHARE * length_s if kind == "tap" else min(HEEL_S, 0.5 * length_s)
@@ -130,8 +130,9 @@ def _lifted(times_s: FloatArray, span_s: tuple[float, float], kind: str) -> dict
 def feet_moved(
     levels: Mapping[str, FloatArray], body: Body, amplitude: float, amount: float, *, steps: bool
 ) -> dict[str, FloatArray]:
-    """The feet of a body: levels as of `Feet.sample` in metres and radians; ``steps`` says whether feet may leave their
-    place, or only tap."""
+    """Scale samples of `Feet.sample` to a body, in metres and radians; without ``steps`` feet may not leave their
+    place.
+    """
     footwork = body.footwork
     ahead_m, up_m, heel, toes = (
         amount * at_amplitude(scale, amplitude)

@@ -1,8 +1,7 @@
-"""Hands that leave the lowered instrument, and the instrument that comes up for it: the keys of gestures as curves.
+"""Curves of hands that leave the lowered instrument, and of the instrument raised for a gesture, from gesture keys.
 
-A hand's way is a mixture of places, each with a share 0..1 (what is left is the grip), an offset, and a mixture of
-shapes of the fingers (what is left is how they hold). Where the places are the solvers know
-(`app.motion.contacts.hand_destinations`).
+A hand's motion is a mixture of places with shares 0..1 (the rest is the grip), an offset, and a mixture of finger
+shapes (the rest is the grip's). `app.motion.contacts.hand_destinations` defines the places.
 """
 
 from __future__ import annotations
@@ -26,14 +25,14 @@ LEAST_SIZE: Final = 0.05
 
 
 class ReachingHands(NamedTuple):
-    """Hands that are moving away or back in some frames, by the part that scales with the amplitude; empty: none.
+    """Hands moving away from or back to the instrument in some frames, grouped by amplitude scale; empty: none.
 
     Attributes
     ----------
     shares : dict of str to (F,) float64
-        ``RAISED``, and by side and place or shape, e.g. ``"left.page"``.
+        ``RAISED``, and by side and place or shape, such as ``"left.page"``.
     offsets_m : dict of side to (F, 3) float64
-        To the left, up and ahead.
+        Offset to the left, up and ahead.
     """
 
     shares: dict[str, FloatArray]
@@ -44,15 +43,15 @@ Reaches: TypeAlias = dict[AmplitudeScale, ReachingHands]
 
 
 class Reaching(KeyedGestures):
-    """All gestures of a player in which a hand leaves the instrument, or it comes up."""
+    """All gestures of a player in which a hand leaves the instrument, or the instrument is raised."""
 
     @staticmethod
     def takes(gesture: Gesture) -> bool:
-        """Only what hands do."""
+        """Return whether a gesture is one of the hands."""
         return gesture.needs_lowered
 
     def sample(self, times_s: FloatArray) -> Reaches:
-        """Return where hands are on their way at ascending times."""
+        """Sample the hands' motion at ascending times."""
         found: Reaches = {}
         for gesture, amount, phase, here in self.done(times_s):
             if amount >= LEAST_SIZE:
@@ -84,10 +83,11 @@ def _add(reached: ReachingHands, gesture: Gesture, phase: FloatArray, here: slic
 def limited_hand_gestures(
     reaches: Reaches, amplitude: float, amount: float
 ) -> tuple[dict[str, FloatArray], FloatArray | None]:
-    """Hand gestures at a player's amplitude and amount, and how far (F,) the instrument comes up (None: not).
+    """Hand gestures at a player's amplitude and amount, and the share (F,) by which the instrument is raised (None:
+    never).
 
-    A hand goes all the way, or does not leave the instrument. Keys are as of `ReachingHands`; offsets are there as
-    ``"left.m"`` and ``"right.m"``, (F, 3).
+    A hand either goes all the way or stays. Keys are as in `ReachingHands`; offsets are ``"left.m"`` and ``"right.m"``,
+    (F, 3).
     """
     hands: dict[str, FloatArray] = {}
     raised: FloatArray | None = None

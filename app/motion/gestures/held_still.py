@@ -1,4 +1,4 @@
-"""Holding still: layers of the body stay where they are for a while."""
+"""Holding still: freezes layers of the body for a while."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ HELD: Final = ("sway", "lean", "accent", "weight", "giving", "height")
 
 
 def holds_of(gestures: Sequence[GestureEvent]) -> Envelopes:
-    """Return how much of what a body does is held, from the gestures that hold it."""
+    """Return the degree to which motion is held by gestures, 0..1."""
     rows = []
     for event in gestures:
         if event.end_s > event.start_s:
@@ -38,12 +38,12 @@ L = TypeVar("L", bound="DataclassInstance")
 
 
 def held_still(levels: L, holds: Envelopes, times_s: FloatArray, at: Callable[[FloatArray], L]) -> L:
-    """Layers at ascending times, held where they are when a hold is whole.
+    """Layers at ascending times, frozen while a hold has full effect.
 
     Parameters
     ----------
     at : callable
-        The same layers at other times.
+        Function that samples the same layers at other times.
     """
     first, last = (np.searchsorted(times_s, edges_s) for edges_s in (holds.start_s, holds.end_s))
     for index in np.flatnonzero(last > first).tolist():
@@ -61,7 +61,7 @@ def _held(values: Any, stays: Any, share: FloatArray) -> Any:
 
 
 def with_holds(spans_s: FloatArray, *holds: Envelopes) -> FloatArray:
-    """Spans (K, 2) of what changed, and of every hold that any of them meets: what is held is what was before."""
+    """Spans (K, 2) of changes, plus every overlapping hold, since held values come from earlier times."""
     held = np.concatenate([one.spans_s for one in holds])
     if not len(held) or not len(spans_s):
         return spans_s

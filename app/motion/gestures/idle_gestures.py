@@ -1,4 +1,4 @@
-"""Motion of the body besides playing: counting, looking about, settling the hands, looking up and bowing."""
+"""Body motion while not playing: counting, looking around, settling the hands, looking up, bowing."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ MOST_BOW_RAD = float(np.deg2rad(36.0))
 
 @dataclass(frozen=True)
 class ConcertSamples:
-    """Amount of each gesture at some frames, 0..1, each (F,) float64; 0: none."""
+    """Strength of each gesture at some frames, 0..1, each (F,)."""
 
     bow: FloatArray | float = 0.0
     up: FloatArray | float = 0.0
@@ -39,8 +39,9 @@ NOTHING_BESIDE: Final = ConcertSamples()
 
 @dataclass(frozen=True)
 class Beside:
-    """Offsets of the body, each (F,) float64: hips, trunk and neck forwards, hips back, shoulders up, elbows out, and
-    the share of the lowered instrument's way that it comes up."""
+    """Offsets of the body, each (F,): hips, trunk and neck forward, hips back, shoulders up, elbows out, and the share
+    by which the lowered instrument is raised.
+    """
 
     hips_rad: FloatArray | float
     back_m: FloatArray | float
@@ -54,7 +55,7 @@ class Beside:
 def beside_playing(
     done: ConcertSamples, sizes: ConcertMotion, amplitude: float, amount: FloatArray | float, seated: bool
 ) -> Beside:
-    """Offsets of the body in some frames; ``amount`` is times the usual."""
+    """Offsets of the body at some frames; ``amount`` is a factor of the usual."""
 
     def rad(scale: AmplitudeScale) -> FloatArray | float:
         return amount * float(np.deg2rad(at_amplitude(scale, amplitude)))
@@ -76,12 +77,12 @@ def beside_playing(
 
 @dataclass(frozen=True, eq=False)
 class Counting:
-    """Head nods with the beats that are counted, 0..1, lowest on each beat.
+    """Head nods while counting beats, 0..1, lowest on each beat.
 
     Attributes
     ----------
     start_s, length_s, beats, amount : (N,) float64
-        In order and apart.
+        Counts in order, without overlap.
     """
 
     start_s: FloatArray
@@ -91,7 +92,7 @@ class Counting:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent], felt_beats: FeltBeats) -> Counting:
-        """Counts of a player; one that overlaps the one before is not counted twice."""
+        """Counts of a player; overlaps with the previous count are dropped."""
         rows: list[tuple[float, float, int, int, float]] = []
         for event in events:
             free_s = rows[-1][0] + rows[-1][1] if rows else -np.inf
@@ -117,7 +118,7 @@ class Counting:
         return result
 
     def changed_s(self, other: Counting) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = (np.stack((one.start_s, one.length_s, one.beats, one.amount), axis=1) for one in (self, other))
         spans = [np.stack((rows[:, 0], rows[:, 0] + rows[:, 1]), axis=1) for rows in (mine, others)]
         return rows_changed_s(mine, others, *spans)
@@ -125,7 +126,7 @@ class Counting:
 
 @dataclass(frozen=True, eq=False)
 class Concert:
-    """A player's gestures beside playing, as curves."""
+    """A player's gestures while not playing, as curves."""
 
     bow: Envelopes
     up: Envelopes
@@ -134,7 +135,7 @@ class Concert:
 
     @classmethod
     def of(cls, gestures: Sequence[GestureEvent], felt_beats: FeltBeats) -> Concert:
-        """Idle motion by a player's gestures."""
+        """Make the curves from a player's gestures."""
         return cls(
             bow=Envelopes.of([_at_shares(event, *BOW) for event in gestures if event.part == "bow"]),
             up=Envelopes.of([_eased(event, LOOK_UP_S) for event in gestures if event.part == "audience"]),
@@ -143,11 +144,11 @@ class Concert:
         )
 
     def sample(self, times_s: FloatArray) -> ConcertSamples:
-        """Return how much of each is done at ascending times."""
+        """Return the strength of each gesture at ascending times."""
         return ConcertSamples(**{member.name: getattr(self, member.name).sample(times_s) for member in fields(self)})
 
     def changed_s(self, other: Concert) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         return np.concatenate(
             [getattr(self, member.name).changed_s(getattr(other, member.name)) for member in fields(self)]
         )

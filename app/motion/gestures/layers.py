@@ -1,4 +1,4 @@
-"""Layers of one player's body as curves of time, each made from the events of its kind."""
+"""Layers of one player's body as curves of time, each made from one kind of event."""
 
 from __future__ import annotations
 
@@ -35,13 +35,12 @@ BELL_S: Final = 0.5
 
 @dataclass(frozen=True)
 class LayerSamples:
-    """The layers at some frames, before the player's sizes: members as of `Layers`, each (F,) float64.
+    """The layers at some frames, before the player's sizes; fields as in `Layers`, each (F,).
 
-    ``dip`` and ``lift`` are of the nods, ``giving`` is 1 half way between two places of the weight, ``held`` what the
-    animator holds differently, ``gestured`` the keyed gestures, ``feet`` as of `Feet.sample`, ``concert`` what is done
-    beside playing, ``reached`` the hands that leave the instrument, ``further`` how much fuller the
-    lungs look to the trunk where a breath would not show (`app.motion.breath.breaths_that_show`), ``push`` how hard the
-    breath pushes an attack (`app.motion.faces.tongue_strokes`).
+    ``dip`` and ``lift``: nods; ``giving``: 1 half way between two weight positions; ``held``: the animator's poses;
+    ``gestured``: keyed gestures; ``feet``: as in `Feet.sample`; ``concert``: gestures while not playing; ``reached``:
+    hands that leave the instrument; ``further``: additional fullness of the lungs that makes breaths visible
+    (`app.motion.breath.breaths_that_show`); ``push``: breath pushes at attacks (`app.motion.faces.tongue_strokes`).
     """
 
     full: FloatArray
@@ -68,20 +67,20 @@ class LayerSamples:
 
 @dataclass(frozen=True)
 class Layers:
-    """Layers of one player's body, as curves of time; each is sampled with the sizes of the player.
+    """Layers of one player's body as curves of time, to be scaled by the player's sizes.
 
     Attributes
     ----------
     full, leaning : Curve
-        How full the lungs look, and the lean that prepares a breath.
+        Visible fullness of the lungs, and lean of the breath's preparation.
     air : Curve
-        How much air is in them.
+        Amount of air in the lungs.
     sway, lean : Path
-        Where the trunk goes aside and forward, -1..1.
+        Sideways and forward position of the trunk, -1..1.
     weight, height : Curve
-        Where weight and bell go, -1..1.
+        Position of the weight and height of the bell, -1..1.
     leads : Leads
-        How the parts of the body follow one another.
+        Delays between the parts of the body.
     """
 
     full: Curve
@@ -108,7 +107,7 @@ class Layers:
         return held_still(self._moving(times_s), self.still, times_s, self._moving)
 
     def _moving(self, times_s: FloatArray) -> LayerSamples:
-        """The layers of a body that holds still nowhere."""
+        """The layers without holding still."""
         dip, lift = self.nods.sample(times_s)
         before, after, share = self.weight.between(self.leads.at(times_s).hips)
         values: dict[str, Any] = {name: getattr(self, name).sample(times_s) for name in ALIKE}
@@ -116,7 +115,7 @@ class Layers:
         return LayerSamples(dip=dip, lift=lift, giving=2.0 * share * (1.0 - share) * np.abs(after - before), **values)
 
     def changed_s(self, other: Layers) -> list[FloatArray]:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         names = [member.name for member in fields(self) if member.name != "leads"]
         return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
 
@@ -130,9 +129,9 @@ ALIKE: Final = tuple(
 
 
 def lowering_curve(gestures: Sequence[GestureEvent], lower_s: float, raise_s: float) -> Curve:
-    """0 with the instrument at the lips, 1 with it lowered; it is up again when the gesture ends.
+    """Lowering of the instrument: 0 at the lips, 1 lowered; it is raised again by the end of the gesture.
 
-    Gestures that overlap are one: the instrument stays down from the first to the last, as low as the lowest of them.
+    Overlapping gestures are merged: the instrument stays down from the first to the last, at the lowest of them.
     """
     spans: list[tuple[float, float, float]] = []
     lowerings = (event for event in gestures if event.end_s > event.start_s)
@@ -151,7 +150,7 @@ def lowering_curve(gestures: Sequence[GestureEvent], lower_s: float, raise_s: fl
 
 
 def _of_parts(gestures: tuple[GestureEvent, ...], parts: tuple[Part, ...]) -> tuple[GestureEvent, ...]:
-    """Return the gestures that some parts of the body's motion answer."""
+    """Return the gestures performed by some parts of the motion."""
     kinds = {kind for kind, row in GESTURE_KINDS.items() if row.part in parts}
     return tuple([event for event in gestures if event.kind in kinds])
 

@@ -1,7 +1,7 @@
-"""Gestures that an animator wrote as keys (`metadata.gestures`), as offsets of bell, head, elbows and trunk.
+"""Keyed gestures written by an animator (`metadata.gestures`), as offsets of bell, head, elbows and trunk.
 
-Between keys an angle goes by a quintic with the keys' slopes and no acceleration at them: with level keys that is a
-minimum-jerk move, as all others of the body.
+Between keys an angle follows a quintic with the keys' slopes and no acceleration at them; with level keys that is a
+minimum-jerk move.
 """
 
 from __future__ import annotations
@@ -27,8 +27,9 @@ _TURNS = ("up", "left", "roll")
 
 
 def slopes_of(track: AngleTrack) -> FloatArray:
-    """The tangent of every key, degrees for the whole length: where none is given, level at a turn and else towards
-    the neighbours, so that nothing overshoots."""
+    """Tangent of every key, in degrees per whole length: as given, otherwise level at a turning point and towards the
+    neighbours elsewhere, without overshoot.
+    """
     slopes = _monotone(np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys]))
     given = np.array([np.nan if key.slope is None else key.slope for key in track.keys])
     return np.where(np.isnan(given), slopes, given)
@@ -45,13 +46,13 @@ def _monotone(at: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def angles_deg(track: AngleTrack, phase: FloatArray) -> FloatArray:
-    """A track's angle at phases of its gesture, (F,); 0 outside of 0..1."""
+    """A track's angle (F,) in degrees at phases of its gesture; 0 outside 0..1."""
     at = np.array([key.at for key in track.keys])
     return _between(at, np.array([key.deg for key in track.keys]), slopes_of(track), phase)
 
 
 def keyed(at: FloatArray, values: FloatArray, phase: FloatArray) -> FloatArray:
-    """Interpolate values at some phases, without overshooting any; 0 outside of 0..1."""
+    """Interpolate values at phases without overshoot; 0 outside 0..1."""
     return _between(at, values, _monotone(at, values), phase)
 
 
@@ -76,9 +77,9 @@ class KeyedGestures:
     Attributes
     ----------
     rows : (N, 4) float64
-        When each begins and ends, how large it is, and which it is.
+        Start, end, size, and index in ``gestures``.
     gestures : tuple of Gesture
-        What is done, by that number; each once.
+        Distinct gestures.
     """
 
     rows: FloatArray
@@ -99,11 +100,13 @@ class KeyedGestures:
 
     @staticmethod
     def takes(gesture: Gesture) -> bool:
-        """True of the gestures that belong to these."""
+        """Return whether this class handles a gesture."""
         return True
 
     def done(self, times_s: FloatArray) -> Iterator[tuple[Gesture, float, FloatArray, slice]]:
-        """Yield every gesture that is done at some of ascending times, its amount, and its phases at these."""
+        """Yield every gesture active at some of the ascending times, with its amount, its phases, and the slice of
+        times.
+        """
         first = np.searchsorted(times_s, self.rows[:, 0])
         last = np.searchsorted(times_s, self.rows[:, 1])
         for index in np.flatnonzero(last > first).tolist():
@@ -112,7 +115,7 @@ class KeyedGestures:
             yield self.gestures[int(number)], amount, (times_s[here] - start_s) / (end_s - start_s), here
 
     def changed_s(self, other: Self) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         if self.gestures != other.gestures:
             return np.concatenate((self.rows[:, :2], other.rows[:, :2]))
         return rows_changed_s(self.rows, other.rows, self.rows[:, :2], other.rows[:, :2])
@@ -122,7 +125,7 @@ class Gestured(KeyedGestures):
     """All keyed gestures of a player, as offsets."""
 
     def sample(self, times_s: FloatArray) -> Sums:
-        """Sum the gestures at ascending times, before the player's amplitude."""
+        """Sum of the gestures at ascending times, before scaling by the player's amplitude."""
         # Of all gestures, wherever they are: the same frames are the same bits in every span.
         sums: Sums = {}
         for gesture in self.gestures:
@@ -139,8 +142,9 @@ class Gestured(KeyedGestures):
 def with_gestures(
     held: dict[PoseTarget, PoseAngles], gestured: Sums | None, amplitude: float, amount: FloatArray | float
 ) -> dict[PoseTarget, PoseAngles]:
-    """Add gestures to the angles held by hand: each as large as at the player's amplitude, times the player's amount,
-    at most as at full amplitude, and no further than hands follow."""
+    """Add gestures to the angles held by hand: scaled by the player's amplitude and amount, at most to full amplitude,
+    within the range that hands can follow.
+    """
     if not gestured or not np.any(amount):
         return held
     sums: dict[PoseTarget, FloatArray] = {}
@@ -163,7 +167,7 @@ def with_gestures(
 
 
 def _limits_rad(target: PoseTarget) -> tuple[tuple[float, float] | None, ...]:
-    """Return how far hands follow in each angle; None: what its instrument allows was seen to before."""
+    """Return the range that hands can follow for each angle; None: limited earlier by the instrument."""
     if target in ("left_elbow", "right_elbow"):
         low, high = np.deg2rad(ELBOW_DEG).tolist()
         return (low, high), None, None

@@ -1,6 +1,6 @@
-"""Nods of head and instrument: they go up before a beat and drop onto it.
+"""Nods of head and instrument: a lift before a beat and a dip onto it.
 
-A leader gives an entry so, the others answer with a smaller one of their own.
+Used for cues by a leader, and for smaller answers by the other players.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ without moving it: the peak of the side lobe of a bump's acceleration."""
 
 @dataclass(frozen=True, eq=False)
 class Nods:
-    """Lifts and dips of all nods: the dip's acceleration peaks on the beat that is marked, their widths are the tempo.
+    """Lifts and dips of all nods: the dip's acceleration peaks on the marked beat, and its width follows the tempo.
 
     Attributes
     ----------
     beat_s, half_s, lift_s, amount : (N,) float64
-        The beat that is marked, half widths of dip and lift, size.
+        Marked beat, half widths of dip and lift, and size.
     """
 
     beat_s: FloatArray
@@ -46,7 +46,7 @@ class Nods:
 
     @classmethod
     def of(cls, cues: Sequence[CueEvent], answers: Sequence[GestureEvent] = ()) -> Nods:
-        """Nods of a player's cues, and of gestures that nod on the beat at their end."""
+        """Nods for a player's cues, and for gestures that nod on the beat at their end."""
         rows = [(cue.downbeat_s, cue.start_s, cue.beat_s, cue.amount) for cue in cues]
         rows += [(one.end_s, one.start_s, (one.end_s - one.start_s) / NOD_BEATS, one.amount) for one in answers]
         rows = [row for row in rows if row[0] > row[1]]
@@ -57,7 +57,7 @@ class Nods:
         return cls(beat_s, np.minimum(dip_s, room_s), lift_s, table[:, 3])
 
     def sample(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Dip and lift, 1 as usual, at ascending times, each (F,) float64."""
+        """Dip and lift at ascending times, 1 is the usual size, each (F,)."""
         dip, lift = np.zeros(len(times_s)), np.zeros(len(times_s))
         spans_s = self._spans_s
         first, last = (np.searchsorted(times_s, spans_s[:, side]) for side in (0, 1))
@@ -70,7 +70,7 @@ class Nods:
         return dip, lift
 
     def changed_s(self, other: Nods) -> FloatArray:
-        """Spans (K, 2) outside of which both have the same values."""
+        """Spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = (
             np.stack((nods.beat_s, nods.half_s, nods.lift_s, nods.amount), axis=1) for nods in (self, other)
         )
@@ -84,7 +84,7 @@ class Nods:
 
 
 def _dip(times_s: FloatArray, beat_s: float, half_s: float) -> FloatArray:
-    """A bump whose way back is stretched; about the beat both halves have the same acceleration."""
+    """A bump with a prolonged return; at the beat both halves have equal acceleration."""
     after = np.maximum(times_s - beat_s, 0.0) / half_s
     stretched = after / (1.0 + after * (AFTER - 1.0) / AFTER)
     return bump(np.minimum(times_s, beat_s) + half_s * stretched, beat_s, half_s)

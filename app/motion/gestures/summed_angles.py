@@ -1,4 +1,4 @@
-"""Angles of trunk, neck and pelvis while the layers of a body are added up."""
+"""Sums the layers' angles for trunk, neck and pelvis."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ SEATED_ROLL = 0.5
 
 @dataclass(frozen=True)
 class Sizes:
-    """The body's sizes at one player's amplitude, what of its layers is shown, and the noise of that player."""
+    """Sizes of a body's motion at one player's amplitude, the shown share of its layers, and the player's noise."""
 
     body: Body
     parameters: PlayerParameters
@@ -52,31 +52,33 @@ class Sizes:
 
     @property
     def seated(self) -> bool:
-        """True of a posture on a seat."""
+        """True for a seated posture."""
         return self.posture.seat_height_shank > 0.0
 
     def of(self, scale: AmplitudeScale) -> float:
-        """A size."""
+        """Size at the player's amplitude."""
         return at_amplitude(scale, self.parameters.amplitude)
 
     def rad(self, scale: AmplitudeScale) -> float:
-        """An angle."""
+        """Size at the player's amplitude, converted from degrees to radians."""
         return float(np.deg2rad(self.of(scale)))
 
     @property
     def aslant(self) -> float:
-        """1 for who goes ahead with the weight on the left foot, -1 for who goes back."""
+        """1 for a player who moves forward with the weight on the left foot, -1 for backward."""
         return 1.0 if _own(self.player_id, self.parameters.seed, "aslant") < 0.5 else -1.0
 
     @property
     def breathing(self) -> tuple[float, float]:
-        """Return how much this player breathes with the trunk, and how much with the shoulders instead."""
+        """Return the player's shares of breathing with the trunk and with the shoulders."""
         low, high = BREATHES_WITH_TRUNK
         share = low + (high - low) * _own(self.player_id, self.parameters.seed, "breathes")
         return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
 
     def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: FloatArray | float) -> FloatArray:
-        """Noise of this player's layer: the residue, and a share of the planned motion, as much of it as is shown."""
+        """Noise for one of the player's layers: the residual motion, plus a share of the planned motion as far as it is
+        shown.
+        """
         noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
         size = NOISE_SHARE * (self.of(scale) - scale[0])
         wandering: FloatArray = noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + shown * size)
@@ -95,7 +97,7 @@ def _own(player_id: str, seed: int, what: str) -> float:
 
 @dataclass
 class Sum:
-    """Angles of trunk and neck: forward, to the left and turned to the left, each by joint."""
+    """Angles of trunk and neck by joint: forward, lean to the left, turn to the left."""
 
     frames: int
     angles: tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]] = field(
@@ -103,19 +105,19 @@ class Sum:
     )
 
     def forward(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Flexion."""
+        """Add flexion, distributed over joints."""
         self._add(0, shares, values)
 
     def left(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Sideways lean."""
+        """Add lean to the left, distributed over joints."""
         self._add(1, shares, values)
 
     def turn(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Twist."""
+        """Add turn to the left, distributed over joints."""
         self._add(2, shares, values)
 
     def all(self) -> tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]]:
-        """Every joint's, in the order of the methods."""
+        """Return the angles of all joints: forward, lean, turn."""
         nothing = np.zeros(self.frames)
         forward, left, turn = ({joint: one.get(joint, nothing) for joint in TRUNK} for one in self.angles)
         return forward, left, turn
@@ -128,16 +130,16 @@ class Sum:
 
 @dataclass(frozen=True)
 class Angles:
-    """Sums of one player's overlapping motions, as angles of hips, chest, head and elbows in the world.
+    """Sums of a player's delayed motions, as world angles of hips, chest, head and elbows.
 
     Attributes
     ----------
     side, twist, bowed : Overlapped
-        To the left, turned to the left, and forward.
+        Lean to the left, turn to the left, and forward.
     pelvis : (F,) float64
-        The pelvis forward.
+        Forward tilt of the pelvis.
     roll : Overlapped
-        Hips to the left with the weight.
+        Roll of the hips to the left with the weight.
     seated : bool
     """
 
@@ -150,7 +152,7 @@ class Angles:
 
     @classmethod
     def of(cls, levels: LayerSamples, sizes: Sizes, times_s: FloatArray, wandering: FloatArray | float) -> Angles:
-        """In the sizes of a player; ``wandering`` is how much is shown of what is not planned."""
+        """Angles in a player's sizes; ``wandering`` is the shown share of random motion."""
         swings, phrase, acting, rad, seated = sizes.body.sway, sizes.body.phrase, sizes.acting, sizes.rad, sizes.seated
         at = Leads.of(sizes.body.overlap).at(times_s)
         share = phrase.seated_share if seated else 1.0
@@ -187,19 +189,19 @@ class Angles:
 
     @property
     def hips_roll_rad(self) -> FloatArray:
-        """Hips to the left."""
+        """Roll of the hips to the left in radians."""
         share = SEATED_ROLL if self.seated else 1.0
         rolled: FloatArray = share * (self.roll.hips + HIPS_SWAY * self.side.hips)
         return rolled
 
     @property
     def hips_turn_rad(self) -> FloatArray:
-        """Hips turned to the left."""
+        """Turn of the hips to the left in radians."""
         turned: FloatArray = (0.0 if self.seated else HIPS_TURN) * self.twist.hips
         return turned
 
     def add_to(self, total: Sum) -> None:
-        """Add the turns of trunk and neck that give chest and head these angles, whatever is below them."""
+        """Add to trunk and neck the angles that bring chest and head to these world angles."""
         total.forward(TRUNK_SHARES, self.bowed.chest - self.pelvis)
         total.forward(NECK_SHARES, self.bowed.head - self.bowed.chest)
         total.left(TRUNK_SHARES, self.side.chest + WEIGHT_IN_CHEST * self.roll.chest - self.hips_roll_rad)
@@ -209,6 +211,6 @@ class Angles:
         total.turn(NECK_SHARES, self.twist.head - self.twist.chest)
 
     def elbows_late(self) -> dict[str, FloatArray]:
-        """Return how far the elbows are from where the chest has them."""
+        """Return the lag of the elbows behind the chest, by angle."""
         angles = {"forward": self.bowed, "turn": self.twist, "left": self.side}
         return {name: angle.elbows - angle.chest for name, angle in angles.items()}
