@@ -1,1 +1,1 @@
-"""The one judge of touches, grips, lips, feet and depths: the same for problems, reports and tests."""
+"""Checks of contacts: touches, grips, lips, feet and penetration depths, for problems, reports and tests alike."""

@@ -1,4 +1,4 @@
-"""Bounds of contacts, for every check and report."""
+"""Bounds of contact errors, for all checks and reports."""
 
 from __future__ import annotations
 
@@ -34,14 +34,15 @@ NEARLY_ALL = 99
 
 
 def reported_least_m(distances_m: FloatArray) -> float:
-    """A least value for what `Spread.of` reports of distances (F,) that may still grow: as many are this large as are
-    at or above the percentile."""
+    """Lower bound for the value `Spread.of` reports, from lower bounds of the distances (F,): the value at its
+    percentile.
+    """
     rank = (len(distances_m) - 1) * NEARLY_ALL // 100
     return float(np.partition(distances_m, rank)[rank])
 
 
 class Spread(msgspec.Struct, frozen=True):
-    """A distance over frames, against its bound. With no frame there is nothing to measure and nothing is wrong."""
+    """Distribution of a distance over frames, with its bound. Without frames there is no value and no violation."""
 
     max_mm: float
     p99_mm: float
@@ -59,29 +60,30 @@ class Spread(msgspec.Struct, frozen=True):
 
     @property
     def kept(self) -> bool:
-        """True if the bound is kept at every frame."""
+        """True if the distance is within the bound at every frame."""
         return self.max_mm <= self.bound_mm
 
 
 def bound_mm(contact: Contact) -> float:
-    """Return how far a contact of a map may be off."""
+    """Return the allowed error of a contact in millimetres."""
     touches = contact.control is not None and contact.grip == "firm"
     return TOUCH_MM if touches and not contact.part.endswith(("palm", "thumb_web")) else GRIP_MM
 
 
 def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float:
-    """Return how far off a contact may be before it is reported: what its hold misses was reported
-    (`app.contacts.missed_contacts`), and moving hands may add the bound."""
+    """Return the allowed error of a contact in millimetres: its bound plus the error that the grip itself has, which is
+    reported separately (`app.contacts.missed_contacts`).
+    """
     return bound_mm + missed.get(name, 0.0)
 
 
 def contact_name(contact: Contact | ContactFit) -> str:
-    """Name of a contact's measure."""
+    """Name of a contact in reports."""
     return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
 
 
 def in_place(control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
-    """Return whether values of a control are near enough to their targets."""
+    """Return a mask of the values of a control that are close enough to their targets."""
     off = np.abs(values - targets)
     if control.kind == "slide" and control.travel_m:
         return off * control.travel_m <= SLIDE_M

@@ -1,4 +1,4 @@
-"""Contacts that are not kept for a while, and the problems that they are."""
+"""Spans in which contacts are broken, and the problems made from them."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ Kind = Literal["hand", "short", "touch", "lips", "foot"]
 
 @dataclass(frozen=True)
 class Break:
-    """A contact that is not kept for a while.
+    """A span in which a contact is broken.
 
     Attributes
     ----------
     kind : str
     part : str
-        Side of a hand or foot; part of a hand that touches; empty for the lips.
+        Side of a hand or foot, or touching part of a hand; empty for the lips.
     control : str
-        What the touch works or, where it stops short, the hand carries; else empty.
+        Control that is touched, or that the hand moves along and that stops short; otherwise empty.
     start_s, end_s : float
     gap_m : float
-        The farthest.
+        Largest distance in the span.
     """
 
     kind: Kind
@@ -47,12 +47,12 @@ class Break:
 
     @property
     def contact(self) -> tuple[str, str, str]:
-        """Return which contact it is."""
+        """Return the key of the broken contact."""
         return self.kind, self.part, self.control
 
 
 def runs(contact: tuple[Kind, str, str], times_s: FloatArray, gaps_m: FloatArray, broken: BoolArray) -> Iterator[Break]:
-    """The spans of broken frames (F,)."""
+    """Yield the spans of broken frames (F,)."""
     if not broken.any():
         return
     indices = np.flatnonzero(broken)
@@ -64,16 +64,16 @@ def runs(contact: tuple[Kind, str, str], times_s: FloatArray, gaps_m: FloatArray
 def contact_problems(
     breaks: Iterable[Break], grips: Sequence[FingeringEvent], known: Iterable[Problem]
 ) -> tuple[Problem, ...]:
-    """A problem for every while that a contact is broken, in the order of time.
+    """A problem for every span in which a contact is broken, by time.
 
     Parameters
     ----------
     breaks : iterable of Break
     grips : sequence of FingeringEvent
-        Of the player's plan.
+        Fingerings of the player's plan.
     known : iterable of Problem
-        What is reported of the player: a control that stops short of a note that is out of reach is a problem of that
-        note already (`app.contacts.reach`), and is not reported again.
+        Problems reported before: a control that stops short at a note out of reach is already one of them
+        (`app.contacts.reach`), and is not reported again.
     """
     problems = []
     spans_s = [
@@ -109,7 +109,7 @@ def _united(spans_s: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def joined(breaks: Iterable[Break]) -> list[Break]:
-    """Breaks of one contact that follow one another, as one."""
+    """Merge breaks of one contact that are close to each other."""
     result: list[Break] = []
     for item in sorted(breaks, key=lambda item: (*item.contact, item.start_s)):
         last = result[-1] if result else None

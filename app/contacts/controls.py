@@ -1,4 +1,4 @@
-"""Control positions that the notes require, frame by frame, and checks that controls stay there long enough."""
+"""Control values required by the notes at each frame, and checks that controls reach and hold them."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from instrument_maps.model import Control
 
 
 class ControlMeasure(msgspec.Struct, frozen=True):
-    """Measure of a control: in place at the judged frames, and staying there until it may leave.
+    """Accuracy of a control: number of notes with the control in place at the checked frame, and frames at which it
+    left too early.
 
-    ``stopped_short`` and ``held_stopped_short`` are those of the judged notes, and of the frames held, at which it
-    stays on the near side of a place that is out of the player's reach: neither right nor wrong, and distinguished. How
-    far from there at most is ``most_short_mm``.
+    ``stopped_short`` and ``held_stopped_short`` count notes and frames at which the control stays before a place that
+    is out of reach, which counts neither as right nor as wrong; ``most_short_mm`` is the largest distance.
     """
 
     judged: int
@@ -35,21 +35,21 @@ class ControlMeasure(msgspec.Struct, frozen=True):
 
 
 def notes_of(notes: Sequence[FingeringEvent], first_s: float, last_s: float) -> list[FingeringEvent]:
-    """The notes that sound in a span, and the next one: a control may leave the last note's place for its sake."""
+    """The notes that sound in a span, and the next one, for which a control may leave the last note's place."""
     later = [note for note in notes if note.end_s > first_s]
     inside = sum(note.start_s <= last_s for note in later)
     return later[: inside + 1]
 
 
 class NoteFrames:
-    """Frames of sounding notes, with the notes that sound in them.
+    """Frames with the notes that sound in them.
 
     Parameters
     ----------
     times_s : (F,) float64
-        Ascending.
+        Ascending times.
     notes : sequence of FingeringEvent
-        Ordered by onset; see `notes_of`.
+        Notes ordered by onset; see `notes_of`.
     """
 
     def __init__(self, times_s: FloatArray, notes: Sequence[FingeringEvent]) -> None:
@@ -61,16 +61,16 @@ class NoteFrames:
 
     @cached_property
     def sounding(self) -> BoolArray:
-        """Frames (F,) at which a note sounds."""
+        """Mask (F,) of the frames at which a note sounds."""
         return self._inside(*self._bounds(self._starts_s, self._ends_s))
 
     def within(self, spans_s: Iterable[tuple[float, float]]) -> BoolArray:
-        """Frames (F,) inside any of these spans."""
+        """Mask (F,) of the frames inside any of these spans."""
         starts_s, ends_s = np.array(list(spans_s), dtype=np.float64).reshape(-1, 2).T
         return self._inside(*self._bounds(starts_s, ends_s))
 
     def targets(self, control: Control) -> FloatArray:
-        """Value of a control that each note asks for."""
+        """Value of a control for each note."""
         known = self._targets.get(control.name)
         if known is None:
             asked = [note.controls.get(control.name, control.rest_value) for note in self.notes]
@@ -78,7 +78,9 @@ class NoteFrames:
         return known
 
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
-        """Frames of a sounding note at which a control is away from rest as its note asks, and at rest as it asks."""
+        """Masks of the frames with a sounding note at which a control is away from rest as required, and at rest as
+        required.
+        """
         pressed, released = np.zeros((2, len(self._times_s)), dtype=np.bool_)
         frames, notes = self._frames_of_notes
         targets = self.targets(control)[notes]
@@ -89,26 +91,25 @@ class NoteFrames:
 
     @cached_property
     def _frames_of_notes(self) -> tuple[IndexArray, IndexArray]:
-        """The frames at which each note sounds, one note after another, and which note it is: one may sound on under
-        the next."""
+        """Frames of each note, concatenated, and the note index of each; notes may overlap."""
         starts, stops = self._bounds(self._starts_s, self._ends_s)
         return _indices(starts, stops), np.repeat(np.arange(len(starts)), np.maximum(stops - starts, 0))
 
     def asked(self, requested: Sequence[bool] | BoolArray) -> BoolArray:
-        """Frames of the sounding notes for which ``requested`` (N,) is true."""
+        """Mask of the frames of notes for which ``requested`` (N,) is true."""
         starts, stops = self._own
         chosen = np.asarray(requested, dtype=np.bool_)
         return self._inside(starts[chosen], stops[chosen])
 
     def kept(self, station: int, worked: IndexArray, controls: Sequence[Control]) -> BoolArray:
-        """Frames of the notes that a finger works at this of its stations, until it may leave for the next note.
+        """Mask of the frames of notes played at one of a finger's stations, until it may leave for the next note.
 
         Parameters
         ----------
         worked : (N,) int
-            Its station in every note.
+            Station of the finger for every note.
         controls : sequence of Control
-            All that it works anywhere.
+            All controls of the finger.
         """
         starts, stops = self._own
         here = np.flatnonzero(worked == station)
@@ -123,7 +124,7 @@ class NoteFrames:
         return self._inside(starts[here], np.minimum(stops[here], until))
 
     def targets_at_frames(self, control: Control) -> FloatArray:
-        """Value of a control (F,) that the note at each frame asks for; NaN where none sounds."""
+        """Value of a control (F,) required at each frame; NaN without a note."""
         result = np.full(len(self._times_s), np.nan)
         starts, stops = self._own
         result[_indices(starts, stops)] = np.repeat(self.targets(control), np.maximum(stops - starts, 0))
@@ -132,16 +133,16 @@ class NoteFrames:
     def measure(
         self, control: Control, values: FloatArray, fps: float, out_of_reach: Set[str | None] = frozenset()
     ) -> ControlMeasure:
-        """Count the notes at whose judged frame a control is in place, and the frames at which it left too early.
+        """Count the notes with a control in place at the checked frame, and the frames at which it left too early.
 
         Parameters
         ----------
         control : Control
         values : (F,) float64
         fps : float
-            The frames are every one of this rate.
+            Frame rate; frames are consecutive.
         out_of_reach : set of str
-            Ids of the notes for which a hand cannot bring what it carries to its place.
+            Ids of notes for which a hand cannot move the control all the way.
         """
         targets = self.targets(control)
         starts_s, ends_s = self._starts_s, self._ends_s
@@ -180,10 +181,10 @@ class NoteFrames:
         )
 
     def _leaves_s(self, control: Control, targets: FloatArray) -> FloatArray:
-        """The earliest times (N,) at which a control may leave the places of the notes: their ends, or shortly before.
+        """Earliest times (N,) at which a control may leave its places: the ends of notes, or shortly before.
 
-        Where its share of the note is not enough for the way at the speed the map gives, it may take the time it
-        needs: the plan flags such notes. Where it is enough for an unhurried way, that may be taken.
+        If its share of the note is too short for the map's speed, it may take the time it needs (the plan reports such
+        notes); if the share allows an unhurried move, that may be used.
         """
         starts_s, next_s = self._starts_s[:-1], self._starts_s[1:]
         needed_s, unhurried_s = np.zeros((2, len(next_s)))
@@ -203,7 +204,7 @@ class NoteFrames:
 
     @cached_property
     def _own(self) -> tuple[IndexArray, IndexArray]:
-        """First frame (N,) of each note, and the frame before which it ends, at the next onset at the latest."""
+        """First frame (N,) of each note, and the frame after its last one, at the latest that of the next onset."""
         following_s = np.append(self._starts_s[1:], math.inf)
         return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 
@@ -212,7 +213,7 @@ class NoteFrames:
         return np.searchsorted(self._times_s, starts_s - 1e-9), np.searchsorted(self._times_s, ends_s - 1e-9)
 
     def _inside(self, starts: IndexArray, stops: IndexArray) -> BoolArray:
-        """Frames (F,) inside any of the spans that begin and end there."""
+        """Mask (F,) of frames inside any of the spans."""
         count = len(self._times_s) + 1
         some = stops > starts
         changes = np.bincount(starts[some], minlength=count) - np.bincount(stops[some], minlength=count)
@@ -221,7 +222,7 @@ class NoteFrames:
 
 
 def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
-    """The indices of spans (K,), one span after another."""
+    """Concatenated indices of spans (K,)."""
     lengths = np.maximum(stops - starts, 0)
     before = np.cumsum(lengths) - lengths
     indices: IndexArray = np.arange(lengths.sum()) + np.repeat(starts - before, lengths)
@@ -229,8 +230,7 @@ def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
 
 
 def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:
-    """Frames in which a control that carries a hand is out of its place on the near side, for a note that is out of
-    reach."""
+    """Mask of frames in which a control that a hand moves along stays before its place, for a note out of reach."""
     if not control.finger.endswith(".hand"):
         return np.zeros(len(values), dtype=np.bool_)
     near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)

@@ -1,11 +1,11 @@
-"""Depths of hands and fingers in the closed bodies that stand for an instrument.
+"""Penetration depths of hands and fingers in the closed bodies that represent an instrument.
 
-The deepest vertex of every frame is found by branch and bound. A block of frames is judged by its middle frame: how far
-a vertex moves from there is bounded by how far its joints and the instrument's parts move, and a distance changes by no
-more than a point moves. Vertices that cannot be the deepest in any frame of a block are dropped; for the others shorter
-blocks are judged, down to single frames. A block holds frames in which hand and parts are alike, whenever they are.
-While a hand moves too far within a block, its vertices are judged in groups. Hand and parts are judged in the frame of
-the part on which the hand is steadiest: a hand goes with the slide it holds.
+The deepest vertex of every frame is found by branch and bound. A block of frames is bounded by its middle frame: a
+distance changes by no more than the movement of the vertex, which is bounded by the movement of joints and parts.
+Vertices that cannot be deepest in any frame of a block are dropped; the rest is examined in shorter blocks, down to
+single frames. Blocks contain similar frames, regardless of time. While a hand moves much within a block, its vertices
+are treated in groups. Everything is computed in the frame of the part relative to which the hand moves least, such as a
+slide.
 """
 
 from __future__ import annotations
@@ -46,18 +46,18 @@ _ROUNDING_M = np.float32(1e-6)
 
 
 class HandDepths:
-    """The skin of a hand and the bodies it must not enter.
+    """The skin of a hand, and the bodies that it must not penetrate.
 
     Parameters
     ----------
     hand : Skin
-        Of hand and fingers.
+        Skin of hand and fingers.
     bodies : sequence of Proxy
 
     Attributes
     ----------
     joints : (J,) int
-        Those that carry a vertex.
+        Joints that hold a vertex.
     """
 
     def __init__(self, hand: Skin, bodies: Sequence[Proxy]) -> None:
@@ -75,25 +75,26 @@ class HandDepths:
         least_m: FloatArray | None = None,
         least_of: Callable[[FloatArray], float] = lambda found_m: 0.0,
     ) -> FloatArray:
-        """Greatest depth of any vertex in any body, at each of some frames.
+        """Greatest depth of any vertex in any body, at each frame.
 
         Parameters
         ----------
         world_from_joint : (F, J, 3, 4)
-            Of `joints`.
+            Transforms of `joints`.
         morphs : dict of str to (F,)
-            Weights by morph name.
+            Morph weights by name.
         world_from_node : dict of str to (F, 4, 4) float64
-            Of the instrument's nodes.
+            Transforms of the instrument's nodes.
         least_m : (F,) float64, optional
-            What is no deeper need not be found; 0 if absent.
+            Depths below which exact values are not needed; 0 by default.
         least_of : callable
-            The same for all frames, by how deep something is at least at each of them (F,): called as that is found.
+            Function from lower bounds of all depths found so far (F,) to such a limit for all frames; called
+            repeatedly.
 
         Returns
         -------
         (F,) float64
-            Metres, ``least_m`` where nothing is deeper.
+            Depth in metres; ``least_m`` where nothing is deeper.
         """
         frames = len(world_from_joint)
         if not frames or not self._nodes:
@@ -129,14 +130,14 @@ class HandDepths:
 
 @dataclass(frozen=True, eq=False)
 class _Pairs:
-    """Candidates for the deepest vertices in blocks, with the nodes whose bodies they may be in.
+    """Candidates for the deepest vertices in blocks, with nearby nodes.
 
     Attributes
     ----------
     blocks, items : (S,) int
-        Vertices, or groups of them, in blocks: each is placed once for all nodes that it is near.
+        Block and vertex (or group) of each candidate, placed once for all its nodes.
     spots, nodes : (N,) int
-        Which of these is near which node.
+        Index of the candidate, and node, for each pair.
     """
 
     blocks: IndexArray
@@ -159,12 +160,12 @@ class _Pairs:
         return _Pairs(*map(np.concatenate, both))
 
     def of_blocks(self, values: SingleArray) -> SingleArray:
-        """Values (B,) of blocks as those of the pairs (N,)."""
+        """Expand values (B,) of blocks to the pairs (N,)."""
         found: SingleArray = values[self.blocks][self.spots]
         return found
 
     def split(self, parts: int) -> _Pairs:
-        """The same pairs, divided by the parts of the blocks."""
+        """The pairs after splitting every block into parts."""
         blocks, spots = ((values[:, None] * parts + np.arange(parts)).ravel() for values in (self.blocks, self.spots))
         return _Pairs(blocks, np.repeat(self.items, parts), spots, np.repeat(self.nodes, parts))
 
@@ -173,21 +174,21 @@ _NONE = _Pairs(*np.zeros((4, 0), dtype=np.intp))
 
 
 class _Search:
-    """The search for the deepest vertex.
+    """State of the search for the deepest vertex.
 
     Parameters
     ----------
     groups : _Groups
     field : DistanceField
     poses : VertexPoses
-        In the frame of the base.
+        Poses in the frame of the base node.
     world_from_joint : (F, 3, J, 4) float32
     morphs : dict of str to (F,) float32
-        Weights.
+        Morph weights.
     world_from_node : list of (F, 4, 4) float64
-        By node.
+        Transforms by node.
     parts : Parts
-        The instrument's in the frame of the node on which the hand is steadiest: in it all that moves is judged.
+        Nodes of the instrument in the frame of the base node, relative to which the hand moves least.
     """
 
     def __init__(
@@ -209,12 +210,11 @@ class _Search:
 
     @property
     def open(self) -> bool:
-        """True if anything may still be deepest."""
+        """True while candidates are left."""
         return len(self._grouped) + len(self._single) > 0
 
     def begin(self, size: int, depths_m: SingleArray) -> None:
-        """Find the groups that come near the boxes around the bodies of each node; parameters as of
-        `judge_roughly`."""
+        """Find the groups near the bounding boxes of the nodes' bodies; parameters as in `judge_roughly`."""
         self._moved = self._parts.moves(size)
         blocks, groups = np.mgrid[: len(depths_m), : len(self._groups.middles)].reshape(2, -1)
         spots, nodes = np.mgrid[: len(blocks), : len(self._world_from_node)].reshape(2, -1)
@@ -224,14 +224,14 @@ class _Search:
         self._grouped = pairs[-least_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def judge_roughly(self, size: int, depths_m: SingleArray) -> None:
-        """Judge by the grids, block by block.
+        """Filter candidates with the distance grids, block by block.
 
         Parameters
         ----------
         size : int
-            Frames of a block.
+            Frames per block.
         depths_m : (B, size) float32
-            How deep something is at least: raised by what is found.
+            Lower bounds of the depths, raised in place.
         """
         grouped, single = (pairs.split(self._moved.size // size) for pairs in (self._grouped, self._single))
         if size != self._moved.size:
@@ -246,7 +246,7 @@ class _Search:
         self._single, self._singly = single[near], placed[near]
 
     def judge_exactly(self, depths_m: SingleArray) -> None:
-        """Judge what may still be deepest after `judge_roughly`; parameters as there."""
+        """Evaluate the remaining candidates exactly; parameters as in `judge_roughly`."""
         pairs, places_m, moves_m = self._single, self._singly.places_m, self._singly.moves_m
         if self._moved.size == 1:
             places_m, moves_m = self._exactly_m(pairs), np.zeros_like(moves_m)
@@ -255,8 +255,7 @@ class _Search:
         self._single = pairs[moves_m - distances_m > pairs.of_blocks(depths_m.min(axis=1))]
 
     def _exactly_m(self, pairs: _Pairs) -> SingleArray:
-        """Places (3, N) of vertices at single frames in the frames of their nodes, without the steadiest one's
-        detour."""
+        """Positions (3, N) of vertices at single frames in their nodes' frames, computed directly."""
         places_m = np.empty((3, len(pairs)), dtype=np.float32)
         blocks, vertices = pairs.blocks[pairs.spots], pairs.items[pairs.spots]
         for node in np.unique(pairs.nodes).tolist():
@@ -268,7 +267,7 @@ class _Search:
         return places_m
 
     def _placed(self, pairs: _Pairs, vertices: IndexArray) -> NodePoints:
-        """Vertices (S,) of what is near nodes, in these nodes' frames in the middle of the blocks."""
+        """Positions of candidate vertices (S,) in their nodes' frames at the middle of the blocks."""
         size, spots = self._moved.size, pairs.spots
         middles = pairs.blocks * size + size // 2
         places_m, moves_m = self._poses.places_m(middles, vertices), np.full(len(vertices), _ROUNDING_M)
@@ -280,8 +279,9 @@ class _Search:
     def _near(
         self, pairs: _Pairs, vertices: IndexArray, radii_m: SingleArray, depths_m: SingleArray
     ) -> tuple[BoolArray, NodePoints]:
-        """Return which pairs (N,) the grids leave, of vertices (S,) and what is within radii (S,) around them: those
-        that may be deepest in some frame of their block. What was found raises the depths (B, size)."""
+        """Return a mask of the pairs (N,) that may be deepest in some frame of their block, for vertices (S,) with
+        radii (S,) around them. Raises the depths (B, size) found.
+        """
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
         # Something this far away is known to be less deep than what has been found.
         clear_m = own_m + placed.moves_m - pairs.of_blocks(depths_m.min(axis=1))
@@ -292,7 +292,7 @@ class _Search:
 
 
 def _raise(depths_m: SingleArray, pairs: _Pairs, found_m: SingleArray) -> None:
-    """Raise the least depths (B, size) of blocks to what was found (N,) in some of them."""
+    """Raise the lower bounds (B, size) of blocks to the depths found (N,)."""
     rows = np.flatnonzero(found_m > 0.0)
     deepest_m = np.zeros(len(depths_m), dtype=np.float32)
     np.maximum.at(deepest_m, pairs.blocks[pairs.spots[rows]], found_m[rows])
@@ -301,16 +301,16 @@ def _raise(depths_m: SingleArray, pairs: _Pairs, found_m: SingleArray) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _Groups:
-    """Vertices in groups.
+    """Groups of neighbouring vertices.
 
     Attributes
     ----------
     members : (G, M) int
-        Vertices, -1 where a group has fewer.
+        Vertex indices, padded with -1.
     middles : (G,) int
-        The vertex nearest to the middle.
+        Vertex nearest to the group's centre.
     radii_m : (G,) float32
-        Around it.
+        Radius around that vertex.
     """
 
     members: IndexArray
@@ -318,7 +318,7 @@ class _Groups:
     radii_m: SingleArray
 
     def vertices(self, grouped: _Pairs) -> _Pairs:
-        """The vertices of groups, in the same blocks."""
+        """Replace groups by their vertices, in the same blocks."""
         members = self.members[grouped.items]
         row, _ = there = np.nonzero(members >= 0)
         counts = np.bincount(row, minlength=len(members))
@@ -330,8 +330,7 @@ class _Groups:
 
 @lru_cache(maxsize=16)
 def _groups(places_m: bytes, strongest: bytes) -> _Groups:
-    """Groups of vertices that lie together and go with the same joint: the strongest one. Cached by what the arrays
-    hold: players may share a body."""
+    """Group neighbouring vertices with the same strongest joint; cached by content, since players may share a body."""
     positions_m, joints = np.frombuffer(places_m).reshape(-1, 3), np.frombuffer(strongest, dtype=np.int32)
     groups = [rows for joint in np.unique(joints) for rows in _split(np.flatnonzero(joints == joint), positions_m)]
     members = np.full((len(groups), max(map(len, groups))), -1, dtype=np.intp)
@@ -345,7 +344,7 @@ def _groups(places_m: bytes, strongest: bytes) -> _Groups:
 
 
 def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
-    """Halve along the longest side until the groups are small."""
+    """Halve a group along its longest side until the parts are small."""
     if len(rows) <= GROUP:
         return [rows]
     extent = np.ptp(positions_m[rows], axis=0)
@@ -356,7 +355,7 @@ def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
 
 @lru_cache(maxsize=8)
 def _field(bodies: tuple[Proxy, ...]) -> tuple[tuple[str, ...], DistanceField]:
-    """Nodes with bodies, and the distances to these. Cached: two hands, and players of one kind, are near the same."""
+    """Nodes with bodies, and the distance field of these; cached, since hands and similar players share it."""
     by_node: dict[str, list[Proxy]] = {}
     for body in bodies:
         by_node.setdefault(body.node, []).append(body)

@@ -1,8 +1,7 @@
-"""Signed distance to the closed bodies of some nodes: roughly on a grid for each, exactly near them.
+"""Signed distances to the closed bodies of some nodes: approximate on grids, exact nearby.
 
-The grids' bricks are computed when something is first there: hands are near a small part of an instrument. How far the
-middle of a brick is from the bodies is enough for most points; its cells are computed only for what may be near, each
-when something is first in it.
+Bricks of the grids are computed on first use, since hands are near a small part of an instrument. For most points the
+distance of a brick's centre suffices; its cells are computed on first use by nearby points.
 """
 
 from __future__ import annotations
@@ -37,17 +36,17 @@ _CELL_MIDDLES_M = (
 
 
 class DistanceField:
-    """Distances to the union of the bodies of each of some nodes, in its frame.
+    """Distances to the union of the bodies of each node, in the node's frame.
 
     Parameters
     ----------
     bodies_by_node : sequence of sequence of Proxy
-        All of each node; nodes are numbered in this order.
+        Bodies of each node, in the order of node numbers.
 
     Attributes
     ----------
     reaches_m : (N,) float64
-        How far from its origin each node has anything.
+        Distance of the farthest point from each node's origin.
     """
 
     def __init__(self, bodies_by_node: Sequence[Sequence[Proxy]]) -> None:
@@ -88,24 +87,23 @@ class DistanceField:
         clear_m: SingleArray | None = None,
         depth_m: SingleArray | None = None,
     ) -> tuple[SingleArray, SingleArray]:
-        """About how far points are from the bodies of nodes.
+        """Approximate distance of points from the bodies of nodes.
 
         Parameters
         ----------
         points_m : (N, 3) float32
-            In the frames of ...
+            Points in the frames of ``nodes``.
         nodes : (N,) int
         clear_m, depth_m : (N,) float32, optional
-            Where it is enough to know whether a point is this far outside, and how far it is inside if it is deeper
-            than that, less is computed.
+            Limits that reduce the work: points farther outside than ``clear_m``, and points less deep than ``depth_m``,
+            need no better value.
 
         Returns
         -------
         about_m : (N,) float32
-            The distance.
+            Approximate distance.
         error_m : (N,) float32
-            How much it may be off: a distance changes by no more than a point moves. `FAR_M` less this is not
-            distinguished from more.
+            Largest possible error. Distances above `FAR_M` minus this are not distinguished.
         """
         corners_m = self._corners_m.astype(np.float32).T.take(nodes, axis=1)
         inside = self._inside((points_m.T - corners_m) / np.float32(CELL_M), nodes, BRICK_CELLS)
@@ -122,8 +120,9 @@ class DistanceField:
         return about_m, error_m
 
     def beyond_m(self, points_m: SingleArray, nodes: IndexArray) -> SingleArray:
-        """Return how far points (N, 3) in the frames of nodes (N,) are outside the boxes around their bodies: (N,), the
-        distance or less. Inside a box it is minus infinity."""
+        """Return the distance (N,), or less, of points (N, 3) in the frames of nodes (N,) from their bounding boxes;
+        minus infinity inside a box.
+        """
         low_m, high_m = self._low_m.astype(np.float32)[nodes], self._high_m.astype(np.float32)[nodes]
         outside_m = np.maximum(np.maximum(low_m - points_m, points_m - high_m), np.float32(0.0))
         found: SingleArray = np.sqrt(np.einsum("ni,ni->n", outside_m, outside_m))
@@ -143,15 +142,16 @@ class DistanceField:
         return result
 
     def _inside(self, scaled: AnyFloatArray, nodes: IndexArray, parts: int) -> AnyFloatArray:
-        """Fractional indices (3, N) of places within the grids, in parts of a brick. A place outside a grid is taken
-        to its edge, which is far from everything."""
+        """Fractional grid indices (3, N) in parts of a brick; places outside a grid are clipped to its edge, where
+        nothing is near.
+        """
         scaled = np.ascontiguousarray(np.maximum(scaled, 0.0))
         # Compared before they are whole numbers, which hold less.
         np.minimum(scaled, (self._shapes.T * parts - _EDGE).astype(scaled.dtype).take(nodes, axis=1), out=scaled)
         return scaled
 
     def _by_cells(self, inside: SingleArray, nodes: IndexArray) -> tuple[SingleArray, SingleArray]:
-        """`about_m` for places (3, N) in the grids, in cells, by the middles of the cells."""
+        """Distances for places (3, N) in cell units from the centres of cells; see `about_m`."""
         cells = inside.astype(np.int32)
         places = cells // BRICK_CELLS
         x, y, z = cells - places * BRICK_CELLS
@@ -166,14 +166,14 @@ class DistanceField:
         return found, _off_middle(inside, cells, 1)
 
     def _flat(self, places: npt.NDArray[np.int32], nodes: IndexArray) -> npt.NDArray[np.int32]:
-        """Indices, among those of all nodes, of bricks at places (3, N) of nodes (N,)."""
+        """Flat indices of bricks at grid places (3, N) of nodes (N,)."""
         x, y, z = places
         flat: npt.NDArray[np.int32] = (x * self._shapes[:, 1].take(nodes) + y) * self._shapes[:, 2].take(nodes) + z
         flat += self._starts.take(nodes)
         return flat
 
     def _middles(self, flat: npt.NDArray[np.int32]) -> SingleArray:
-        """Distances (N,) of the middles of bricks, computed where they have not been."""
+        """Distances (N,) of the centres of bricks, computed on first use."""
         found: SingleArray = self._middle_m.take(flat)
         missing = np.isnan(found)
         if missing.any():
@@ -185,7 +185,7 @@ class DistanceField:
         return found
 
     def _bricks(self, flat: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
-        """Numbers (N,) of bricks, computed where they have not been."""
+        """Indices (N,) of bricks with cells, computed on first use."""
         bricks: npt.NDArray[np.int32] = self._brick_at.take(flat)
         missing = bricks < 0
         if missing.any():
@@ -196,11 +196,11 @@ class DistanceField:
         return bricks
 
     def _nodes_of(self, flat: AnyIntArray) -> IndexArray:
-        """The nodes (N,) of bricks."""
+        """Node (N,) of each brick."""
         return np.searchsorted(self._starts, flat, side="right") - 1
 
     def _corners_of(self, flat: AnyIntArray) -> FloatArray:
-        """The lowest corners (N, 3) of bricks, metres."""
+        """Lowest corner (N, 3) of each brick in metres."""
         nodes = self._nodes_of(flat)
         _, y, z = self._shapes.T.take(nodes, axis=1)
         place, at_z = np.divmod(flat - self._starts[nodes], z)
@@ -208,8 +208,9 @@ class DistanceField:
         return corners_m
 
     def _from_middles_m(self, corners_m: FloatArray, nodes: IndexArray) -> tuple[FloatArray, IndexArray, IndexArray]:
-        """Distances of the middles of bricks (N,) with lowest corners (N, 3) from the bodies of their nodes (N,): the
-        distances, these bodies, and where those of each brick begin (N,)."""
+        """Distances of the centres of bricks (N,), given by lowest corners (N, 3), from the bodies of their nodes (N,):
+        the distances, the bodies, and the first index for each brick (N,).
+        """
         counts = self._owned[nodes]
         brick, firsts = np.repeat(np.arange(len(nodes)), counts), np.cumsum(counts) - counts
         body = self._own[np.arange(len(brick)) + (self._first_own[nodes] - firsts)[brick]]
@@ -237,7 +238,7 @@ class DistanceField:
         self._brick_at[flat] = count + np.arange(len(flat), dtype=np.int32)
 
     def _compute_cells(self, cells: AnyIntArray) -> None:
-        """Compute cells (N,), numbered brick by brick."""
+        """Compute the distances of cells (N,), numbered brick by brick."""
         bricks, within = np.divmod(cells, BRICK_CELLS**3)
         bodies_of = [self._nearest[brick] for brick in bricks.tolist()]
         cell = np.repeat(np.arange(len(cells)), [len(some) for some in bodies_of])
@@ -248,7 +249,7 @@ class DistanceField:
 
 
 def _off_middle(inside: SingleArray, numbers: npt.NDArray[np.int32], cells: int) -> SingleArray:
-    """Distance (N,) of places (3, N), in cells, from the middles of the cubes of cells that they lie in."""
+    """Distance (N,) in metres of places (3, N), in cell units, from the centres of their cubes of cells."""
     x, y, z = inside - numbers * np.float32(cells) - np.float32(0.5 * cells)
     off_m: SingleArray = np.sqrt(x * x + y * y + z * z) * np.float32(CELL_M)
     return off_m

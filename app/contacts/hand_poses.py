@@ -1,7 +1,7 @@
 """Positions and movement of a hand's vertices in the frames of an instrument's nodes.
 
-For `app.contacts.depths`: all in single precision, and over whole arrays of vertices and frames. Places and matrices
-are kept one coordinate after another, since arithmetic on whole rows is faster than on three or four numbers at a time.
+For `app.contacts.depths`: single precision, over whole arrays of vertices and frames. Coordinates are separate rows,
+since that is faster than triples.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ MOVES_M = 0.001
 
 @dataclass(frozen=True, eq=False)
 class SkinnedVertices:
-    """Vertices of a skin and the joints that carry them.
+    """Vertices of a skin with the joints that hold them.
 
     Attributes
     ----------
     joints : (J,) int
-        Those that carry any.
+        Joints that hold any vertex.
     carriers : (V, K) int
-        Rows of ``joints``, the strongest first.
+        Rows of ``joints``, strongest first.
     weights : (V, K) float32
     places_m : (K, 3, V) float32
-        In the frame of each carrier.
+        Positions in the frame of each joint.
     arms_m : (V, K) float32
-        From each carrier to the vertex.
+        Distance from each joint to the vertex.
     morphs : dict of str to (K, 3, V) float32
-        Displacements, in the frame of each carrier.
+        Displacements in the frame of each joint.
     """
 
     joints: IndexArray
@@ -46,7 +46,7 @@ class SkinnedVertices:
 
 
 def skinned_vertices(skin: Skin) -> SkinnedVertices:
-    """The vertices of a skin."""
+    """Extract the vertices of a skin."""
     count = int(np.count_nonzero(skin.weights, axis=1).max())
     carriers = np.argsort(-skin.weights, axis=1, kind="stable")[:, :count]
     from_mesh = skin.joint_from_mesh[carriers]
@@ -65,12 +65,12 @@ def skinned_vertices(skin: Skin) -> SkinnedVertices:
 
 
 def _by_carrier(vectors: FloatArray) -> SingleArray:
-    """Vectors (V, K, 3) as (K, 3, V) in single precision."""
+    """Convert vectors (V, K, 3) to (K, 3, V) in single precision."""
     return vectors.transpose(1, 2, 0).astype(np.float32, order="C")
 
 
 def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -> SingleArray:
-    """``node_from_joint`` (3, 4, F, J) of ``world_from_node`` (F, 4, 4) and ``world_from_joint`` (F, 3, J, 4)."""
+    """``node_from_joint`` (3, 4, F, J) from ``world_from_node`` (F, 4, 4) and ``world_from_joint`` (F, 3, J, 4)."""
     node_from_world = np.linalg.inv(world_from_node)[:, :3].astype(np.float32)
     frames, _, joints, _ = world_from_joint.shape
     turned = (node_from_world[:, :, :3] @ world_from_joint.reshape(frames, 3, 4 * joints)).reshape(frames, 3, joints, 4)
@@ -79,7 +79,7 @@ def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -
 
 
 def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> SingleArray:
-    """Transform points (3, N) by chosen ones (N,) of the matrices (3, 4, M)."""
+    """Transform points (3, N) by the matrices (3, 4, M) selected by ``at`` (N,)."""
     result = np.empty_like(points_m)
     for axis, row in enumerate(matrices):
         # In the order of a matrix product, whose rounding this has.
@@ -95,21 +95,21 @@ def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> Si
 
 
 class VertexPoses:
-    """Vertices in the frame of a node, with bounds of how far they move.
+    """Vertices in the frame of a node, with bounds on their movement.
 
     Parameters
     ----------
     hand : SkinnedVertices
     node_from_joint : (3, 4, F, J) float32
     morphs : dict of str to (F,) float32
-        Weights.
+        Morph weights.
     """
 
     def __init__(self, hand: SkinnedVertices, node_from_joint: SingleArray, morphs: Mapping[str, SingleArray]) -> None:
         self.hand, self._node_from_joint, self._morphs = hand, node_from_joint, morphs
 
     def places_m(self, frames: IndexArray, vertices: IndexArray) -> SingleArray:
-        """Return where vertices (N,) are at frames (N,): (3, N)."""
+        """Return positions (3, N) of vertices (N,) at frames (N,)."""
         hand = self.hand
         result = np.zeros((3, len(frames)), dtype=np.float32)
         matrices = self._node_from_joint.reshape(3, 4, -1)
@@ -132,7 +132,7 @@ class VertexPoses:
         return result
 
     def moves(self, size: int, blocks: IndexArray) -> Moves:
-        """Return how far joints move from the middle frames of some blocks (B,) of a size."""
+        """Return the movement of joints relative to the middle frames of some blocks (B,) of a size."""
         joints = self._node_from_joint.shape[3]
         placed = self._node_from_joint.reshape(3, 4, -1, size, joints)[:, :, blocks]
         moved = placed - placed[:, :, :, size // 2, None]
@@ -148,17 +148,17 @@ class VertexPoses:
 
 @dataclass(frozen=True, eq=False)
 class Moves:
-    """Movement of joints from the middle frame of each block.
+    """Movement of joints relative to the middle frame of each block.
 
     Attributes
     ----------
     hand : SkinnedVertices
     chords : (B, J) float32
-        What is 1 from a joint is moved by its turning by no more.
+        Bound on the movement of a point at distance 1 from a joint by its rotation.
     shifts_m : (B, J) float32
-        Of the joints themselves.
+        Movement of the joints themselves.
     greatest, changes : dict of str to (B,) float32
-        Weights of the morphs, and their changes.
+        Largest morph weights, and their changes.
     """
 
     hand: SkinnedVertices
@@ -188,7 +188,7 @@ class Moves:
 
 
 def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArray) -> int:
-    """The node (each (F, 4, 4)) in whose frame the middle of some joints (F, 3, J, 4) moves least."""
+    """Index of the node (each (F, 4, 4)) relative to which the mean of some joints (F, 3, J, 4) moves least."""
     middle_m = world_from_joint[..., 3].mean(axis=2, dtype=np.float64)
     ways_m = []
     for here in world_from_node:
@@ -198,8 +198,9 @@ def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArr
 
 
 def moving_parts_m(world_from_node: Sequence[FloatArray], base: int, point_m: SingleArray) -> SingleArray:
-    """Return how far the nodes (each (F, 4, 4)) move that do so at a point of one of them, the base: (F, M), a
-    coordinate of that point in the frame of each."""
+    """Return coordinates (F, M) of a point of the base node in the frames of those nodes (each (F, 4, 4)) that move
+    relative to it there.
+    """
     world_m = world_from_node[base][:, :3] @ np.append(point_m, 1.0)
     moving = [np.empty((0, len(world_m)), dtype=np.float32)]
     for node, here in enumerate(world_from_node):
@@ -216,11 +217,11 @@ class Parts:
     Parameters
     ----------
     world_from_node : sequence of (F, 4, 4) float64
-        By node.
+        Transforms by node.
     base : int
-        That node.
+        Index of the base node.
     reaches_m : (N,) float64
-        How far from its origin a node has anything.
+        Distance of the farthest point from each node's origin.
     """
 
     def __init__(self, world_from_node: Sequence[FloatArray], base: int, reaches_m: FloatArray) -> None:
@@ -234,7 +235,7 @@ class Parts:
         self._reaches_m = reaches_m.astype(np.float32)
 
     def moves(self, size: int) -> PartMoves:
-        """Return how far nodes move from the middle frames of blocks of a size."""
+        """Return the movement of nodes relative to the middle frames of blocks of a size."""
         nodes, frames = self._node_from_base.shape[2:]
         placed = self._node_from_base.reshape(3, 4, nodes, frames // size, size)
         middle = placed[..., size // 2]
@@ -249,20 +250,20 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class PartMoves:
-    """Movement of nodes from the middle frame of each block.
+    """Movement of nodes relative to the middle frame of each block.
 
     Attributes
     ----------
     size : int
-        Frames of a block.
+        Frames per block.
     node_from_base : (3, 4, N, B) float32
-        In the middle frames.
+        Transforms in the middle frames.
     chords : (N, B) float32
-        What is 1 from a node's origin is moved by its turning by no more.
+        Bound on the movement of a point at distance 1 from a node's origin by its rotation.
     shifts_m : (N, B) float32
-        Of the origins themselves.
+        Movement of the origins.
     reaches_m : (N,) float32
-        How far from its origin a node has anything.
+        Distance of the farthest point from a node's origin.
     """
 
     size: int
@@ -272,14 +273,14 @@ class PartMoves:
     reaches_m: SingleArray
 
     def placed(self, blocks: IndexArray, nodes: IndexArray, base_m: SingleArray, moves_m: SingleArray) -> NodePoints:
-        """Place points in the frames of nodes (N,) in the middle of blocks (N,).
+        """Transform points to the frames of nodes (N,) in the middle of blocks (N,).
 
         Parameters
         ----------
         base_m : (3, N) float32
-            Points in the frame of the base.
+            Points in the frame of the base node.
         moves_m : (N,) float32
-            How far they move there within their block.
+            Movement of the points there within their block.
         """
         at = nodes * self.chords.shape[1] + blocks
         places_m = _through(self.node_from_base.reshape(3, 4, -1), at, base_m)
@@ -291,15 +292,15 @@ class PartMoves:
 
 @dataclass(frozen=True, eq=False)
 class NodePoints:
-    """Points in the frames of nodes in the middle of blocks, with bounds of how their distances change within a block.
+    """Points in the frames of nodes in the middle of blocks, with bounds on their change of distance within a block.
 
     Attributes
     ----------
     places_m : (3, N) float32
     shifts_m, turns_m : (N,) float32
-        How much the distance from the node's bodies changes at most: by shifts, and by the node's turning.
+        Largest change of the distance from the node's bodies: by shifts, and by the node's rotation.
     beyond_m : (N,) float32
-        How far the point is beyond the node's reach, however that turns.
+        Distance of the point beyond the node's reach, regardless of its rotation.
     """
 
     places_m: SingleArray
@@ -312,17 +313,17 @@ class NodePoints:
 
     @property
     def moves_m(self) -> SingleArray:
-        """Return how much the distance changes within the block at most."""
+        """Return the largest change of the distance within the block."""
         return self.shifts_m + self.turns_m
 
     def least_m(self, middle_m: SingleArray) -> SingleArray:
-        """Distances (N,) in the whole block, or less, of distances in its middle, or less."""
+        """Lower bounds (N,) of distances over the whole block, from lower bounds in its middle."""
         least_m: SingleArray = np.maximum(middle_m - self.turns_m, self.beyond_m) - self.shifts_m
         return least_m
 
 
 def _chords(changes: SingleArray) -> SingleArray:
-    """Bound of the movement of a point 1 from the origin by these changes (3, 3 or more, ...) of a rotation."""
+    """Bound on the movement of a point at distance 1 from the origin by changes (3, 3 or more, ...) of a rotation."""
     # A turn by an angle moves it by the chord, 2 sin(angle / 2), at most.
     square = np.zeros(changes.shape[2:], dtype=np.float32)
     for row in changes:

@@ -1,4 +1,4 @@
-"""Contacts that a player's motion breaks: lips, hands, single fingers and feet, judged as an export is."""
+"""Finds contacts broken by a player's motion (lips, hands, single fingers, feet), with the measures of an export."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from app.rig.skinning import landmark_joints, landmark_positions
 
 
 class ContactJudge:
-    """Judges the motion that is made from one player's curves.
+    """Checks motion computed from one player's curves.
 
     Parameters
     ----------
@@ -50,8 +50,9 @@ class ContactJudge:
         self._joints = sorted({*landmark_joints(self._character, self._marks), *self._wrists.values()})
 
     def breaks(self, motion: Motion) -> tuple[Break, ...]:
-        """The contacts that some frames do not keep, in no order. The same frames of the performance are looked at,
-        whatever part of it a motion is."""
+        """The contacts broken in some frames, unordered. The frames checked are fixed in the performance, independent
+        of the span.
+        """
         rate = float(motion.fps)
         step = max(1, round(rate / JUDGED_PER_S))
         before = round((motion.first_frame_s - self._curves.plan.time_frame.first_frame_s) * rate)

@@ -1,4 +1,4 @@
-"""Contacts that a grip itself misses, however its player moves."""
+"""Contacts missed by a grip itself, in any pose."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from app.rig.grip.grip_pose import ContactFit, GripPose
 
 
 def missed_contacts(grip: GripPose) -> tuple[ContactFit, ...]:
-    """The touches that a hold does not meet, the worst first. Those that only guide or rest are not among them."""
+    """Touches that a grip misses, worst first; guides and supports are not included."""
     touches = [one for hand in grip.hands for one in hand.contacts if one.firm]
     off = [one for one in touches if one.distance_m > (GRIP_M if one.control is None else TOUCH_M)]
     return tuple(sorted(off, key=lambda one: -one.distance_m))
 
 
 def missed_mm(grip: GripPose) -> dict[str, float]:
-    """By how much, by the names of the measures: touches, and skin inside the instrument."""
+    """Distance in millimetres of missed touches and of skin inside the instrument, by name in reports."""
     found = {contact_name(one): round(1000.0 * one.distance_m, 2) for one in missed_contacts(grip)}
     deepest_m = max((hand.penetration_m for hand in grip.hands), default=0.0)
     return found | ({"penetration": round(1000.0 * deepest_m, 2)} if deepest_m > INSIDE_M else {})
 
 
 def missed_message(grip: GripPose) -> Message | None:
-    """Warning about the touches that are not met; None if all are."""
+    """Warning about missed touches; None if all are met."""
     off = missed_contacts(grip)
     if not off:
         return None

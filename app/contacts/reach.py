@@ -1,6 +1,6 @@
-"""Reach of a player's hands: whether they get to everything that the fingerings require.
+"""Checks whether a player's hands reach everything that the fingerings require.
 
-What the hand carries stops where the hand does (`app.motion.contacts.controls_within_reach`).
+A control moved by a hand stops where the arm ends (`app.motion.contacts.controls_within_reach`).
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ class Reached:
     Attributes
     ----------
     asked : tuple
-        All that the gaps depend on: player and instrument, and for every place its controls and fingers.
+        All inputs of the result: player, instrument, and controls and fingers of every place.
     gaps_m : tuple of float
-        Of the places, in the same order.
+        Missing distance for each place, in the same order.
     problems : tuple of Problem
-        A problem for every note whose fingering asks a hand to go where the player's arm ends before.
+        A problem for every note whose fingering is out of a hand's reach.
     """
 
     asked: tuple[object, ...]
@@ -69,7 +69,7 @@ def notes_out_of_reach(problems: Iterable[Problem]) -> frozenset[str | None]:
 
 
 def carried_controls(instrument: InstrumentMap) -> frozenset[str]:
-    """The controls that a whole hand moves, such as a slide: only of them it is looked at what a player reaches."""
+    """Controls that a whole hand moves along, such as a slide; reach is checked only for these."""
     return frozenset(control.name for control in instrument.controls if control.finger.endswith(".hand"))
 
 
@@ -80,21 +80,21 @@ def hand_reach(
     fingerings: tuple[FingeringEvent, ...],
     holding: Callable[[], Holding],
 ) -> Reached:
-    """Return how far the hands come, and what they do not reach.
+    """Return the reach of the hands, and the notes out of reach.
 
-    Looked at are only controls that a whole hand moves, in every place that the plan uses, as the player would hold
-    them standing or sitting still. Where the places are those of ``before``, an edit ago, no one is posed again.
+    Checks all places used in the plan for the player standing or sitting still. If the places equal those of
+    ``before``, nothing is posed again.
 
     Parameters
     ----------
     before : Reached or None
     player : object
-        What ``holding`` depends on.
+        Inputs of ``holding``, for comparison.
     instrument : InstrumentMap
-        As the player's body plays it.
+        Instrument fitted to the player's body.
     fingerings : tuple of FingeringEvent
     holding : callable
-        Called only where a body has to be posed.
+        Returns the posed body; called only if needed.
     """
     carried = carried_controls(instrument)
     if not carried:
@@ -133,7 +133,7 @@ def _place(event: FingeringEvent, carried: frozenset[str]) -> Place:
 
 
 def _gaps_m(holding: Holding, instrument: InstrumentMap, examples: list[FingeringEvent]) -> list[float]:
-    """Return how far a hand stays from where each fingering has its grip, metres."""
+    """Return the distance in metres by which a hand misses its grip for each fingering."""
     held = tuple(
         msgspec.structs.replace(
             event,

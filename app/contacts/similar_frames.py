@@ -1,4 +1,4 @@
-"""Frames in an order in which those that are near each other are alike."""
+"""Sorts frames so that neighbours are similar."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from app.arrays import IndexArray, SingleArray
 
 
 def order_by_similarity(places_m: SingleArray, block: int, least: int) -> IndexArray:
-    """Order frames so that some points are near the same places throughout a block.
+    """Sort frames so that some points are at similar places throughout a block.
 
-    The frames are halved again and again by the coordinate that differs most among them.
+    Frames are repeatedly halved by the coordinate that differs most among them.
 
     Parameters
     ----------
     places_m : (F, N) float32
         Coordinates of the points.
     block : int
-        Frames of a block, a power of two; F is a multiple of it.
+        Frames per block, a power of two; F is a multiple of it.
     least : int
-        So few frames are left as they are.
+        Number of frames below which the order is kept.
 
     Returns
     -------
     (F,) int
-        Frames in their new order. Within a block those of each half, quarter and so on are alike, too.
+        Frames in their new order. Halves, quarters and so on of a block are similar too.
     """
     order = np.arange(len(places_m))
     ranges = [(0, len(order) // block)]

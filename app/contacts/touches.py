@@ -1,6 +1,6 @@
-"""Touches, grips, lips and feet: how far each is off at every frame, and at which frames it counts.
+"""Errors of touches, grips, lips and feet at every frame, and the frames at which each is required.
 
-All of it on `Traces`: places at some frames, wherever they come from, a motion or a file that was read back.
+Based on `Traces`: positions at some frames, from a motion or from a file.
 """
 
 from __future__ import annotations
@@ -26,42 +26,43 @@ LIPS, UPPER_LIP = "lips.contact", "lips.upper"
 
 @dataclass(frozen=True, eq=False)
 class Traces:
-    """Positions of everything that touches or is touched.
+    """Positions of all touching and touched points.
 
     Attributes
     ----------
     marks_m : dict of str to (F, 3)
-        The body's landmarks in the world.
+        World positions of the body's landmarks.
     nodes : dict of str to (F, 3 or 4, 4)
-        ``world_from_node`` of the instrument's; their last rows are not asked for.
+        ``world_from_node`` of the instrument's nodes; their last rows are not used.
     """
 
     marks_m: Mapping[str, FloatArray]
     nodes: Mapping[str, FloatArray]
 
     def point_m(self, node: str, place_m: FloatArray) -> FloatArray:
-        """A place (3,) or (F, 3) of a node in the world (F, 3)."""
+        """World position (F, 3) of a point (3,) or (F, 3) of a node."""
         rows, (x, y, z) = self.nodes[node][:, :3], place_m[..., None].swapaxes(0, -2)
         moved_m: FloatArray = rows[..., 0] * x + rows[..., 1] * y + rows[..., 2] * z + rows[..., 3]
         return moved_m
 
     def off_m(self, mark: str, point_m: FloatArray) -> FloatArray:
-        """Return how far (F,) a landmark is from a point (F, 3)."""
+        """Return the distance (F,) of a landmark from a point (F, 3)."""
         return distance_m(self.marks_m[mark], point_m)
 
     def from_rim_m(self, instrument: InstrumentMap, mark: str) -> FloatArray:
-        """Vector from the middle of the rim to a landmark, in the instrument's frame (F, 3)."""
+        """Vector (F, 3) from the centre of the rim to a landmark, in the instrument's frame."""
         rim_m = self.point_m(ROOT, np.asarray(instrument.mouthpiece.position_m))
         offset_m: FloatArray = np.einsum("fji,fj->fi", self.nodes[ROOT][:, :3, :3], self.marks_m[mark] - rim_m)
         return offset_m
 
     def lips_m(self, instrument: InstrumentMap) -> FloatArray | None:
-        """Return how far (F,) the lips are from the rim; a head without a mouth has none to judge."""
+        """Return the distance (F,) of the lips from the rim; None for a head without a mouth."""
         return np.linalg.norm(self.from_rim_m(instrument, LIPS), axis=1) if LIPS in self.marks_m else None
 
     def upper_lip_m(self, instrument: InstrumentMap, playing: BoolArray) -> FloatArray | None:
-        """Return how far (F,) the rim has left its place on the upper lip, where it lies in the frames ``playing``
-        (F,); None without a mouth or such a frame."""
+        """Return the displacement (F,) of the rim from its median place on the upper lip in the frames ``playing``
+        (F,); None without a mouth or such frames.
+        """
         if not playing.any() or UPPER_LIP not in self.marks_m:
             return None
         offset_m = self.from_rim_m(instrument, UPPER_LIP)
@@ -69,7 +70,7 @@ class Traces:
 
 
 def distance_m(places_m: FloatArray, others_m: FloatArray) -> FloatArray:
-    """Distances (F,) between places (F, 3); of feet to where they stand, too."""
+    """Distances (F,) between positions (F, 3)."""
     result: FloatArray = np.linalg.norm(places_m - others_m, axis=1)
     return result
 
@@ -82,16 +83,17 @@ def hand_gaps_m(
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, StationBlend] | None = None,
 ) -> FloatArray:
-    """Return how far (F,) a hand is from its place on the instrument; parameters as of
-    `app.rig.grip.grip_pose.hand_targets`."""
+    """Return the distance (F,) of a hand from its place on the instrument; parameters as in
+    `app.rig.grip.grip_pose.hand_targets`.
+    """
     requested_m, _ = hand_targets(hand, world_from_instrument_m, world_from_instrument_rotation, controls, placed)
     return distance_m(wrist_m, requested_m)
 
 
 def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArray]:
-    """Value of every hole without a moving part (F,), from the fingers that may close it.
+    """Value (F,) of every hole without a moving part, from the positions of fingers.
 
-    1 or its half where a finger lies there, 0 where none is near, NaN where one is too near to let it sound open.
+    1 or 0.5 where a finger covers it, 0 where none is near, NaN where a finger is too near for an open hole.
     """
     result = {}
     for control in instrument.controls:
@@ -115,8 +117,9 @@ def hole_values(instrument: InstrumentMap, traces: Traces) -> dict[str, FloatArr
 def _gap_m(
     contact: Contact, instrument: InstrumentMap, traces: Traces, targets: FloatArray | None = None
 ) -> FloatArray:
-    """Return how far (F,) a part of a hand is from its touch point; aside on a hole that is to be half closed, where
-    ``targets`` (F,) or (1,) say how far it is to be."""
+    """Return the distance (F,) of a part of a hand from its touch point; measured sideways for a hole to be half
+    closed, as given in ``targets`` (F,) or (1,).
+    """
     point_m = np.asarray(contact.position_m)
     if targets is not None and contact.control is not None:
         aside = aside_m(contact, instrument, targets)
@@ -125,17 +128,17 @@ def _gap_m(
 
 
 class TouchJudge:
-    """The contacts of an instrument's map at some frames.
+    """Checks the contacts of an instrument map at some frames.
 
     Parameters
     ----------
     instrument : InstrumentMap
     traces : Traces
     values : dict of str to (F,)
-        Of the controls: those that were measured, or those that were made.
+        Values of the controls, measured or generated.
     notes : NoteFrames
     closing : (F,) bool
-        Where a hand closes the bell or is on its way: what goes with its palm is not where it is held.
+        Frames in which a hand closes the bell or moves to it, where contacts of its palm do not apply.
     """
 
     def __init__(
@@ -152,12 +155,12 @@ class TouchJudge:
 
     @cached_property
     def _stations(self) -> Mapping[str, IndexArray]:
-        """Return which of its stations each finger works in each note."""
+        """Return the station of each finger in each note."""
         fingered = ((note.controls, note.fingers) for note in self._notes.notes)
         return stations_of_notes(self._instrument, fingered)
 
     def gap_m(self, index: int) -> FloatArray:
-        """Return how far (F,) a contact of the map is off."""
+        """Return the error (F,) of a contact of the map."""
         contact, targets = self._instrument.contacts[index], None
         if contact.control is not None:
             control = self._instrument.control(contact.control)
@@ -166,8 +169,9 @@ class TouchJudge:
         return _gap_m(contact, self._instrument, self._traces, targets)
 
     def asked(self, index: int) -> BoolArray:
-        """Frames (F,) at which a contact of the map counts: what is worked is where its note asks for it, and the
-        finger may not have left yet."""
+        """Frames (F,) at which a contact is required: its control is in the note's position and the finger may not have
+        left yet.
+        """
         instrument, notes = self._instrument, self._notes
         contact, frames, place = instrument.contacts[index], notes.sounding, self._only_at[index]
         if contact.control is not None and contact.when != "always":
@@ -189,8 +193,7 @@ class TouchJudge:
         return frames
 
     def hovering_m(self) -> dict[str, FloatArray]:
-        """Return how far fingers that work nothing are, while they do, from the nearest of the places where they work,
-        or from the way between two of them."""
+        """Return the distance of idle fingers from their nearest station, or from the line between two stations."""
         found = {}
         contacts, traces = self._instrument.contacts, self._traces
         for finger, places in stations(self._instrument).items():
@@ -216,7 +219,7 @@ class TouchJudge:
 def world_from_nodes(
     position_m: FloatArray, rotation: FloatArray, nodes: Mapping[str, tuple[FloatArray, FloatArray]]
 ) -> dict[str, FloatArray]:
-    """World transforms (F, 4, 4) of an instrument's nodes, and of its root.
+    """World transforms (F, 4, 4) of an instrument's nodes and root.
 
     Parameters
     ----------
@@ -237,7 +240,7 @@ def world_from_nodes(
 
 
 def _to_way_m(place_m: FloatArray, a_m: FloatArray, b_m: FloatArray) -> FloatArray:
-    """Distance (F,) of a place (F, 3) from the line between two others."""
+    """Distance (F,) of a position (F, 3) from the segment between two others."""
     way, off = b_m - a_m, place_m - a_m
     length2 = np.maximum(np.einsum("fi,fi->f", way, way), 1e-12)
     share = np.clip(np.einsum("fi,fi->f", off, way) / length2, 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""Performers as they are seen live: the chunks of their motion, and the contacts that these break."""
+"""Performers in live playback: chunks of their motion, and the contacts that these break."""
 
 from __future__ import annotations
 
@@ -23,40 +23,40 @@ from app.project.performers import Dancer, Player
 
 @dataclass(eq=False)
 class LiveTrack:
-    """Prepared motion of one performer.
+    """Live motion of one performer.
 
     Attributes
     ----------
     plan : PlayerPlan
-        Of a dancer one without events.
+        Plan of the player; for a dancer one without events.
     known : tuple of Problem
-        What is wrong with the performance before its motion is made.
+        Problems of the performance known before its motion.
     playing : PerformanceCurves, Dancing or None
-        None until it is first needed, and for who cannot play.
+        Curves in use; None until first needed, and if the performer cannot be shown.
     chunks : dict of int to Chunk
-        Made from ``playing``, or from ``prepared`` before the others are proven.
+        Chunks computed from ``playing``, or from ``prepared`` until earlier ones are checked.
     basis : PerformanceCurves, Dancing or None
-        What ``unproven`` was made from: chunks of the performance before, some of which are still right.
+        Source of ``unproven``: the curves before an edit, whose chunks may still be valid.
     unproven, outdated : dict of int to Chunk
-        Shown as long as there is nothing better.
+        Chunks shown until better ones exist.
     error : Message or None
-        Why the player cannot be seen.
+        Reason why the performer cannot be shown.
     prepared : PerformanceCurves, Dancing or None
-        What ``playing`` will be, once the chunks are proven.
+        Curves that replace ``playing`` once earlier chunks are checked.
     performer : Performer or None
-        Whom ``prepared`` and ``playing`` are of.
+        Performer of ``prepared`` and ``playing``.
     judge : ContactJudge or None
-        Of ``playing``'s contacts; None until chunks are judged.
+        Judge of ``playing``'s contacts; None until contacts are checked.
     judged : set of int
-        Chunks whose contacts were judged as ``playing`` (before it is proven: ``basis``) makes them.
+        Chunks whose contacts were checked for ``playing`` (or ``basis`` while unproven).
     breaks : dict of int to tuple of Break
-        The contacts that chunks break; of those that are not judged (again) yet, as they were.
+        Broken contacts by chunk; old ones until checked again.
     problems : tuple of Problem
-        The same, reported.
+        Problems made from the broken contacts.
     making : Lock
-        Held while something of this track is made that stays.
+        Held while shared data of the track is computed.
     excerpt : PerformanceExcerpt or None
-        What it is made from while the performance is being planned.
+        Excerpt in use while the whole performance is being planned.
     """
 
     player: Player | Dancer
@@ -83,16 +83,16 @@ class LiveTrack:
         return sum(chunk.bytes for chunks in kinds for chunk in tuple(chunks.values()))
 
     def shown(self, index: int) -> Chunk | None:
-        """Best chunk to show for a chunk's time."""
+        """Best available chunk for a chunk index; None if there is none."""
         return self.chunks.get(index) or self.unproven.get(index) or self.outdated.get(index)
 
     def fail(self, error: Message) -> None:
-        """Note why the player cannot be seen, as a problem of the whole performance."""
+        """Record why the performer cannot be shown, as a problem of the whole performance."""
         self.error, frame = error, self.plan.time_frame
         self.problems = (Problem(error, None, frame.first_frame_s, frame.end_s),)
 
     def prepare(self, performance: Performance) -> PerformanceCurves | Dancing | None:
-        """Make a performance ready to be seen, once; None where that is not possible, which ``error`` says."""
+        """Prepare the performer's curves once; None if that is impossible, with the reason in ``error``."""
         if self.playing is not None or self.error is not None or self.prepared is not None:
             return self.playing or self.prepared
         if isinstance(self.player, Dancer):
@@ -115,7 +115,7 @@ class LiveTrack:
         return self.prepared
 
     def judge_contacts(self, index: int, motion: Motion) -> bool:
-        """Judge the contacts of a chunk; whether it breaks any, or broke some."""
+        """Check the contacts of a chunk; returns whether it breaks any, or did before."""
         assert isinstance(self.playing, PerformanceCurves)
         assert self.performer is not None
         if self.judge is None:
@@ -128,11 +128,11 @@ class LiveTrack:
         return True
 
     def has_picture(self, index: int) -> bool:
-        """Return whether there is a motion of a chunk to show."""
+        """Return whether there is a motion to show for a chunk."""
         return index in self.chunks or index in self.unproven or index in self.outdated
 
     def reaches(self, grid: FrameGrid, index: int) -> bool:
-        """Return whether a chunk may be shown: of a motion made from an excerpt, only its middle may."""
+        """Return whether a chunk may be shown: of an excerpt's motion only the middle."""
         if self.excerpt is None:
             return True
         (first, frames), (start_s, end_s) = grid.span(index), self.excerpt.shown_s
@@ -140,7 +140,7 @@ class LiveTrack:
         return start_s <= from_s and to_s <= end_s
 
     def found_problems(self) -> tuple[Problem, ...]:
-        """Return the contacts that a player breaks, or corrections that a dance does not hold."""
+        """Return the problems of broken contacts, or of corrections that a dance does not meet."""
         if self.playing is not None and not isinstance(self.playing, PerformanceCurves):
             return self.playing.problems
         breaks = [item for index in sorted(self.breaks) for item in self.breaks[index]]
@@ -149,7 +149,7 @@ class LiveTrack:
     def after(
         self, player: Player | Dancer, plan: PlayerPlan, known: tuple[Problem, ...], same_chunks: int
     ) -> LiveTrack:
-        """The track of the same performer after an edit; chunks from ``same_chunks`` on have other frames now."""
+        """The track of the same performer after an edit; chunks from ``same_chunks`` on have changed frames."""
         proven = self.playing is not None
         # What is newest is shown: of a performance that is not compared yet, too.
         left = {index: chunk for index, chunk in self.unproven.items() if index not in self.chunks}
@@ -174,13 +174,13 @@ class ShownTracks:
 
     @property
     def is_whole(self) -> bool:
-        """True if all performers are shown as they are planned; False while some are being planned yet."""
+        """True if all performers are shown by their full plans; False while some are still being planned."""
         everyone = len(self.tracks) == len(self.performance.project.performers)
         return everyone and all(track.excerpt is None for track in self.tracks.values())
 
 
 def motion_changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCurves | Dancing) -> FloatArray:
-    """Spans (K, 2) in which the motion of one is not that of the other."""
+    """Spans (K, 2) in seconds in which two motions differ."""
     if isinstance(playing, PerformanceCurves) and isinstance(basis, PerformanceCurves):
         return playing.changed_s(basis)
     assert not isinstance(playing, PerformanceCurves)
@@ -188,20 +188,20 @@ def motion_changed_s(playing: PerformanceCurves | Dancing, basis: PerformanceCur
 
 
 def soon_made(shown: ShownTracks, track: LiveTrack) -> bool:
-    """Return whether a player's motion is made from what there is."""
+    """Return whether a player's motion can be computed without first generating a dance."""
     if track.playing is not None or not isinstance(track.player, Player) or not track.player.parameters.choreography:
         return True
     return layer_is_made(shown.performance, track.player)
 
 
 def played_before(shown: ShownTracks, player: Player) -> set[str]:
-    """Ids of all that the musician played who played this before."""
+    """Ids of all players of the musician that a player belonged to in the shown performance."""
     project = shown.performance.project
     return {one.id for one in project.played_by(project.player(player.id))}
 
 
 def looks_same(player: Player, before: Player | Dancer) -> bool:
-    """Return whether nothing of a player changed that is seen in the motion, beside the plan."""
+    """Return whether a player's visible properties, apart from the plan, are unchanged."""
     if player is before:
         return True
     if not isinstance(before, Player):

@@ -1,4 +1,4 @@
-"""Loudness of each note of a part, and its breath where a controller recorded it."""
+"""Loudness of each note of a part, and its breath if a controller recorded it."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ _STEPS: Final[IdentityCache[ControllerSteps]] = IdentityCache(64)
 
 
 def velocities_of(part: Part) -> Velocities:
-    """The velocities of a part; equal after every edit that changes neither them nor an onset."""
+    """Velocities of a part; equal after edits that change neither velocities nor onsets."""
     onsets = tuple(note.onset_tick for note in part.notes)
     return Velocities(tuple(note.velocity for note in part.notes), part.program, onsets, part.track)
 
 
 def unaccented(part: Part) -> Velocities:
-    """The velocities without what accents of the score add to them: an accent is no dynamic."""
+    """Velocities without the increase by the score's accents, which are no dynamics."""
     found = velocities_of(part)
     stressed = {mark.note_id: share for mark in part.marks if (share := ACCENT_SHARES.get(mark.kind)) is not None}
     if part.source != "score" or not stressed:
@@ -52,16 +52,15 @@ def unaccented(part: Part) -> Velocities:
 
 
 def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
-    """Mean loudness 0..1 of every note, by the first controller that moves while notes sound, expression and volume
-    relative to its velocity; by the velocity alone where there is none, or where it was not blown at all (drawn beside
-    the recorded bars).
+    """Mean loudness 0..1 of every note, from the first controller that changes while notes sound; expression and volume
+    scale the velocity. Without such a controller, and for notes that were not blown, the velocity alone counts.
 
-    A controller that is set once is a mixer's level and says nothing about playing.
+    A controller that is set only once is a mixer level and is ignored.
 
     Parameters
     ----------
     reading : VelocityReading, optional
-        Of the whole piece (`read_velocities`); by default that of the part alone.
+        Interpretation of the velocities of the whole piece (`read_velocities`); by default of the part alone.
     """
     curve = speaking_curve(part)
     found = _by_velocity(part, reading) if curve is None else _loudness(part, curve, reading)
@@ -69,20 +68,21 @@ def note_loudness(part: Part, reading: VelocityReading | None = None) -> tuple[f
 
 
 def note_levels(part: Part, reading: VelocityReading | None = None) -> tuple[float, ...]:
-    """Loudness of the dynamic mark in force at every note, where a notation program wrote it as velocities; empty where
-    it is unknown."""
+    """Loudness of the dynamic in force at every note, if a notation program wrote dynamics as velocities; otherwise
+    empty.
+    """
     return () if speaking_curve(part) is not None else tuple(levels_in_force(unaccented(part), reading).tolist())
 
 
 def note_marks(
     part: Part, reading: VelocityReading | None = None, written: WrittenDynamics = NONE_WRITTEN
 ) -> tuple[str, ...]:
-    """The dynamic mark in force at every note: an accent is none.
+    """Dynamic in force at every note; accents are no dynamics.
 
     Parameters
     ----------
     written : WrittenDynamics, optional
-        Dynamics in the score, which win.
+        Dynamics in the score, which have priority.
     """
     found = _heard_marks(part, reading)
     rows = written.rows_at(np.array([note.onset_tick for note in part.notes], np.float64))
@@ -101,7 +101,7 @@ def _heard_marks(part: Part, reading: VelocityReading | None) -> list[str]:
 
 
 def controller_input(part: Part) -> ControllerInput | None:
-    """The recorded curves of breath and lips of a part; None if none of them moves."""
+    """Recorded curves of breath and lips of a part; None if none of them changes."""
     breath = speaking_curve(part)
     span = _span(part)
     moving = {
@@ -117,7 +117,7 @@ def controller_input(part: Part) -> ControllerInput | None:
 
 
 def speaking_curve(part: Part) -> ControllerCurve | None:
-    """The controller that carries a part's dynamics; None if none does."""
+    """Controller with a part's dynamics; None if there is none."""
     span = _span(part)
     if span is None:
         return None
@@ -129,7 +129,7 @@ def speaking_curve(part: Part) -> ControllerCurve | None:
 
 
 def sounding_curve(part: Part) -> ControllerCurve | None:
-    """The loudness curve as it sounds: a note that was not blown at all has the loudness of its velocity."""
+    """Loudness curve as heard: notes that were not blown have the loudness of their velocity."""
     curve = speaking_curve(part)
     if curve is None:
         return None
@@ -181,23 +181,23 @@ def _arrays(curve: ControllerCurve) -> ControllerSteps:
 
 
 def _span(part: Part) -> tuple[float, float] | None:
-    """Span from the first onset to the last note's end, ticks; None without notes."""
+    """Ticks from the first onset to the last note's end; None without notes."""
     return (float(part.notes[0].onset_tick), float(part.notes[-1].end_tick)) if part.notes else None
 
 
 def _spans(part: Part) -> tuple[FloatArray, FloatArray]:
-    """Onsets and ends of the notes, ticks."""
+    """Onset and end ticks of the notes."""
     onsets = np.array([note.onset_tick for note in part.notes], np.float64)
     return onsets, np.array([note.end_tick for note in part.notes], np.float64)
 
 
 def _moves(steps: ControllerSteps, first: float, last: float) -> bool:
-    """Return whether a controller has more than one value between two ticks."""
+    """Return whether a controller changes between two ticks."""
     start = max(int(np.searchsorted(steps.ticks, first, side="right")) - 1, 0)
     values = steps.values[start : int(np.searchsorted(steps.ticks, last))]
     return len(values) > 0 and bool(np.ptp(values) > 0.0)
 
 
 def _means(part: Part, steps: ControllerSteps) -> FloatArray:
-    """Mean over each note."""
+    """Mean value over each note."""
     return step_means(steps.ticks, steps.values, *_spans(part))

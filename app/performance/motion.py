@@ -1,4 +1,4 @@
-"""One player's motion at a frame rate, made piece by piece so that it can be watched and stopped."""
+"""Computes one player's motion at a frame rate in pieces, with progress and cancellation."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ _DOUBLED: IdentityCache[tuple[Doubling, ...]] = IdentityCache(8)
 def performance_curves(
     performance: Performance, performer: Performer, before: PerformanceCurves | None = None, *, danced: bool = True
 ) -> PerformanceCurves:
-    """A player's plan made ready to be seen; made once for each plan, and from what is still right of ``before``.
+    """Curves of a player's plan; cached for each plan, and unchanged parts of ``before`` are reused.
 
-    ``danced`` says whether the player's choreography is requested, which may take seconds to generate.
+    ``danced``: include the player's choreography, which may take seconds to generate.
     """
     played = performance.project.played_by(performer.player)
     if len(played) == 1:
@@ -65,7 +65,7 @@ def _doubled(*alone: PerformanceCurves) -> tuple[Doubling, ...]:
 def _alone(
     performance: Performance, performer: Performer, before: PerformanceCurves | None, danced: bool
 ) -> PerformanceCurves:
-    """A player's plan made ready to be seen, as if the musician played nothing else."""
+    """Curves of a player's plan as if the musician had no other instrument."""
     player, plan = performer.player, performance.plan(performer.player)
     dance = layer_of(performance, player) if danced and player.parameters.choreography else None
     parameters = performance.parameters(player)
@@ -98,13 +98,12 @@ def player_motion(
     progress: Progress = lambda share: None,
     cores: int = 1,
 ) -> Motion:
-    """Make one player's motion over some frames. The same frames are the same bits in every span.
+    """Compute one player's motion over some frames; frames are bit-identical in every span.
 
     Parameters
     ----------
     cores : int
-        Those that have nothing else to do, this process's among them: copies of it make their share, where that is
-        worth it.
+        Number of idle cores, including this process's: forked copies compute a share where worthwhile.
     """
     curves = performance_curves(performance, performer)
     first, *others = shares(span.count, cores)
@@ -123,8 +122,9 @@ def player_motion(
 
 
 def generated_channel(performance: Performance, player_id: str, channel: str) -> tuple[FloatArray, FloatArray]:
-    """Times and values of a channel, in its unit, without the animator's curves. Raises AppError where the player
-    cannot be seen."""
+    """Times and values of a channel, in its unit, without additive curves. Raises AppError if the player cannot be
+    shown.
+    """
     performer = performer_of(performance, performance.project.player(player_id))
     curves = performance_curves(performance, performer, danced=False)
     frame = curves.plan.time_frame
@@ -134,7 +134,7 @@ def generated_channel(performance: Performance, player_id: str, channel: str) ->
 
 
 def generated_anew(before: PlayerPlan, after: PlayerPlan) -> bool:
-    """Return whether a channel may be another than it was."""
+    """Return whether a channel's generated values may have changed."""
     if before is after:
         return False
     same = before.player_id == after.player_id and before.time_frame == after.time_frame

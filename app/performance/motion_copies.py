@@ -1,4 +1,4 @@
-"""Parts of a motion made by copies of this process while it makes the first one."""
+"""Computes parts of a motion in forked copies of the process."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _MOST: Final = 8
 
 
 def shares(count: int, cores: int) -> list[range]:
-    """Frames in equal parts, one for each core that can work on them."""
+    """Divide frames into equal parts, one for each usable core."""
     parts = max(1, min(cores, count // _WORTH_FRAMES, _MOST)) if cores > 1 and can_fork() else 1
     ends = [count * number // parts for number in range(parts + 1)]
     return [range(first, last) for first, last in pairwise(ends)]
@@ -31,12 +31,12 @@ def shares(count: int, cores: int) -> list[range]:
 
 @contextmanager
 def made_by_copies(make: Callable[[range], Motion], parts: Sequence[range]) -> Iterator[Callable[[], list[Motion]]]:
-    """Have copies of this process make parts of a motion during the block.
+    """Start copies of this process that compute parts of a motion, for the duration of the block.
 
     Yields
     ------
     callable
-        Waits for them. What a copy does not finish is made here.
+        Function that waits for the results; unfinished parts are computed here.
     """
     children: list[ForkedChild[_Sent]] = []
 
@@ -70,7 +70,7 @@ _Array = tuple[str, list[int], bytes]
 
 
 class _Sent(msgspec.Struct, frozen=True):
-    """A `Motion` in the form in which a copy of the process sends it."""
+    """A `Motion` in the form sent by a copy of the process."""
 
     fps: tuple[int, int]
     first_frame_s: float

@@ -1,4 +1,4 @@
-"""All that is wrong with a player's performance, its generated motion included: the same in every report."""
+"""All problems of a player's performance including its motion, equal in every report."""
 
 from __future__ import annotations
 
@@ -39,26 +39,26 @@ LEAST_PER_S: Final = 2.0
 
 
 class _Looked(NamedTuple):
-    """Frames that are judged: every n-th at a rate."""
+    """Frames to check: every n-th at a rate."""
 
     fps: Fraction
     every: int
 
 
 class Judged(NamedTuple):
-    """Problems of players by their ids, and what to say where their motion was not looked at as densely as usual."""
+    """Problems by player id, and a message if fewer frames or players than usual were checked."""
 
     problems: dict[str, tuple[Problem, ...]]
     notice: Message | None
 
 
 def all_problems(performance: Performance, players: Iterable[Player], without_limit: bool = False) -> Judged:
-    """`judged_problems` of players; of those who cannot be seen, what is known without a motion.
+    """Run `judged_problems` for players; for those that cannot be shown, only problems known without motion.
 
     Parameters
     ----------
     without_limit : bool
-        Look at everyone at the usual rate, however long it takes.
+        Check all players at the usual rate, however long it takes.
     """
     found = {player.id: performance.problems(player.id) for player in players}
     performers = performers_of(performance, (performance.project.player(player_id) for player_id in found)).made
@@ -78,7 +78,7 @@ def all_problems(performance: Performance, players: Iterable[Player], without_li
 def _judged(
     performance: Performance, performers: Sequence[Performer], looked: _Looked
 ) -> dict[str, tuple[Problem, ...]]:
-    """Problems of a musician's players, who share what is made of each piece of the performance."""
+    """Problems of a musician's players, who share the computed motion."""
     fps, every = looked
     everyone = [performance_curves(performance, one) for one in performers]
     judges = [ContactJudge(curves, one.character, one.model) for curves, one in zip(everyone, performers, strict=True)]
@@ -95,14 +95,14 @@ def _judged(
 def _looked(
     performance: Performance, players: Sequence[int], notes: Sequence[int], most: float
 ) -> tuple[_Looked | None, int]:
-    """Frames that are examined (None: none), and the number of musicians examined, counted from the first.
+    """Frames to check (None: none), and the number of musicians to check, counted from the first.
 
     Parameters
     ----------
     players, notes : sequence of int
-        How many each musician has.
+        Numbers of players and notes of each musician.
     most : float
-        `MOST_WORK`, or infinity.
+        Largest amount of work: `MOST_WORK`, or infinity.
     """
     fps = performance.project.fps
     frames = whole_span(performance.time_frame, fps).count
@@ -126,7 +126,7 @@ def _looked(
 def _notice(
     performance: Performance, looked: _Looked | None, groups: Sequence[Sequence[Performer]], judged: int
 ) -> Message | None:
-    """Say where fewer frames are looked at than usual, or not all players."""
+    """Message if fewer frames than usual, or not all players, were checked; None otherwise."""
     frame, players = performance.time_frame, sum(map(len, groups))
     minutes = max(1, round((frame.end_s - frame.first_frame_s) / 60.0))
     if looked is None:
@@ -148,16 +148,16 @@ def reported_lines(
     with_ignored: bool = False,
     bars: tuple[int, int] | None = None,
 ) -> tuple[list[str], int]:
-    """Lines of a report for a player's problems, and the number of those left out because the project ignores them.
+    """Report lines for a player's problems, and the number of omitted ones that the project ignores.
 
     Parameters
     ----------
     problems : tuple of Problem
-        All of the player, as `judged_problems` finds them.
+        All problems of the player, from `judged_problems`.
     with_ignored : bool
-        Leave none out.
+        Include ignored problems.
     bars : (int, int) or None
-        First and last bar that the report is about; None: the whole piece.
+        First and last bar of the report; None: the whole piece.
     """
     project = performance.project
     if bars is not None:
@@ -169,7 +169,7 @@ def reported_lines(
 
 
 def judged_problems(performance: Performance, performer: Performer, motion: Motion) -> tuple[Problem, ...]:
-    """Problems of plan and body, and the contacts that some frames of a player's motion break, by time."""
+    """Problems of plan and body, and contacts broken in frames of a player's motion, by time."""
     judge = ContactJudge(performance_curves(performance, performer), performer.character, performer.model)
     return _problems(performance, performer.player, judge.breaks(motion))
 

@@ -1,8 +1,8 @@
-"""The current pose of a live player: the character fingers, breathes and moves its lips as the user plays.
+"""Pose of a live player: the character fingers, breathes and moves its lips as the user plays.
 
-`PlayAlong` takes what a controller says, as it says it, and gives the pose at any later moment. What is seen of a note
-begins with its onset; nothing is known beforehand. The layers of the body, the face and the contacts are those of
-`app.motion`, made for one frame. Only the state of now is kept, so an hour takes no more memory than a second.
+`PlayAlong` receives controller data and returns the pose at any later moment. Motion for a note starts at its onset,
+since nothing is known in advance. Body layers, face and contacts are those of `app.motion` for a single frame. Only the
+current state is stored, so memory is constant.
 """
 
 from __future__ import annotations
@@ -41,18 +41,17 @@ ONE_FRAME = Fraction(1)
 
 
 class PlayAlong:
-    """Pose of a single player who is played live by a controller.
+    """Pose of a single player who is played live with a controller.
 
-    Times are seconds of any clock that runs on (``time.perf_counter_ns() / 1e9``); one that lies before what was
-    reported or asked last counts as that. Values out of their range are taken for its end.
+    Times are seconds of any monotonic clock (``time.perf_counter_ns() / 1e9``); a time before the previous one counts
+    as the previous one. Values are clipped to their ranges.
 
     Parameters
     ----------
     curves : PerformanceCurves
-        Who plays, on what and in which posture (`app.performance.motion.performance_curves`); its notes are not
-        looked at.
+        Player, instrument and posture (`app.performance.motion.performance_curves`); its notes are not used.
     rules : tuple of Rule, optional
-        When faces show; the bundled ones without it.
+        Rules for facial expressions; the bundled ones by default.
     """
 
     def __init__(self, curves: PerformanceCurves, rules: tuple[Rule, ...] | None = None) -> None:
@@ -72,12 +71,12 @@ class PlayAlong:
 
     @property
     def player_id(self) -> str:
-        """Return who plays."""
+        """Return the id of the player."""
         return self._curves.player_id
 
     @property
     def lying(self) -> dict[str, tuple[SingleArray, SingleArray]]:
-        """Return where the musician's other instruments lie meanwhile, by player: position (3,) and rotation (4,)."""
+        """Return the places of the musician's other instruments by player: position (3,) and rotation (4,)."""
         if not isinstance(self._whole, Doubling):
             return {}
         others = (
@@ -91,11 +90,11 @@ class PlayAlong:
 
     @property
     def fingering(self) -> Fingering | None:
-        """Last fingering; None before any note and after it was released."""
+        """Last fingering; None before any note and after its release."""
         return self._hands.fingering
 
     def note_on(self, time_s: float, pitch: int, velocity: int = 80) -> None:
-        """A note begins; of several that are held the last one sounds."""
+        """Begin a note; of several held notes the last one sounds."""
         now_s, velocity = self._time(time_s), min(max(velocity, 1), 127)
         attacked = not self._held and now_s - self._ended_s > LEGATO_S
         self._held.pop(pitch, None)
@@ -103,7 +102,7 @@ class PlayAlong:
         self._sound(now_s, pitch, velocity, attacked)
 
     def note_off(self, time_s: float, pitch: int) -> None:
-        """A note ends; the one that was held before it sounds again, if there is any."""
+        """End a note; the one held before it sounds again, if any."""
         now_s = self._time(time_s)
         if pitch not in self._held:
             return
@@ -118,7 +117,7 @@ class PlayAlong:
             self._sound(now_s, before, self._held[before], attacked=False)
 
     def all_off(self, time_s: float) -> None:
-        """End all notes: the controller was taken away, or sent "all notes off"."""
+        """End all notes, after a disconnected controller or "all notes off"."""
         now_s = self._time(time_s)
         self._held.clear()
         self._received.end_all()
@@ -137,18 +136,18 @@ class PlayAlong:
         self._breath.bite(min(max(value, 0.0), 1.0))
 
     def bend(self, time_s: float, value: float) -> None:
-        """Return how far the pitch is bent, in whole tones."""
+        """Set the pitch bend in whole tones."""
         self._time(time_s)
         self._breath.bend(value)
 
     def receive(self, time_s: float, raw: str, mapping: ControllerMapping) -> bool:
-        """Take a MIDI message, in hexadecimal, as takes keep them; what says nothing of notes, breath or lips is passed
-        over. Whether a note began or ended.
+        """Receive a MIDI message in hexadecimal, as in takes; other messages than notes, breath and lips are ignored.
+        Returns whether a note began or ended.
 
         Parameters
         ----------
         mapping : ControllerMapping
-            With what the controller sends breath and bite.
+            Controllers that carry breath and bite.
         """
         message = decoded(raw)
         if message is None or not is_wired(message, mapping):
@@ -175,17 +174,16 @@ class PlayAlong:
         return message.type in ("note_on", "note_off")
 
     def hold(self, poses: Sequence[PoseEvent], additive: Sequence[AdditiveEvent] = ()) -> None:
-        """Stand as the project says, from now on."""
+        """Apply the project's pose corrections and additive curves from now on."""
         self._poses, self._additive = PoseCorrectionTable.of(poses), Additive.of(additive)
 
     def pose(self, time_s: float, at_s: float | None = None) -> Pose:
-        """Pose of the player now.
+        """Pose of the player at a time.
 
         Parameters
         ----------
         at_s : float, optional
-            Which moment of the piece it is: what an animator holds differently there is held so. Without it, as last
-            time.
+            Time in the piece for the animator's poses and curves; by default that of the previous call.
         """
         now_s = self._time(time_s)
         self._at_s = self._at_s if at_s is None else at_s
@@ -203,8 +201,9 @@ class PlayAlong:
             self._hands.carry(now_s, self._help.carries_s)
 
     def _solved(self, now_s: float) -> tuple[ContactCurves, Help]:
-        """Inputs of the contact solvers, now and (further frames) on the way to where the hands are going, with the
-        present help for far hands."""
+        """Inputs of the contact solvers now (first frame) and on the hands' way to their goals (further frames), with
+        the current help for far hands.
+        """
         hands, breathing, look = self._hands.at(now_s), self._breath.at(now_s), self._look.at(now_s)
         times_s = np.full(FRAMES, now_s)
         here_s = np.full(FRAMES, self._at_s)

@@ -1,4 +1,4 @@
-"""Requested frames of a performance."""
+"""Spans of frames of a performance."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ _WHOLE = 1e-6
 
 
 class FrameSpan(msgspec.Struct, frozen=True):
-    """Frames ``first`` .. ``first + count - 1`` of the whole performance, whose frame 0 is the time frame's start."""
+    """Frames ``first`` .. ``first + count - 1`` of the whole performance, whose frame 0 is the start of its time
+    frame.
+    """
 
     fps: Fraction
     first: int
@@ -28,11 +30,11 @@ class FrameSpan(msgspec.Struct, frozen=True):
 
     @property
     def end_s(self) -> float:
-        """Time after the last frame."""
+        """Time after the last frame, in seconds."""
         return self.first_frame_s + self.count * self.fps.denominator / self.fps.numerator
 
     def shows_onset(self, onset_s: float) -> bool:
-        """Return whether the first frame at or after an onset is one of these."""
+        """Return whether the first frame at or after an onset is within the span."""
         frame = math.ceil((onset_s - self.first_frame_s) * self.fps.numerator / self.fps.denominator)
         return 0 <= frame < self.count
 
@@ -43,17 +45,17 @@ def whole_span(frame: TimeFrame, fps: Fraction) -> FrameSpan:
 
 
 def bars_span(performance: Performance, fps: Fraction, bars: BarRange, lead_in_beats: float = 0.0) -> FrameSpan:
-    """The frames of some bars, and nothing but these.
+    """The frames of some bars.
 
-    The plan is that of the whole piece, so that a cut shows what the whole would show. A bar begins at the frame of the
-    whole performance that is nearest: the bars that follow continue without a frame that is missing or there twice.
+    Planning always covers the whole piece, so a cut has equal motion. A bar begins at the nearest frame of the whole
+    performance, so consecutive cuts join without missing or repeated frames.
 
     Parameters
     ----------
     bars : (int or None, int or None)
-        See `BarRange`.
+        First and last bar; see `BarRange`.
     lead_in_beats : float
-        Shown before the first bar, in its felt beats; not beyond the performance's start.
+        Felt beats to include before the first bar, at most to the performance's start.
     """
     first_bar, last_bar = bars
     frame, clock, metres = performance.time_frame, performance.piece.clock, performance.project.score.metre_map
@@ -69,14 +71,14 @@ def bars_span(performance: Performance, fps: Fraction, bars: BarRange, lead_in_b
 
 
 def led_into_s(performance: Performance, tick: float, beats: float) -> float:
-    """Return when a number of the beats that are felt at a tick begin before it."""
+    """Return the time in seconds that lies a number of felt beats before a tick."""
     return performance.piece.clock.seconds(tick - beats * performance.project.metre_map.felt_ticks_at(tick))
 
 
 def cut_span(frame: TimeFrame, fps: Fraction, start_s: float, end_s: float) -> FrameSpan:
-    """The frames that show the times from ``start_s`` to before ``end_s``, on the whole performance's own grid.
+    """The frames of the whole performance from ``start_s`` to before ``end_s``.
 
-    Frames of a cut are thus the same frames that a whole export has.
+    They are equal to the frames of a whole export.
     """
     rate = fps.numerator / fps.denominator
     last = max(1, math.ceil((frame.end_s - frame.first_frame_s) * rate - _WHOLE))
