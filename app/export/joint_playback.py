@@ -13,7 +13,7 @@ from app.export.target import TargetSkeleton
 from app.formats.scene import SkinnedMesh
 from app.rig import quaternion
 from app.rig.figure import OwnSkeleton
-from app.rig.model import Character, Landmark
+from app.rig.model import Character, Landmark, Skeleton
 
 _TRUNK = ("spine", "chest", "upperChest", "neck", "head")
 
@@ -43,7 +43,8 @@ class JointPlayback:
         if absent:
             raise ValueError(f"the file lacks bones of the skeleton that it was written on: {', '.join(absent)}")
         self._bones = {joint: place[target.names[bone]] for joint, bone in target.bone_of_joint.items()}
-        self._moved = {place[target.names[bone]] for bone in target.loose}
+        moved = target.loose | _elsewhere(target, character.skeleton)
+        self._moved = {place[target.names[bone]] for bone in moved}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -127,3 +128,19 @@ class JointPlayback:
                 found.append(above)
                 above = self._character.skeleton.parents[above]
         return found
+
+
+def _elsewhere(target: TargetSkeleton, skeleton: Skeleton) -> set[int]:
+    """Bones of joints that hang from no bone of the nearest joint above that has one, as a thumb at the forearm does
+    where each finger has its own bone from the wrist on."""
+    there, found = set(target.joint_of_bone), set[int]()
+    for bone, joint in enumerate(target.joint_of_bone):
+        top = skeleton.parents[joint] if joint >= 0 else -1
+        while top >= 0 and top not in there:
+            top = skeleton.parents[top]
+        above = target.parents[bone]
+        while above >= 0 and target.joint_of_bone[above] != top:
+            above = target.parents[above]
+        if top >= 0 and above < 0:
+            found.add(bone)
+    return found

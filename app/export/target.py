@@ -122,8 +122,12 @@ class TargetSkeleton:
 
     @cached_property
     def bone_of_joint(self) -> Mapping[int, int]:
-        """The bone of each joint that has one."""
-        return {joint: bone for bone, joint in reversed([*enumerate(self.joint_of_bone)]) if joint >= 0}
+        """The bone of each joint that has one; the first of several at one place."""
+        found: dict[int, int] = {}
+        for bone, joint in enumerate(self.joint_of_bone):
+            if joint >= 0:
+                found.setdefault(joint, bone)
+        return found
 
     @cached_property
     def moved(self) -> frozenset[int]:

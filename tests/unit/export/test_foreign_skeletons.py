@@ -118,6 +118,10 @@ def test_feet_that_hang_from_the_root_stay_at_their_legs(tmp_path: Path) -> None
     character = figure_character(loose, "loose", map_joints(loose).bones, {})
     test_joints_are_where_they_should_be(character, tmp_path)
     test_skin_and_morphs_are_where_they_are_on_the_character(character, tmp_path)
+    require_constant_lengths(character, tmp_path)
+
+
+def require_constant_lengths(character: Character, tmp_path: Path) -> None:
     target = own_target(character)
     motion = random_motion(character)
     playback = JointPlayback(written(character, motion, target, tmp_path), target, character)
@@ -127,39 +131,46 @@ def test_feet_that_hang_from_the_root_stay_at_their_legs(tmp_path: Path) -> None
 
 
 def handless(figure: Figure) -> Figure:
-    """A figure whose forearms carry a bone for each finger, all from the wrist on, instead of a hand (robots and
-    astronauts of Quaternius)."""
-    fingers = ("index", "middle", "ring", "pinky", "thumb")
-    names, copies = list(figure.bone_names), []
-    for name in names:
-        side = name[-2:] if name.startswith("hand_") else ""
-        copies.append([f"palm_{finger}{side}" for finger in fingers] if side else [name])
+    """A figure whose forearms carry a bone for each finger from the wrist on, and a thumb, instead of a hand (robots
+    of Quaternius)."""
+    fingers = ("index", "middle", "ring", "pinky")
+    copies = [
+        [f"palm_{finger}{name[-2:]}" for finger in fingers] if name.startswith("hand_") else [name]
+        for name in figure.bone_names
+    ]
     order = [(name, bone) for bone, own in enumerate(copies) for name in own]
     place = {name: at for at, (name, _) in enumerate(order)}
-
-    def above(name: str, bone: int) -> int:
-        parent = figure.parents[bone]
-        finger = name.split("_")[0] + name[-2:]
-        own = "" if parent < 0 else names[parent]
-        return -1 if parent < 0 else place.get(f"palm_{finger[:-2]}{finger[-2:]}" if own[:5] == "hand_" else own, -1)
-
     of = [bone for _, bone in order]
-    first = [place[own[0]] for own in copies]
+    parents, translations, rotations = [], figure.translations_m[of], figure.rotations[of]
+    for at, (name, bone) in enumerate(order):
+        above = figure.parents[bone]
+        if above >= 0 and figure.bone_names[above].startswith("hand_"):
+            palm = place.get(f"palm_{name.split('_')[0]}{name[-2:]}")
+            if palm is None:
+                turn = figure.rotations[above]
+                translations[at] = figure.translations_m[above] + quaternion.rotate(turn, translations[at])
+                rotations[at] = quaternion.multiply(turn, rotations[at])
+                above = figure.parents[above]
+            else:
+                parents.append(palm)
+                continue
+        parents.append(place[copies[above][0]] if above >= 0 else -1)
+    first = np.array([place[own[0]] for own in copies], np.int32)
     meshes = []
     for mesh in figure.meshes:
-        joints, weights = np.array(first, np.int32)[mesh.joints], mesh.weights
+        joints, weights = first[mesh.joints], mesh.weights
         for side in ("_l", "_r"):
-            own = np.where(joints == place[f"palm_index{side}"], weights, 0.0).sum(axis=1, keepdims=True) / 2.0
-            weights = np.where(joints == place[f"palm_index{side}"], weights / 2.0, weights)
+            held = joints == place[f"palm_index{side}"]
+            half = np.where(held, weights, 0.0).sum(axis=1, keepdims=True) / 2.0
+            weights = np.concatenate([np.where(held, weights / 2.0, weights), half], axis=1)
             joints = np.concatenate([joints, np.full((len(joints), 1), place[f"palm_ring{side}"], np.int32)], axis=1)
-            weights = np.concatenate([weights, own], axis=1)
         meshes.append(replace(mesh, joints=joints, weights=weights.astype(np.float32)))
     return replace(
         figure,
         bone_names=tuple(name for name, _ in order),
-        parents=tuple(above(name, bone) for name, bone in order),
-        translations_m=figure.translations_m[of],
-        rotations=figure.rotations[of],
+        parents=tuple(parents),
+        translations_m=translations,
+        rotations=rotations,
         meshes=tuple(meshes),
     )
 
@@ -177,8 +188,9 @@ def test_a_hand_of_several_bones_moves_as_one(tmp_path: Path) -> None:
     target = own_target(character)
     hand = character.skeleton.index("leftHand")
     palms = [target.names[bone] for bone, joint in enumerate(target.joint_of_bone) if joint == hand]
-    assert palms == [f"palm_{finger}_l" for finger in ("index", "middle", "ring", "pinky", "thumb")]
+    assert palms == [f"palm_{finger}_l" for finger in ("index", "middle", "ring", "pinky")]
     test_joints_are_where_they_should_be(character, tmp_path)
+    require_constant_lengths(character, tmp_path)
     test_skin_and_morphs_are_where_they_are_on_the_character(character, tmp_path)
 
 
