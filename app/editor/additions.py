@@ -1,4 +1,4 @@
-"""Adding events: what is added in one step, by a command or with the mouse, is selected then."""
+"""Adding events by command or mouse: everything added in one step is selected afterwards."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ STYLE_BARS = 2
 
 
 def add_breaths(session: Session, places: Places) -> None:
-    """Add a breath before the first note from each place on."""
+    """Add a breath before the first note at or after each place."""
     _add(
         session,
         "edit.add_breath",
@@ -43,7 +43,9 @@ def add_breaths(session: Session, places: Places) -> None:
 
 
 def toggle_mark(session: Session, notes: Mapping[str, Sequence[Note]], kind: str, text: str = "") -> None:
-    """Write a mark over notes, by player, or take it away where all have it; why not is in the status line."""
+    """Write a mark over notes, by player, or remove it if all have it; the status line shows why if this is
+    impossible.
+    """
     try:
         marked = toggle_marks(session.project, notes, kind, text)
     except AppError as error:
@@ -56,7 +58,7 @@ def toggle_mark(session: Session, notes: Mapping[str, Sequence[Note]], kind: str
 
 
 def tell_reach(session: Session, places: Iterable[tuple[str, int]], text: str) -> None:
-    """Report up to which place a dynamic holds that was written for players at these ticks: of several, the last."""
+    """Report the end of a dynamic written for players at these ticks; the last end if there are several."""
     project, ends = session.project, []
     for player_id, tick in places:
         there = player_marks(project, player_id)
@@ -71,7 +73,7 @@ def tell_reach(session: Session, places: Iterable[tuple[str, int]], text: str) -
 
 
 def add_cues(session: Session, places: Places) -> None:
-    """Add a cue to the first entry from each place on."""
+    """Add a cue to the first entry at or after each place."""
     _add(
         session,
         "edit.add_cue",
@@ -91,7 +93,7 @@ def add_gestures(session: Session, kind: GestureKind, spans: Spans) -> None:
 
 
 def add_named_gestures(session: Session, name: str, spans: Spans) -> None:
-    """Add the gesture of this name at the start of each span, as long as it usually is."""
+    """Add the gesture of this name at the start of each span, in its usual length."""
     clock = session.project.score.tempo_map
     length_s = session.performance.metadata.gestures.items[name].length_s
     add = partial(edit.add_gesture, kind="named", amount=1.0, gesture=name)
@@ -115,7 +117,7 @@ def add_expressions(session: Session, name: str, spans: Spans) -> None:
 
 
 def add_styles(session: Session, style: str, spans: Spans) -> None:
-    """Let players play in a style over each span."""
+    """Add style spans for players."""
     add = partial(edit.add_style, style=style)
     made = [
         (plan, start, partial(add, player_id=plan.player_id, start_tick=start, end_tick=end))
@@ -125,7 +127,7 @@ def add_styles(session: Session, style: str, spans: Spans) -> None:
 
 
 def change_styles(session: Session, style: str) -> None:
-    """Play in another style in the selected regions."""
+    """Change the style of the selected style spans."""
     plans, selected = session.plans, session.selection.events
 
     def edited(project: Project) -> Project:
@@ -138,7 +140,7 @@ def change_styles(session: Session, style: str) -> None:
 
 
 def bars_of(session: Session, player_ids: Iterable[str], tick: float) -> list[tuple[PlayerPlan, int, int]]:
-    """The selected range where a place lies in it, else the bar there and the next one, for each of some players."""
+    """For each player, the selected range if it contains the place, else the bar there and the next one."""
     metres, span = session.project.metre_map, session.selection.span
     if span is None or not span[0] <= tick < span[1]:
         at = max(round(tick), 0)

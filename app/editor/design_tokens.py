@@ -1,4 +1,4 @@
-"""Design tokens: the one table of colours and sizes that Qt and vispy are drawn from.
+"""Design tokens: one table of colours and sizes for Qt and vispy.
 
 Player colours are Okabe and Ito's (2008, "Color Universal Design"), distinguished by colour-blind eyes, lightened for
 the dark surface and darkened for the light one.
@@ -20,13 +20,13 @@ class Tokens(msgspec.Struct, frozen=True):
     Attributes
     ----------
     surface, raised, sunken : str
-        Panels; what stands out of them (buttons, headers); what lies in them (fields, lanes).
+        Backgrounds of panels, of raised parts (buttons, headers), and of sunken parts (fields, lanes).
     line, line_strong : str
-        Hairlines and bar lines.
+        Colours of hairlines and of bar lines.
     accent, accent_text : str
-        Selection, focus, the playhead; text upon it.
+        Colour of selection, focus and playhead; and of text on it.
     by_hand : str
-        The mark of what the user made.
+        Colour that marks changes by the user.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Names of edits of notes and events, which say of what kind these are, whose, and where; and of edits of players."""
+"""History names of edits, with the kind of notes or events, the players and the place."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _MOST_NAMES: Final = 2
 
 
 class PlannedPiece(Protocol):
-    """Part of the session that says where events are; models of the timeline, which know no Qt, have such a part."""
+    """The part of the session with the places of events; timeline models, which do not use Qt, have this interface."""
 
     @property
     def project(self) -> Project: ...
@@ -37,7 +37,7 @@ class PlannedPiece(Protocol):
 
 
 def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey]) -> Message:
-    """Return the name of an edit of some events, one of `OF_EVENTS`: their kind, their players, from where to where."""
+    """Return the name of an edit of some events, one of `OF_EVENTS`, with their kind, players and range."""
     kinds = {EventId.parse(key.event_id).kind for key in keys}
     kind = kinds.pop() if len(kinds) == 1 else _ANY_KIND
     ids = {key.player_id for key in keys}
@@ -49,7 +49,7 @@ def edit_of_events(session: PlannedPiece, name: str, keys: Collection[EventKey])
 
 
 def edit_at_events(session: PlannedPiece, name: str, keys: Collection[EventKey]) -> Message:
-    """Return the name of an edit that is called alike for events of every kind: their players, from where to where."""
+    """Return the name of an edit with one name for all kinds of events, with their players and range."""
     of = (_named(session.project, {key.player_id for key in keys}), _places(session, keys))
     return Message(name, {"of": " · ".join(filter(None, of))})
 
@@ -57,12 +57,12 @@ def edit_at_events(session: PlannedPiece, name: str, keys: Collection[EventKey])
 def edit_of_notes(
     project: Project, name: str, note_ids: Collection[str], player_ids: Collection[str] | None = None
 ) -> Message:
-    """Return the name of an edit of some notes: their number, their players, from where to where.
+    """Return the name of an edit of some notes, with their number, players and range.
 
     Parameters
     ----------
     player_ids : collection of str, optional
-        Of the players meant, where a part has several; all who play the notes by default.
+        The intended players of a shared part; by default all players of the notes.
     """
     found = list(chosen_notes(project, note_ids))
     if player_ids is None:
@@ -74,14 +74,15 @@ def edit_of_notes(
 def edit_at(
     project: Project, name: str, count: int, player_ids: Collection[str], ticks: Iterable[int], **more: Argument
 ) -> Message:
-    """Return the name of an edit of a number of things of some players, with its place: from the first to the last of
-    these ticks."""
+    """Return the name of an edit of a number of items of some players, with the range of these ticks."""
     of = " · ".join(filter(None, (_named(project, player_ids), _range(project, ticks))))
     return Message(name, {**more, "count": count, "of": of})
 
 
 def edit_of_players(project: Project, name: str, player_ids: Collection[str], **more: Argument) -> Message:
-    """Return the name of an edit of some players, which names the first ones, and counts more than these."""
+    """Return the name of an edit of some players, with the first players' names and, if there are more, their
+    number.
+    """
     names = [player.name for player in project.players if player.id in player_ids]
     rest = f", … ({len(names)})" if len(names) > _MOST_NAMES else ""
     return Message(name, {**more, "of": ", ".join(names[:_MOST_NAMES]) + rest})
@@ -110,7 +111,7 @@ def _places(session: PlannedPiece, keys: Iterable[EventKey]) -> str:
 
 
 def _tick(session: PlannedPiece, player: Player, event_id: str) -> int | None:
-    """The tick at which an event begins as planned, else that of the note or the tick that its id names."""
+    """The planned start tick of an event, else the tick of the note or place in its id."""
     performance = session.performance
     plan = performance.plans.get(player.id) if performance.planned else None
     placed = placed_events(plan, (event_id,)) if plan is not None else ()

@@ -6,14 +6,14 @@ from typing import Final, NamedTuple
 
 
 class ExportedBars(NamedTuple):
-    """Bars that an export wrote, and their lead-in.
+    """Bars written by an export, and their lead-in.
 
     Attributes
     ----------
     bars : (int, int) or None
         First and last bar; None: the whole piece.
     lead_in_beats : float
-        Felt beats before them.
+        Felt beats of lead-in.
     """
 
     bars: tuple[int, int] | None = None

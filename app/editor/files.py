@@ -1,4 +1,4 @@
-"""The file side of the editor: what is open, opening, saving, unsaved work, autosave, recovery, recent files."""
+"""Files of the editor: opening, saving, autosave, recovery, recent files."""
 
 from __future__ import annotations
 
@@ -54,29 +54,29 @@ class Files(QObject):
     Parameters
     ----------
     autosave : Autosave or None
-        None: unsaved work is not written down by itself.
+        None: no autosave.
 
     Signals
     -------
     changed()
-        Another file, saved, or no longer saved.
+        The file changed, was saved, or has unsaved changes.
     opened()
-        A project is open that was not, or none is any more.
+        A project was opened or closed.
     left()
-        The open piece is about to be another, or was just saved: what was seen of it should be remembered.
+        The open piece is about to be replaced, or was just saved: the current view should be stored.
     found(Recoverable)
-        There is unsaved work on the file that was just opened, or on a piece that was never saved.
+        Unsaved work was found for the opened file, or for a piece without a file.
     missing(Path)
-        The recording of the project that was just opened is not where it was.
+        The recording of the opened project does not exist at its path.
     elsewhere(tuple of str)
-        The project names these files on computers that the user did not agree to; they are not touched before
-        `agree_to` is called.
+        The project refers to files on other computers, which are not accessed before `agree_to` is called.
     silent(Path)
-        A MIDI file was opened without players and dancers.
+        A MIDI file without players and dancers was opened.
     unsaveable(Message)
-        A value of the project cannot be saved: the message names it. The rest was autosaved, or nothing could be saved.
+        A value named in the message cannot be saved. The rest was autosaved, or nothing could be saved.
     overtaken(Path, Then or None)
-        The project was not saved: its file was changed outside since it was opened. `save_over` would replace that.
+        The project was not saved, because its file was changed by another program since it was opened. `save_over`
+        replaces that.
     """
 
     changed = Signal()
@@ -119,7 +119,7 @@ class Files(QObject):
 
     @property
     def name(self) -> str:
-        """Name of the project in the title."""
+        """Name of the project for the window title."""
         if self.path is not None:
             return shown(self.path.name)
         score, source = self.session.project.score, self.session.project.source
@@ -129,25 +129,26 @@ class Files(QObject):
 
     @property
     def stem(self) -> str:
-        """Proposed name of the project's files, without a suffix."""
+        """Proposed file name of the project, without suffix."""
         return shown(self.path.stem) if self.path is not None else file_stem(self.name)
 
     @property
     def is_saved(self) -> bool:
-        """True if nothing would be lost by closing."""
+        """True if closing loses nothing."""
         return not self.is_open or self.session.document.is_saved
 
     @property
     def folder(self) -> str:
-        """Return where file dialogs begin."""
+        """Return the initial folder of file dialogs."""
         if self.path is not None:
             return str(self.path.parent)
         return self.settings.folder or str(Path.home())
 
     @property
     def recovery_stems(self) -> tuple[Path, ...]:
-        """Paths of this project's unsaved work, without a suffix: this editor's, and those of editors whose work was
-        taken over."""
+        """Paths, without suffix, of this project's unsaved work: this editor's, and that of editors whose work was
+        recovered.
+        """
         if self.autosave is None:
             return ()
         presence = self.autosave.presence
@@ -155,27 +156,27 @@ class Files(QObject):
 
     @property
     def unwritten(self) -> bool:
-        """True if the project has changes that are in no file, not even in that of unsaved work."""
+        """True if the project has changes that are neither saved nor autosaved."""
         project = self.session.project
         return not self.session.document.is_saved and (self.autosave is None or not self.autosave.has(project))
 
     # Opening
 
     def begin(self) -> None:
-        """A new, empty piece."""
+        """Open a new, empty piece."""
         self.let_go(lambda: self._become(new_piece(), None))
 
     def open(self, path: Path, ask: bool = True, at_start: bool = False) -> None:
-        """Open a project, a MIDI file or a score in place of what is open; a recording or a reference video is added
-        to it.
+        """Open a project, MIDI file or score, replacing the current one; a recording or reference video is added to the
+        open project.
 
         Parameters
         ----------
         ask : bool
-            Whether the import of a MIDI file or a score asks who plays what.
+            Whether to show the import dialog for a MIDI file or score.
         at_start : bool
-            True: the editor starts with this file, and no start page has shown unsaved work; all of it is looked for
-            that has no file of its own.
+            True if the editor starts with this file, so that no start page has shown unsaved work; unsaved work without
+            a file is then searched too.
         """
         agree(path)
         path = path.absolute()
@@ -194,12 +195,12 @@ class Files(QObject):
             self.let_go(lambda: self._read(path, ask, at_start))
 
     def open_example(self) -> None:
-        """The bundled quartet."""
+        """Open the bundled quartet."""
         with as_file(files("resources") / "examples" / EXAMPLE) as path:
             self.open(path, ask=False)
 
     def open_danced_example(self) -> None:
-        """The bundled piece with drums, and a dancer with the bundled choreography."""
+        """Open the bundled piece with drums, with a dancer in the bundled choreography."""
         name = tr("action.dancer")
 
         def danced(project: Project) -> Project:
@@ -211,13 +212,13 @@ class Files(QObject):
             self.let_go(lambda: self._read(example, False, arranged=danced))
 
     def add_audio(self, path: Path) -> None:
-        """Hear the piece with this recording."""
+        """Use a recording as the audio of the piece."""
         agree(path)
         self.settings.folder = str(path.parent)
         self.session.attempt(Message("edit.set_audio"), lambda project: set_audio(project, path))
 
     def add_video(self, path: Path) -> None:
-        """See this reference video with the performance."""
+        """Use a reference video for the piece."""
         agree(path)
         self.settings.folder = str(path.parent)
         if self.session.video.placement == "hidden":
@@ -236,7 +237,7 @@ class Files(QObject):
         self.session.attempt(done, lambda project: relocate(project, missing, path))
 
     def agree_to(self, paths: tuple[str, ...]) -> None:
-        """Use the files at these paths on other computers, as the user said."""
+        """Allow access to these paths on other computers."""
         for path in paths:
             agree(path)
         self.session.media_agreed.emit()
@@ -249,7 +250,7 @@ class Files(QObject):
             self.session.notice(problem, Severity.WARNING)
 
     def _ask_about_files(self) -> None:
-        """Ask about files of the project on other computers, or else about one that is not at its place."""
+        """Ask about the project's files on other computers, or else about a missing one."""
         project = self.session.project
         paths, lost = storage.elsewhere(project), storage.missing_media(project)
         if paths:
@@ -374,7 +375,7 @@ class Files(QObject):
     # Letting go
 
     def let_go(self, then: Then) -> None:
-        """Do something that takes the open project away, once its changes are saved or given up."""
+        """Run an action that closes the open project, after its changes are saved or discarded."""
         if self.is_saved:
             then()
             return
@@ -385,7 +386,7 @@ class Files(QObject):
             self.save(then)
 
     def close(self) -> None:
-        """Back to the start page."""
+        """Close the project and show the start page."""
         self.let_go(self._close)
 
     def _close(self) -> None:
@@ -395,7 +396,7 @@ class Files(QObject):
         self.changed.emit()
 
     def end(self) -> None:
-        """The editor ends: nothing is left to recover."""
+        """End the editor's file handling; nothing remains to recover."""
         self.left.emit()
         self._timer.stop()
         if self.autosave is not None:
@@ -405,19 +406,21 @@ class Files(QObject):
     # Saving
 
     def save(self, then: Then | None = None) -> None:
-        """Save to the project's file; one without a file is asked where, and work of others is not written over."""
+        """Save to the project's file; a new project asks for a path, and changes by other programs are not
+        overwritten.
+        """
         if self.path is None:
             self.save_as(then)
         else:
             self._save(self.path, then, over=(self._base, ""))
 
     def save_over(self, then: Then | None = None) -> None:
-        """Save to the project's file, even if it was changed outside."""
+        """Save to the project's file, overwriting changes by other programs."""
         if self.path is not None:
             self._save(self.path, then)
 
     def save_as(self, then: Then | None = None) -> None:
-        """Save to another file, which is the project's from now on."""
+        """Save to another file, which becomes the project's."""
         proposal = str(Path(self.folder) / f"{self.stem}{storage.SUFFIX}")
         path = self.questions.save_file(
             tr("files.save_project"),
@@ -429,7 +432,7 @@ class Files(QObject):
             self._save(path, then)
 
     def _save(self, path: Path, then: Then | None, over: tuple[str, ...] | None = None) -> None:
-        """Save to a file; with `over` only to one of which the content is one of these."""
+        """Save to a file; with `over` only if its content hash is one of these."""
         project = self.session.project
 
         def work(progress: Progress, stop_requested: StopRequested) -> str | None:
@@ -465,11 +468,11 @@ class Files(QObject):
 
     @property
     def can_leave_out(self) -> bool:
-        """Return whether the project could be saved without some of its values, if it cannot be as it is."""
+        """Return whether the project could be saved without some of its values."""
         return salvaged(self.session.project) is not None
 
     def leave_out(self) -> None:
-        """Take what cannot be saved out of the project, as an edit; nothing is done where that is not possible."""
+        """Remove the values that cannot be saved, as an edit; does nothing if that is impossible."""
         rest = salvaged(self.session.project)
         if rest is not None:
             self.session.apply(Message("edit.leave_out"), rest.project)
@@ -488,19 +491,19 @@ class Files(QObject):
     # Unsaved work
 
     def _begin_autosave(self, former: storage.Autosaved | None = None, held: Path | None = None) -> None:
-        """The project is as in its file, or as in `held`: nothing else is to be recovered."""
+        """Start autosaving for a project equal to its file, or to the recovered file `held`."""
         self.risk = None
         self._timer.stop()
         self._report(lambda autosave: autosave.opened(self.path, self._base, former, held))
 
     def _note_unsaved(self) -> None:
-        """The project is not as in its file."""
+        """Record that the project differs from its file."""
         if self.autosave is not None:
             self.autosave.changed(self.session.project, time.monotonic())
             self._schedule()
 
     def _schedule(self) -> None:
-        """Have the timer ring when unsaved work is to be written down. Further changes do not postpone it."""
+        """Start the timer for the next autosave; further changes do not delay it."""
         due_s = self.autosave.due_s if self.autosave is not None else None
         if due_s is None:
             self._timer.stop()
@@ -508,7 +511,7 @@ class Files(QObject):
             self._timer.start(math.ceil(1000.0 * min(max(due_s - time.monotonic(), 0.0), MOST_SLEEP_S)))
 
     def tick(self) -> None:
-        """Write unsaved work down if it is due."""
+        """Autosave if it is due."""
         if self.autosave is not None and self.is_open:
             writing = self.autosave.due(time.monotonic())
             if writing is not None:
@@ -516,7 +519,7 @@ class Files(QObject):
             self._schedule()
 
     def write_now(self) -> None:
-        """Write unsaved work down here and now: the program may not live on. Raises FileError."""
+        """Autosave immediately, because the program may end. Raises FileError."""
         writing = self._taken()
         if writing is None or self.autosave is None:
             return
@@ -527,7 +530,7 @@ class Files(QObject):
         self.autosave.written(writing, written)
 
     def write_soon(self) -> None:
-        """Write unsaved work down now, in the background."""
+        """Autosave now, in the background."""
         writing = self._taken()
         if writing is not None:
             self._write(writing)
@@ -573,7 +576,7 @@ class Files(QObject):
         self.session.tasks.run(Message("work.autosave"), work, done, failed, ended=ended)
 
     def warn_once(self, message: Message) -> bool:
-        """Warn of something that autosaves meet again every few seconds; whether it is the first time."""
+        """Show a warning about a repeated autosave problem; returns whether it was shown for the first time."""
         if message.id in self._warned:
             return False
         self._warned.add(message.id)
@@ -589,7 +592,7 @@ class Files(QObject):
             self.warn_once(error.message)
 
     def find_recoverable(self, found: Callable[[tuple[Recoverable, ...]], None]) -> None:
-        """Look for what editors that are gone left behind, in the background."""
+        """Search for unsaved work of ended editors, in the background."""
         if self.autosave is None:
             found(())
             return
@@ -601,7 +604,7 @@ class Files(QObject):
         self.session.tasks.run(Message("work.recoverable"), work, found, key="recoverable")
 
     def recover(self, item: Recoverable) -> None:
-        """Go on with unsaved work."""
+        """Open unsaved work."""
         if item.document is not None:
             agree(item.document)
 
@@ -623,7 +626,7 @@ class Files(QObject):
             )
 
     def discard(self, item: Recoverable) -> None:
-        """Throw unsaved work away."""
+        """Delete unsaved work."""
         try:
             discard(item)
         except AppError as error:
@@ -637,6 +640,6 @@ Opened = tuple[Project, Recoverable | None, str]
 
 
 def _read_own() -> None:
-    """Have the user's own instruments and characters before a piece that may be played by them."""
+    """Load the user's instruments and characters, before a piece that may use them."""
     reload()
     reload_characters()

@@ -1,4 +1,4 @@
-"""A folder of the user's own files, watched for changes."""
+"""Watches a folder of user files for changes."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ several times."""
 
 
 class FolderWatch(QObject):
-    """Reports when something in a folder changes.
+    """Emits a signal when something in a folder changes.
 
     Parameters
     ----------
     folder : callable
-        Where it is; need not be there yet.
+        Returns the folder, which may not exist yet.
     suffixes : collection of str
-        Of the files that count.
+        Suffixes of relevant files.
     """
 
     changed = Signal()
@@ -42,7 +42,7 @@ class FolderWatch(QObject):
         self.look()
 
     def look(self) -> None:
-        """Watch the folder and its files as they are now; a folder that is not there yet, by the one it would be in."""
+        """Watch the folder and its current files; a missing folder is watched through its parent."""
         folder = self._folder()
         requested = {str(next(place for place in (folder, *folder.parents) if os.path.isdir(place)))}
         with contextlib.suppress(FileError):  # Who reads the folder says that it cannot be listed.

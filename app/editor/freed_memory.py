@@ -1,4 +1,4 @@
-"""Memory that was freed goes back to the system."""
+"""Returns freed memory to the operating system."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _LARGE_BYTES: Final = 2**20
 
 
 def give_back() -> None:
-    """Return to the system what is free in between: the C library of Linux keeps it otherwise, for every thread again.
+    """Return free memory to the system, which glibc on Linux otherwise keeps for every thread.
 
-    It takes some milliseconds, in which other threads of Python work on. Elsewhere the system does so by itself.
+    Takes some milliseconds without blocking other Python threads. Other systems do this by themselves.
     """
     trim = _of_c_library("malloc_trim")
     if trim is not None:
@@ -24,9 +24,10 @@ def give_back() -> None:
 
 
 def share_memory() -> None:
-    """Have all threads that are begun from now on take memory from the same few places: what one has freed serves the
-    next. Python runs one of them at a time, so they seldom wait for one another there. What is large has a place of its
-    own, which goes back to the system at once; else more and more of it lies between what is small and stays."""
+    """Make all threads started from now on share few memory arenas, so that memory freed by one serves the next. Python
+    threads rarely run in parallel, so contention is small. Large blocks are allocated separately and returned to the
+    system immediately.
+    """
     option = _of_c_library("mallopt")
     if option is not None:
         option(_ARENA_MAX, _ARENAS)
@@ -34,5 +35,5 @@ def share_memory() -> None:
 
 
 def _of_c_library(name: str) -> Any:
-    """A function that GNU's C library has, and others on Linux may lack."""
+    """A function of glibc; None if the C library lacks it."""
     return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None

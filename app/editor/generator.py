@@ -1,7 +1,7 @@
-"""Plans and motion kept up with the document: after every edit, in the background, the newest first.
+"""Updates plans and motion after every edit, in the background, newest first.
 
-What an edit touches is planned at once where that takes no time, else by a thread that yields to the window; the same
-thread makes the motion, what is looked at first.
+Small changes are planned immediately, others on a thread that yields to the window; the same thread computes the
+motion, visible frames first.
 """
 
 from __future__ import annotations
@@ -44,22 +44,21 @@ def _goes_on() -> bool:
 
 
 class Generator(QObject):
-    """Makes performance and motion of a session's project, until it is closed.
+    """Computes performance and motion of a session's project until it is closed.
 
     Parameters
     ----------
     tasks : Tasks
-        Where plans are made that take long.
+        Runner of slow planning tasks.
 
     Signals
     -------
     motion_changed()
-        Poses were added or have changed.
+        Poses were added or changed.
     front_changed()
-        The player in front does what an edit changed. It is drawn before the panels follow the new plans, which takes
-        them longer than making it.
+        The front player shows an edit's effect; emitted before panels update to the new plans, which takes longer.
     ready_changed(float)
-        Share 0..1 of the motion that is made.
+        Share 0..1 of the motion that is computed.
     """
 
     motion_changed = Signal()
@@ -108,8 +107,7 @@ class Generator(QObject):
 
     @property
     def up_to_date(self) -> bool:
-        """True if the session's plans are those of its project, on the instruments, characters and metadata there are
-        now."""
+        """True if the session's plans belong to its project and to the current instruments, characters and metadata."""
         performance = self._session.performance
         now = performance.library is library() and performance.characters is character_library()
         now = now and performance.metadata.is_still(metadata_library())
@@ -117,11 +115,11 @@ class Generator(QObject):
 
     @property
     def ready_share(self) -> float:
-        """Share 0..1 of the motion that is made."""
+        """Share 0..1 of the motion that is computed."""
         return self.live.ready_share
 
     def close(self) -> None:
-        """End the worker; nothing is made any more."""
+        """End the worker thread."""
         self._end()
 
     def _project_changed(self, change: Change) -> None:
@@ -177,9 +175,9 @@ class Generator(QObject):
                 self._session.set_performance(performance)
 
     def _make_now(self, performance: Performance) -> None:
-        """Make the front player's pose at the playhead before anything is drawn, so that the first picture is right;
-        but not in a drag, of which more will come, and not where players are others, whose figures have to be
-        loaded."""
+        """Compute the front player's pose at the playhead before drawing, so that the first picture is right; skipped
+        during a drag and if players with other figures must be loaded first.
+        """
         before, done = self._session.performance, self._session.document.done
         same_figures = performance.project.players is before.project.players and performance.library is before.library
         if same_figures and not (done and done[-1].gesture is not None):
@@ -189,8 +187,7 @@ class Generator(QObject):
             self.front_changed.emit()
 
     def _hold_reported(self, performance: Performance) -> None:
-        """Find out how instruments are held that no one held before; the others play on meanwhile. Where the user
-        stops that, the next edit asks again."""
+        """Compute missing grips while other players continue; after a cancellation the next edit tries again."""
         requested = frozenset((player.character_id, player.instrument_id) for player in performance.unheld)
         if requested <= self._holding and not self._hold_stopped():
             return
@@ -241,8 +238,9 @@ class Generator(QObject):
         )
 
     def _move_everyone(self, performance: Performance, number: int, stopped: StopRequested) -> None:
-        """Plan an excerpt around the playhead, and wait until everyone moves as it has them: in the thread that plans,
-        which would hold up the one that makes motion."""
+        """Plan an excerpt around the playhead and wait until all its players have a motion; runs on the planning
+        thread.
+        """
         excerpt = PerformanceExcerpt(performance, self._session.playhead_s)
         excerpt.prepare(stopped)
         shown = Event()
@@ -265,7 +263,7 @@ class Generator(QObject):
             self._show_front()
 
     def _show_front(self) -> None:
-        """Players in front of a piece that was opened move while the others are being planned."""
+        """Show the front players of an opened piece while the others are still being planned."""
         coming = self._coming
         if coming is not None:
             musicians = [coming.project.player(one) for one in self._session.players if coming.is_planned(one)]
@@ -308,5 +306,5 @@ class Generator(QObject):
         self._session.set_broken(broken)
 
     def _fell(self, fault: BaseException) -> None:
-        """A fault of the program that the worker met is reported like one that the window met."""
+        """Re-raise an unexpected exception of the worker, so that it is reported like one in the window."""
         raise fault

@@ -1,4 +1,4 @@
-"""The steps of a grid that can be chosen, as musicians write them."""
+"""Grid steps to choose from, in musical notation."""
 
 from __future__ import annotations
 

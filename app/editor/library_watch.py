@@ -1,4 +1,4 @@
-"""User libraries in folders, read again as soon as their files change."""
+"""Reloads user libraries as soon as files in their folders change."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from metadata.library import FOLDERS
 
 
 class LibraryWatch(QObject):
-    """Watches the folder of a kind for a session.
+    """Watches one library's folder for a session.
 
     An invalid file is reported with the place of the error, and its last valid version stays in use. The session emits
-    ``{name}_changed``, and ``{name}_saved`` where the program itself wrote into the folder.
+    ``{name}_changed``, and ``{name}_saved`` if the program itself wrote into the folder.
 
     Parameters
     ----------
     read_again : str, optional
-        Id of the message (maps) that says what was read again.
+        Id of the message shown after reloading.
     family : str, optional
-        First part of the names of the session's signals, where it is not the kind's.
+        First part of the session's signal names, if it differs from the library's name.
     """
 
     def __init__(self, session: Session, library: UserFolder[Any, Any], read_again: str = "", family: str = "") -> None:
@@ -45,7 +45,7 @@ class LibraryWatch(QObject):
         QTimer.singleShot(0, self, self.read)
 
     def read(self) -> None:
-        """Read the folder again now."""
+        """Reload the folder now."""
         self._watch.look()
 
         def work(progress: Progress, stop_requested: StopRequested) -> Shelf[Any]:
@@ -78,15 +78,15 @@ class LibraryWatch(QObject):
 
 
 def watch_instruments(session: Session) -> LibraryWatch:
-    """Watch the user's own instruments."""
+    """Watch the user's instruments."""
     return LibraryWatch(session, INSTRUMENTS, "instruments.read_again")
 
 
 def watch_characters(session: Session) -> LibraryWatch:
-    """Watch the user's own characters."""
+    """Watch the user's characters."""
     return LibraryWatch(session, CHARACTERS)
 
 
 def watch_metadata(session: Session) -> tuple[LibraryWatch, ...]:
-    """Watch the user's own styles, habits, expressions and what else there is in `metadata`."""
+    """Watch the user's styles, habits, expressions and other metadata."""
     return tuple(LibraryWatch(session, folder, "metadata.read_again", "metadata") for folder in FOLDERS)

@@ -1,4 +1,4 @@
-"""Listening settings: state of the editor that transport, commands and sound share."""
+"""Listening settings, shared by transport, commands and sound."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ LEAST_SPEED, MOST_SPEED = 0.25, 2.0
 
 @dataclass(frozen=True)
 class RecordedTake:
-    """A take that is played for listening, without taking it over.
+    """A take that is auditioned without using it in the part.
 
     Attributes
     ----------
     player_id, take_id : str
-        ``take_id`` is empty for what was there before the first take.
+        Player and take; ``take_id`` is empty for the part before the first take.
     alone : bool
-        Whether all others are silent.
+        Whether all other players are muted.
     """
 
     player_id: str
@@ -39,30 +39,30 @@ class Listening(State):
     Attributes
     ----------
     speed : float
-        0.25..2; the pitch stays.
+        Playback speed 0.25..2 at constant pitch.
     volume : float
-        0..1 as the ear judges it.
+        Perceived volume 0..1.
     click : bool
-        Whether the metronome sounds.
+        Whether the metronome is audible.
     percussion : bool
-        Whether the percussion sounds.
+        Whether percussion is audible.
     scrub_sound : bool
-        Whether scrubbing sounds.
+        Whether scrubbing is audible.
     source : str
-        The sound of a project that has a recording; without one it is the synthesiser.
+        Sound source for projects with a recording; others use the synthesiser.
     silent : bool
-        There is no device for sound: the performance plays in time all the same.
+        True without a sound device: playback then runs silently.
     waveform : Peaks or None
-        Of the project's recording, once it is read.
+        Waveform of the project's recording, once it is read.
     ready : float
-        0..1: how much of the score the synthesiser has made.
+        Share 0..1 of the score that is synthesised.
     take : RecordedTake or None
-        Heard in the place of its player's part until the sound stops.
+        Auditioned take, in place of its player's part until playback stops.
 
     Signals
     -------
     changed()
-        One of these has changed.
+        One of the settings has changed.
     waveform_changed()
         Another recording was chosen, or it was read.
     """
@@ -83,14 +83,14 @@ class Listening(State):
         self.take: RecordedTake | None = None
 
     def set(self, **values: Any) -> None:
-        """Change some attributes; `changed` once if any changes. Speed and volume are held within their bounds."""
+        """Change some attributes, clipped to their ranges; emits `changed` once if any changes."""
         for name, (least, most) in {"speed": (LEAST_SPEED, MOST_SPEED), "volume": (0.0, 1.0)}.items():
             if name in values:
                 values[name] = min(max(values[name], least), most)
         super().set(**values)
 
     def set_waveform(self, waveform: Peaks | None) -> None:
-        """The recording's picture; None: there is no recording, or it is not read yet."""
+        """Set the waveform of the recording; None without a recording or before it is read."""
         if waveform is not self.waveform:
             self.waveform = waveform
             self.waveform_changed.emit()

@@ -1,4 +1,4 @@
-"""The recorded player plays along in the viewport while the user plays the controller."""
+"""Shows the player to be recorded live in the viewport while the user plays the controller."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ REST_S: Final = 4.0
 
 
 class LivePlayer(QObject):
-    """Applies what is played to the pose of the player that is recorded.
+    """Applies controller input to the pose of the player to be recorded.
 
     Parameters
     ----------
     chosen : callable
-        Id of that player; None: no one.
+        Returns the id of that player, or None.
     """
 
     def __init__(self, session: Session, chosen: Callable[[], str | None], parent: QObject) -> None:
@@ -41,14 +41,14 @@ class LivePlayer(QObject):
         self._rest.timeout.connect(self._rested)
 
     def report(self, time_s: float, raw: str, mapping: ControllerMapping) -> None:
-        """Take in what was played on the controller.
+        """Receive a message from the controller.
 
         Parameters
         ----------
         time_s : float
-            Of `time.perf_counter`.
+            Time of `time.perf_counter`.
         raw : str
-            A message of MIDI in hexadecimal.
+            MIDI message in hexadecimal.
         """
         playing = self._ready()
         if playing is not None:
@@ -56,13 +56,13 @@ class LivePlayer(QObject):
             self._rest.start()
 
     def silence(self) -> None:
-        """The device sends nothing any more."""
+        """End all notes, since the device no longer sends."""
         if self._play_along is not None:
             self._play_along.all_off(time.perf_counter())
             self._rest.start()
 
     def _rested(self) -> None:
-        """Show the player as the performance has them again, unless a take runs or a note is held."""
+        """Return the player to the performance, unless a take is running or a note is held."""
         if self._play_along is None:
             return
         if self._session.recording.running or self._session.recording.pitch is not None:
@@ -72,7 +72,7 @@ class LivePlayer(QObject):
         self._play_along, self._of = None, ()
 
     def _ready(self) -> PlayAlong | None:
-        """The live performance; made again where the player, the instrument or the body has changed."""
+        """The live performance; made again if the player, the instrument or the body has changed."""
         player_id, performance = self._chosen(), self._session.performance
         player = next((player for player in performance.project.players if player.id == player_id), None)
         if player is None or player.id not in performance.plans or player.id in performance.waiting:

@@ -1,4 +1,4 @@
-"""Players driven by a controller at the moment: the viewport shows them as they play."""
+"""Players currently driven by a controller, for display in the viewport."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BLEND_S: Final = 0.2
 
 @dataclass(frozen=True)
 class _Blend:
-    """Share of a player that is live, 0..1."""
+    """Blend weight of a live player, 0..1."""
 
     since_s: float
     before: float
@@ -36,11 +36,11 @@ class _Blend:
 
 
 class LivePlayers(QObject):
-    """The players that are armed, each with what makes the pose of now.
+    """The live players, each with the object that computes its current pose.
 
-    The controller's listener makes a `PlayAlong` of the player, registers it with `begin`, passes each message (stamped
-    by ``time.perf_counter``) to `receive` and removes it with `end`. After a change of the player, the instrument or
-    the body another one replaces it.
+    The controller's listener creates a `PlayAlong`, registers it with `begin`, passes each message (with a time of
+    ``time.perf_counter``) to `receive` and removes it with `end`. After a change of player, instrument or body another
+    one replaces it.
 
     Signals
     -------
@@ -64,18 +64,18 @@ class LivePlayers(QObject):
 
     @property
     def playing(self) -> Mapping[str, PlayAlong]:
-        """By the player's id."""
+        """Live players by player id."""
         return MappingProxyType(self._playing)
 
     @property
     def is_shown(self) -> bool:
-        """True if a player is live, or has just ended and is returning to the performance."""
+        """True if a player is live, or is blending back to the performance."""
         with self._lock:
             now_s = perf_counter()
             return bool(self._playing) or any(blend.at(now_s) > 0.0 for blend in self._blends.values())
 
     def begin(self, play_along: PlayAlong) -> None:
-        """Show this player as played from now on."""
+        """Show a player live from now on."""
         with self._lock:
             self._playing[play_along.player_id] = play_along
             self._poses.pop(play_along.player_id, None)
@@ -83,7 +83,7 @@ class LivePlayers(QObject):
         self.changed.emit()
 
     def end(self, player_id: str) -> None:
-        """Show a player as the performance has it again."""
+        """Show a player as in the performance again."""
         with self._lock:
             gone = self._playing.pop(player_id, None)
             if gone is not None:
@@ -92,7 +92,7 @@ class LivePlayers(QObject):
             self.changed.emit()
 
     def receive(self, player_id: str, time_s: float, raw: str, mapping: ControllerMapping) -> None:
-        """A player is played so: a MIDI message in hexadecimal, see `PlayAlong.receive`."""
+        """Pass a MIDI message in hexadecimal to a live player; see `PlayAlong.receive`."""
         with self._lock:
             play_along = self._playing.get(player_id)
             struck = play_along is not None and play_along.receive(time_s, raw, mapping)
@@ -102,18 +102,19 @@ class LivePlayers(QObject):
             self.struck.emit()
 
     def lying(self, player_id: str, other_id: str) -> tuple[SingleArray, SingleArray] | None:
-        """Return where another instrument of the musician lies while this one is played: position (3,) and rotation
-        (4,)."""
+        """Return position (3,) and rotation (4,) of another instrument of the musician while this one is played; None
+        if the player is not live.
+        """
         play_along = self._playing.get(player_id)
         return None if play_along is None else play_along.lying.get(other_id)
 
     def pose(self, player_id: str, at_s: float) -> tuple[Pose, float] | None:
-        """A player's pose now, and its share of what is shown, 0..1; None for players that are not played.
+        """A player's current live pose, and its blend weight 0..1; None for players that are not live.
 
         Parameters
         ----------
         at_s : float
-            Which moment of the piece it is.
+            Time in the piece.
         """
         with self._lock:
             now_s = perf_counter()

@@ -1,4 +1,4 @@
-"""Poses of the performance, with those of players that are played from a controller now, and a face being made."""
+"""Poses of the performance, replaced by live poses and by a face being edited."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from app.performance.chunks import Pose
 
 
 class LivePoses:
-    """Poses of the performance; of players that are played now (`session.live_players`), those of now. Any thread may
-    call it."""
+    """Poses of the performance, with live poses for players in `session.live_players`. Thread-safe."""
 
     def __init__(self, session: Session, poses: PoseSource) -> None:
         self._session, self._poses = session, poses
@@ -40,7 +39,9 @@ class LivePoses:
         return live if performed is None or share >= 1.0 else blended(performed, live, share)
 
     def _beside(self, player_id: str, performed: Pose | None, time_s: float) -> Pose | None:
-        """An instrument that lies aside while the musician plays another one now: the body is that of now."""
+        """Pose of a player whose instrument is put aside while the musician plays another one live: the body is the
+        live one.
+        """
         live, project = self._session.live_players, self._session.project
         own = next((player for player in project.players if player.id == player_id), None)
         for other in () if own is None or performed is None else project.played_by(own):
@@ -60,12 +61,12 @@ class LivePoses:
         return performed
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """See `PoseSource.pose_now`: pictures of the performance show the performance."""
+        """Pose of a player in the performance, without live input; see `PoseSource.pose_now`."""
         return self._poses.pose_now(player_id, time_s)
 
 
 class WornFaces:
-    """Poses in which the player in front shows the session's `preview_morphs`, if there are any.
+    """Poses in which the front player shows the session's `preview_morphs`, if set.
 
     Parameters
     ----------

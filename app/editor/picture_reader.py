@@ -1,4 +1,4 @@
-"""Pictures of a video in the background: those around the playhead are read ahead by a thread and kept."""
+"""Reads video frames around the playhead in a background thread, and caches them."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ PASSED: Final = 60
 
 
 class PictureReader:
-    """Reads pictures of a video by their numbers.
+    """Reads frames of a video by number.
 
     Parameters
     ----------
     path : str
     facts : VideoFacts
     size : (int, int)
-        Width and height of the pictures, pixels.
+        Width and height of the frames in pixels.
     arrived : callable
-        Called in the thread when the picture that was requested last has come.
+        Called on the thread when the last requested frame has been read.
     failed : callable
-        Called in the thread where the video cannot be read (any more).
+        Called on the thread when the video cannot be read.
     """
 
     def __init__(
@@ -58,7 +58,9 @@ class PictureReader:
         self._thread.start()
 
     def request(self, number: int) -> Picture | None:
-        """The picture, if it is there; else it will be, and `arrived` is called. None beyond the ends."""
+        """Return a frame if it is cached; otherwise request it, and `arrived` is called later. None beyond the
+        video.
+        """
         with self._condition:
             if number != self._sought:
                 back = number < self._sought
@@ -68,7 +70,7 @@ class PictureReader:
             return self._kept.get(number)
 
     def is_beyond(self, number: int) -> bool:
-        """Return whether it is known that the video has ended before this picture."""
+        """Return whether the video is known to end before this frame."""
         with self._condition:
             return self._end is not None and number >= self._end
 
@@ -92,7 +94,7 @@ class PictureReader:
             self._failed(error)
 
     def _awaited(self) -> int | None:
-        """Wait for the next picture to be read, and return its number; None to end."""
+        """Wait for the next frame to read, and return its number; None to end."""
         with self._condition:
             while not self._closed:
                 first = max(self._sought, 0)

@@ -1,4 +1,4 @@
-"""The thread that makes plans and motion, and gives way to the window."""
+"""Thread that computes plans and motion, yielding to the window."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ REST_WHILE_PLAYING = 1.0
 
 
 class _Clock(Protocol):
-    """Protocol of the clocks in the module `time`: a module has no class that could be named."""
+    """Protocol of the clocks in module `time`, which has no class to refer to."""
 
     def monotonic(self) -> float: ...
 
@@ -57,7 +57,7 @@ class _Clock(Protocol):
 
 @dataclass(frozen=True)
 class Reports(Generic[T]):
-    """Receiver of the worker's reports, in the window's thread."""
+    """Receiver of the worker's reports, on the window's thread."""
 
     planned: Callable[[T, Performance, int, AppError | None], None]
     moved: Callable[[T], None]
@@ -67,8 +67,9 @@ class Reports(Generic[T]):
 
 
 class PlanWorker(Generic[T]):
-    """Worker thread that makes plans first, then motion. It holds nothing of the window, so that it may end at any
-    time."""
+    """Worker thread that computes plans first, then motion. It holds no objects of the window, so it may end at any
+    time.
+    """
 
     def __init__(self, live: LiveMotion, report: Reporter[T], says: Reports[T], clock: _Clock = time) -> None:
         self._live, self._report, self._says, self._clock = live, report, says, clock
@@ -103,29 +104,29 @@ class PlanWorker(Generic[T]):
         return self._planning or self._pending is not None
 
     def plan(self, performance: Performance, number: int) -> None:
-        """Plan this next, instead of what waits."""
+        """Plan this performance next, replacing any waiting one."""
         with self._changed:
             self._pending = (performance, number)
             self._changed.notify()
 
     def drop(self) -> None:
-        """Discard the plans that are being made."""
+        """Discard the plans in progress."""
         with self._changed:
             self._pending = None
             self._dropped.set()
 
     def wake(self) -> None:
-        """Interrupt the wait: another request has come."""
+        """Interrupt waiting because there is a new request."""
         with self._changed:
             self._requests += 1
             self._changed.notify()
 
     def pause(self) -> None:
-        """Make no more motion, once what is being made is, until `go_on`."""
+        """Pause motion after the current chunk, until `go_on`."""
         self._paused = True
 
     def go_on(self) -> None:
-        """The window does not need the processor for itself any more."""
+        """Resume after `pause`."""
         with self._changed:
             self._paused = False
             self._changed.notify()
@@ -222,7 +223,7 @@ class PlanWorker(Generic[T]):
             self._rest(min(GIVE_WAY * (now_s - start_s), MOST_REST_S), requests)
 
     def _rest(self, rest_s: float, requests: int) -> None:
-        """Wait until the request changes, at most this long."""
+        """Wait until the request changes, at most ``rest_s`` seconds."""
         with self._changed:
             self._changed.wait_for(
                 lambda: self._closed or self._pending is not None or self._requests != requests, timeout=rest_s

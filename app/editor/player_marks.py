@@ -1,4 +1,4 @@
-"""Mute and solo of players, for every list and lane that has their buttons."""
+"""Mute and solo buttons of players, for all lists and lanes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ PlayerMark: TypeAlias = Literal["muted", "soloed"]
 
 
 def mark_players(session: Session, field: PlayerMark, on: bool, chosen: tuple[str, ...]) -> None:
-    """Mute or solo players, or end it."""
+    """Set or clear mute or solo of players."""
     ids = {"muted": ("edit.unmute", "edit.mute"), "soloed": ("edit.unsolo", "edit.solo")}
     name = edit_of_players(session.project, ids[field][on], chosen)
     session.attempt(name, lambda project: players.change(project, chosen, **{field: on}))

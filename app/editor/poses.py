@@ -1,4 +1,4 @@
-"""The interface by which the viewport gets motion."""
+"""Interface through which the viewport gets motion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.performance.chunks import Pose, between
 
 
 def blended(one: Pose, other: Pose, share: float) -> Pose:
-    """A pose on the way from one to another: 0 is the one, 1 the other."""
+    """Interpolate between two poses: share 0 is the first, 1 the second."""
 
     def mixed(before: Mapping[str, float], after: Mapping[str, float]) -> dict[str, float]:
         names = {**before, **after}
@@ -35,7 +35,7 @@ def blended(one: Pose, other: Pose, share: float) -> Pose:
 
 
 def same(one: Pose | None, other: Pose | None) -> bool:
-    """Return whether two poses look the same."""
+    """Return whether two poses look equal."""
     if one is None or other is None or one is other:
         return one is other
     return (
@@ -52,7 +52,7 @@ class PoseSource(Protocol):
     """Source of poses by player and time."""
 
     def poses(self, player_ids: Sequence[str], time_s: float) -> Sequence[Pose | None]:
-        """Poses of players at a time, in their order; None while one is not made yet. Returns immediately."""
+        """Poses of players at a time, in order; None for those not computed yet. Returns immediately."""
 
     def pose_now(self, player_id: str, time_s: float) -> Pose | None:
-        """Pose of a player, made here and now if it is not there yet: for pictures that have to be right."""
+        """Pose of a player, computed immediately if missing, for pictures that must be right."""

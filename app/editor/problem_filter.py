@@ -1,4 +1,4 @@
-"""Filter of problems: those of one kind, and of the selected players."""
+"""Filter of problems by kind and by selected players."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ _KINDS: Final = {
 
 
 class ProblemFilter(NamedTuple):
-    """A choice of problems.
+    """Criteria for showing problems.
 
     Attributes
     ----------
     kind : str
-        See `kind_of`; empty: every kind.
+        Kind as in `kind_of`; empty: all kinds.
     of_selected : bool
-        Whether only those of the selected players are chosen.
+        Whether to show only those of selected players.
     """
 
     kind: str = ""
     of_selected: bool = False
 
     def takes(self, performer_id: str, problem: Problem, selected: Collection[str]) -> bool:
-        """Return whether a performer's problem is chosen."""
+        """Return whether a performer's problem passes the filter."""
         return self.kind in ("", kind_of(problem)) and (not self.of_selected or performer_id in selected)
 
 
 def kind_of(problem: Problem) -> str:
-    """The kind of a problem by what it is about, as ``fingering`` or ``breath``."""
+    """Kind of a problem by its subject, such as ``fingering`` or ``breath``."""
     room = problem.message.id.partition(".")[0]
     return _KINDS.get(room, room)

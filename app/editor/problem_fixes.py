@@ -1,4 +1,4 @@
-"""Fixes of problems: edits that mend every problem of one kind at once."""
+"""Fixes that resolve all problems of one kind at once."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ OCTAVE: Final = 12
 
 
 class ProblemFix(NamedTuple):
-    """An edit that mends problems of a kind.
+    """An edit that resolves problems of one kind.
 
     Attributes
     ----------
     text_id : str
-        Of its button; its text may name ``count``.
+        Text id of its button; the text may contain ``count``.
     edit : callable
-        Makes another project of a project, a player in it and problems of the kind; the project itself where the edit
-        mends none of them.
+        Function from a project, a player and problems of the kind to the edited project, or the same project if none is
+        resolved.
     """
 
     text_id: str
@@ -33,7 +33,7 @@ class ProblemFix(NamedTuple):
 
 
 def fixes_of(project: Project, player_id: str, problems: Sequence[Problem]) -> tuple[ProblemFix, ...]:
-    """Fixes that would change something about problems of one kind, the best one first."""
+    """Fixes applicable to problems of one kind, best first."""
     player = next((player for player in project.players if player.id == player_id), None)
     if player is None or not problems:
         return ()
@@ -43,7 +43,7 @@ def fixes_of(project: Project, player_id: str, problems: Sequence[Problem]) -> t
 
 
 def fixed(project: Project, fix: ProblemFix, by_player: Sequence[tuple[str, Sequence[Problem]]]) -> Project:
-    """A project with problems of several players mended."""
+    """The project with problems of several players resolved."""
     for player_id, problems in by_player:
         project = fix.edit(project, project.player(player_id), problems)
     return project
@@ -55,7 +55,7 @@ def _named(project: Project, player: Player, problems: Sequence[Problem]) -> lis
 
 
 def _from_written(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """The whole part sounds as it would if its notes had been written for the instrument, if all are in range then."""
+    """Transpose the whole part as if its notes had been written pitches, if all are then in range."""
     instrument = library().maps.get(player.instrument_id)
     if instrument is None or not instrument.transposition_semitones or not _named(project, player, problems):
         return project
@@ -66,7 +66,7 @@ def _from_written(project: Project, player: Player, problems: Sequence[Problem])
 
 
 def _by_octaves(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Notes go by whole octaves into the range, as few as are enough; those that no octave brings there stay."""
+    """Move notes by the fewest whole octaves into the range; notes that do not fit stay."""
     instrument = library().maps.get(player.instrument_id)
     if instrument is None:
         return project
@@ -83,7 +83,7 @@ def _by_octaves(project: Project, player: Player, problems: Sequence[Problem]) -
 
 
 def _shorten(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Notes end where the next note begins."""
+    """End notes where the next note begins."""
     onsets = {note.id: note.onset_tick for note in project.part(player).notes}
     following = {problem.note_id: onsets.get(str(problem.message.arguments["other"])) for problem in problems}
     for note in _named(project, player, problems):
@@ -94,12 +94,12 @@ def _shorten(project: Project, player: Player, problems: Sequence[Problem]) -> P
 
 
 def _erase(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Notes that cannot sound together with others go."""
+    """Delete notes that cannot sound together with others."""
     return edit.erase(project, [note.id for note in _named(project, player, problems)])
 
 
 def _revert(project: Project, player: Player, problems: Sequence[Problem]) -> Project:
-    """Corrections that lost their notes go."""
+    """Delete corrections that lost their notes."""
     lost = {(problem.message.arguments["kind"], problem.message.arguments["anchor"]) for problem in problems}
     items = project.corrections.get(player.id, ())
     return take_back(project, player.id, [item for item in items if (item.tag, item.subject) in lost])

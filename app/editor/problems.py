@@ -1,4 +1,4 @@
-"""Problems and selected notes as places: the time, the performer in front, and a camera that shows what is wrong."""
+"""Navigation to problems and selected notes: time, front performer, and a suitable camera view."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ _EVENT_VIEWS: Final[dict[str, View]] = {
 
 
 def view_of(problem: Problem) -> View:
-    """The view that shows what a problem is about."""
+    """The view that shows a problem's subject."""
     message_id = problem.message.id
     return _VIEWS.get(message_id) or _VIEWS.get(message_id.split(".")[0], _OTHER_VIEW)
 
 
 def view_of_event(event_id: str) -> View | None:
-    """The view that shows an event of a plan; None if no view does."""
+    """The view that shows an event of a plan; None if there is none."""
     kind = EventId.parse(event_id).kind
     if kind in BREATH_KINDS:
         return "mouth" if BREATH_KINDS[kind].draws_air else _OTHER_VIEW
@@ -58,9 +58,9 @@ def view_of_event(event_id: str) -> View | None:
 
 
 def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None:
-    """Bring a problem before the user: its performer in front, its note selected, playhead, timeline and camera there.
+    """Show a problem: front performer, selected note, playhead, timeline and camera.
 
-    Other selected players stay selected where the problem's player is among them.
+    Other selected players stay selected if the problem's player is among them.
     """
     project = session.project
     if performer_id in project.dancer_ids:
@@ -83,7 +83,7 @@ def go_to_problem(session: Session, performer_id: str, problem: Problem) -> None
 
 
 def forget_problems(session: Session) -> None:
-    """Let go of the problem that the user went to, from now on, once it is gone or something else is selected."""
+    """From now on, clear the current problem once it is gone or something else is selected."""
 
     def leave() -> None:
         session.set_problem(None)
@@ -106,7 +106,7 @@ def forget_problems(session: Session) -> None:
 
 
 def show_mended(session: Session, performer_id: str, problems: Sequence[Problem]) -> None:
-    """Select the notes of problems that were mended, and bring them into view: near the one gone to, else the first."""
+    """Select and show the notes of fixed problems: those near the current problem, else the first."""
     gone_to = session.problem[1] if session.problem is not None else None
     start_s = (gone_to if gone_to is not None and gone_to in problems else problems[0]).start_s
     if performer_id in {player.id for player in session.project.players} and performer_id not in session.players:
@@ -116,9 +116,9 @@ def show_mended(session: Session, performer_id: str, problems: Sequence[Problem]
 
 
 def follow_selection(session: Session) -> None:
-    """Let playhead and viewport follow the note that the user selects, from now on, while the setting is on.
+    """From now on, move playhead and viewport to notes that the user selects, while the setting is on.
 
-    A note that the playhead is in already leaves it there: it may be about to be split.
+    If the playhead is already within the note it stays, since the note may be about to be split.
     """
     before = session.selection.notes
 
@@ -139,7 +139,7 @@ def follow_selection(session: Session) -> None:
 
 
 def _note(session: Session, note_id: str) -> Note | None:
-    """The note of an id, of any part."""
+    """Note of an id in any part; None if there is none."""
     for part in session.project.score.parts:
         if note_id in part.note_ids:
             return next(note for note in part.notes if note.id == note_id)

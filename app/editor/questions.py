@@ -1,4 +1,4 @@
-"""Questions for the user, so that files need no dialog; the shell asks in dialogs, tests answer by themselves."""
+"""Questions to the user, independent of dialogs; the shell shows dialogs, tests answer directly."""
 
 from __future__ import annotations
 
@@ -18,24 +18,26 @@ ReadAgain: TypeAlias = Callable[[str | None], PieceContents]
 
 
 class Questions(Protocol):
-    """Interface for asking the user; it keeps dialogs out of the editor's services."""
+    """Interface for asking the user, which keeps dialogs out of the editor's services."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """Ask for an existing file; None if the user cancels."""
 
     def save_file(self, title: str, proposal: str, filters: str, suffixes: Sequence[str]) -> Path | None:
-        """A file to write, its name with one of the suffixes; whether one may be replaced was asked."""
+        """Ask for a file to write, with one of the suffixes and confirmation before replacing; None if the user
+        cancels.
+        """
 
     def unsaved(self, name: str) -> Answer:
-        """Ask whether changes that are in no file are saved, discarded or kept."""
+        """Ask whether unsaved changes should be saved, discarded or kept."""
 
     def stop_writing(self, works: tuple[Message, ...]) -> bool:
-        """Return whether the editor ends though it still writes files: the names of that work, which is stopped."""
+        """Ask whether to quit while files are still being written (by these tasks), which would stop that."""
 
     def import_midi(
         self, contents: PieceContents, read_again: ReadAgain, tokens: Tokens, tasks: Tasks
     ) -> ImportRequest | None:
-        """Return who plays what in a MIDI file, and whether a dancer dances to it; None: it is not imported."""
+        """Ask for the players of a MIDI file, and whether to add a dancer; None if the user cancels."""
 
     def remove_character(self, name: str, players: tuple[str, ...]) -> bool:
-        """Return whether a character goes for good, which these players are."""
+        """Ask whether to delete a character used by these players."""

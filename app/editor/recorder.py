@@ -1,8 +1,8 @@
-"""Recording in the editor: the device, the running take, and what becomes of it.
+"""Recording in the editor: the device, the running take, and adding it to the project.
 
-The events are stamped and written by a process of their own (`app.capture.recorder`), which continually gets the
-position of playback. When it has finished its journal, the passes of it become takes of the project, in one edit; the
-journal stays until they are in a file.
+A separate process stamps and writes the events (`app.capture.recorder`); it continually receives the playback position.
+When its journal is finished, the passes become takes of the project in one edit; the journal is kept until they are
+saved.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ MakeLink = Callable[[Callable[[], None]], RecorderLink]
 
 @dataclass
 class _Running:
-    """A take that is being recorded."""
+    """A take in progress."""
 
     path: Path
     second_path: Path
@@ -87,28 +87,28 @@ class _Running:
 
 
 class Recorder(QObject):
-    """The editor's recorder. The process behind it is started when a device is first requested.
+    """The editor's recorder. Its process starts when a device is first requested.
 
     Parameters
     ----------
     session : Session
-        Its `recording` is kept up to date; becomes the parent.
+        Session whose `recording` is updated; becomes the parent.
     files : Files
-        Beside the project's file lie the journals.
+        Files of the editor; journals are next to the project's file.
     settings : Settings
-        Remember the device, and what is known of each.
+        Settings that store the device and its properties.
     sound : EditorSound
-        Counts a take in, and goes on beyond the end of the piece.
+        Sound that plays the count-in and continues past the end of the piece.
     make_link : callable
     now_ns : callable
-        The clock of the events.
+        Clock of the events.
     make_playback : callable
-        Makes what plays a beep, or clicks, beside the performance.
+        Creates a playback for a beep or clicks in addition to the performance.
 
     Signals
     -------
     device_missing()
-        A take was to begin, and there is no device to record from.
+        A take was requested without a device.
     """
 
     device_missing = Signal()
@@ -151,7 +151,7 @@ class Recorder(QObject):
     # The device
 
     def begin(self) -> None:
-        """Look for devices, if not done yet."""
+        """Look for devices, unless already done."""
         if self._link is not None:
             return
         ask = window_calls().ask
@@ -160,12 +160,12 @@ class Recorder(QObject):
             self._link.open(self._state.port)
 
     def begin_where_remembered(self) -> None:
-        """Look for the device of last time; without one nothing is started."""
+        """Look for the device used last; without one nothing is started."""
         if self._state.port:
             self.begin()
 
     def choose(self, port: str) -> None:
-        """Record from this device from now on, also whenever it comes back; empty: from none."""
+        """Record from this device from now on, also after it is reconnected; empty: none."""
         self.begin()
         if port == self._state.port:
             return
@@ -177,7 +177,7 @@ class Recorder(QObject):
         self._link.open(port or None)
 
     def _find_again(self, ports: tuple[str, ...]) -> None:
-        """Take the device of last time by its name of now: systems and versions of ours number ports differently."""
+        """Find the device used last under its current name, since systems and versions number ports differently."""
         before = self._state.port
         if not before or before in ports or self._state.connection != "waiting":
             return
@@ -192,7 +192,7 @@ class Recorder(QObject):
         self._state.set(count_in_bars=bars)
 
     def set_controller(self, controller: str) -> None:
-        """Say what kind of controller the device is."""
+        """Set the kind of controller of the device."""
         self._settings.set_midi_device(self._state.port, "controller", controller)
         self._settings.set_midi_device(self._state.port, "breath", "")
         self._know(self._state.port)
@@ -204,7 +204,7 @@ class Recorder(QObject):
         self._know(self._state.port)
 
     def set_latency(self, latency_s: float) -> None:
-        """Say how late events of the device come."""
+        """Set the latency of the device."""
         self._settings.set_midi_device(self._state.port, "latency_s", repr(float(latency_s)))
         self._know(self._state.port)
 
@@ -236,7 +236,7 @@ class Recorder(QObject):
     # News
 
     def poll(self) -> None:
-        """Take the events of the recorder."""
+        """Receive the events of the recorder's process."""
         if self._link is None:
             return
         for reported in self._link.poll():
@@ -278,7 +278,7 @@ class Recorder(QObject):
                 self._finished(Path(os.fsdecode(reported.path)))
 
     def _refused(self, reason: Message) -> None:
-        """Report something that the recorder's process could not do, such as opening the device."""
+        """Report a failure of the recorder's process, such as opening the device."""
         state = self._state
         if reason.id == "capture.port_not_here":
             # It is waited for; a window that opens without it need not warn.
@@ -309,7 +309,7 @@ class Recorder(QObject):
         self._state.received.emit(events)
 
     def _silence(self) -> None:
-        """Stop what sounds: the device is gone or another was chosen."""
+        """End sounding notes after the device was lost or changed."""
         self._sounding.end_all()
         self._state.set_played(0.0, None)
         self._live.silence()
@@ -317,14 +317,14 @@ class Recorder(QObject):
     # A take
 
     def toggle(self) -> None:
-        """Record, or end the take."""
+        """Start recording, or end the take."""
         if self._state.running:
             self.stop()
         else:
             self.record()
 
     def record(self) -> None:
-        """Count in and record the armed player from the playhead on, in the loop where there is one."""
+        """Count in and record the armed player from the playhead, in the loop if there is one."""
         session, state = self._session, self._state
         player_id = self.recorded_player()
         playback = session.playback
@@ -371,15 +371,16 @@ class Recorder(QObject):
         self._sync_timer.start()
 
     def recorded_player(self) -> str | None:
-        """Return who is recorded: the armed player, else the one in front."""
+        """Return the id of the player to record: the armed one, else the one in front."""
         ids = {player.id for player in self._session.project.players}
         if self._state.armed in ids:
             return self._state.armed
         return self._session.player.id if self._session.player is not None else None
 
     def count_in_from_s(self, start_s: float) -> float:
-        """Return where counting in begins for a take from some moment: whole bars before the bar it lies in, so that
-        the first click is a bar's."""
+        """Return the start of the count-in for a take: whole bars before the bar of the take's start, so that the first
+        click is a downbeat.
+        """
         if self._state.count_in_bars == 0:
             return start_s
         score = self._session.project.score
@@ -388,7 +389,7 @@ class Recorder(QObject):
         return score.tempo_map.seconds(float(start - self._state.count_in_bars * (end - start)))
 
     def stop(self) -> None:
-        """End the take; the performance stops."""
+        """End the take and stop playback."""
         if self._session.playback is not None and self._session.playback.is_playing:
             # Notified of it, `_playing_changed` ends the take.
             self._session.playback.stop()
@@ -418,7 +419,7 @@ class Recorder(QObject):
         running.last_ns, running.last_s = ns, position_s
 
     def _turn(self, running: _Running, ns: int, position_s: float, speed: float) -> None:
-        """The loop has restarted, or playback jumped: a new pass begins."""
+        """Begin a new pass, after the loop restarted or playback jumped."""
         assert self._link is not None
         if running.loop_s is not None and position_s < running.last_s:
             begin_s, end_s = running.loop_s
@@ -446,7 +447,7 @@ class Recorder(QObject):
     # What becomes of it
 
     def _moved(self, path: Path, reason: str) -> None:
-        """The journal of a take goes on in its second place, because its disk is full."""
+        """Note that the journal of a take continues at its second place, because the disk is full."""
         for running in (*self._adopting, *([self._running] if self._running is not None else ())):
             if running.second_path == path:
                 said: dict[str, Argument] = {"file": str(running.path), "reason": reason, "journal": str(path)}
@@ -480,7 +481,7 @@ class Recorder(QObject):
     def _adopt(
         self, path: Path, player_id: str, takes: tuple[Take, ...], punch: tuple[int, int] | None, brought: bool = True
     ) -> bool:
-        """Takes into the project, the last one into the part; whether that could be done."""
+        """Add takes to the project and use the last one in the part; returns whether that succeeded."""
         if player_id not in {player.id for player in self._session.project.players}:
             self._session.notice(Message("record.player_gone", {"file": str(path)}), Severity.ERROR)
             return False
@@ -504,7 +505,7 @@ class Recorder(QObject):
         return True
 
     def _files_changed(self) -> None:
-        """Journals whose takes are in a file are not needed any more."""
+        """Delete journals whose takes are saved."""
         if not self._adopted or self._files.unwritten:
             return
         document = self._session.document
@@ -517,7 +518,7 @@ class Recorder(QObject):
         self._adopted.clear()
 
     def _project_opened(self) -> None:
-        """Add takes that a crash cut off to the opened project; nothing else changes."""
+        """Add takes interrupted by a crash to the opened project."""
         if self._state.running:
             self.stop()
         # What was played for another project waits beside that one's file until it is opened again.
@@ -532,7 +533,7 @@ class Recorder(QObject):
             self._recover_elsewhere()
 
     def _recover_elsewhere(self) -> None:
-        """Bring in takes of the open file that went on in a second place: their journals name it."""
+        """Add takes of the open file whose journals continued at a second place."""
         document = self._files.path
         if document is None:
             return
@@ -559,7 +560,7 @@ class Recorder(QObject):
             self._session.notice(Message("record.recovered", {"count": len(takes)}))
 
     def close(self) -> None:
-        """The editor ends: a running take is finished on the disk."""
+        """End the recorder; a running take is finished on disk."""
         self._sync_timer.stop()
         if self._link is not None:
             link, self._link = self._link, None
@@ -574,14 +575,14 @@ def _names(project: Project, player_id: str) -> tuple[str, ...]:
 
 
 def _first_tick(take: Take) -> float:
-    """Tick at which a take begins; a little earlier if its first note was struck shortly before."""
+    """Tick at which a take begins, slightly earlier if its first note was struck just before."""
     onsets_s, start_s = take.played.onsets_s, take.start_us / 1e6
     early_s = onsets_s[(onsets_s >= start_s - EARLY_S) & (onsets_s < start_s)]
     return take.tempo_map.ticks(float(early_s[0]) if len(early_s) else start_s)
 
 
 def _whole(takes: tuple[Take, ...]) -> int:
-    """The take that the part is given: the last one that was played to the end of the loop, else the last."""
+    """Index of the take to use in the part: the last one that covers the whole loop, else the last."""
     longest_us = max(take.end_us - take.start_us for take in takes)
     whole = [index for index, take in enumerate(takes) if take.end_us - take.start_us > 0.9 * longest_us]
     return whole[-1]

@@ -1,4 +1,4 @@
-"""State of the recording, shared by the transport, the panels and the recorder: player, device and progress."""
+"""State of recording, shared by transport, panels and recorder: player, device and progress."""
 
 from __future__ import annotations
 
@@ -33,46 +33,46 @@ class RecordingState(State):
     Attributes
     ----------
     ports : tuple of str
-        Devices that are there.
+        Available devices.
     port : str
-        The chosen one, there or not; empty: none.
+        The chosen device, available or not; empty: none.
     refusal : Message or None
-        Why the device, or every device, cannot be had.
+        Reason why the device, or all devices, are unavailable.
     controller : str
         Id of the preset in ``metadata/controllers``.
     mapping : ControllerMapping
-        With what the device sends breath and bite.
+        Controllers that carry breath and bite.
     armed : str
         Id of the player to record; empty: the active one.
     running : bool
-        A take is being recorded, or counted in.
+        Whether a take is being recorded or counted in.
     start_s, counted_from_s : float
-        Where the take begins, and where counting in did; seconds of the performance, while `running`.
+        Performance times at which the take and its count-in began, while `running`.
     passes : int
-        Of the loop, while `running`; from 1.
+        Number of the pass through the loop, from 1, while `running`.
     events : int
-        That are safe on the disk, of the running take.
+        Number of events of the running take that are safely on disk.
     count_in_bars : int
-        0..4.
+        Bars of count-in, 0..4.
     punch : bool
-        The part only takes what lies in the punch range.
+        Whether only the punch range is used in the part.
     punch_ticks : (int, int) or None
-        That range, half-open.
+        The punch range, half-open.
     breath : float
-        What is blown now, 0..1.
+        Current breath value, 0..1.
     pitch : int or None
-        The note that is played now; concert pitch.
+        Pitch of the current note, concert pitch.
     latency_s : float
-        Of the device, taken off every event.
+        Latency of the device, subtracted from every event.
 
     Signals
     -------
     changed()
-        One of these has changed, `breath` and `pitch` excepted.
+        An attribute other than `breath` and `pitch` has changed.
     played()
         `breath` or `pitch` has changed.
     received(object)
-        An `app.capture.protocol.Events` came in; for the monitor and the live pose.
+        An `app.capture.protocol.Events` was received, for the monitor and the live pose.
     """
 
     played = Signal()
@@ -100,7 +100,7 @@ class RecordingState(State):
         self.latency_s = 0.0
 
     def set_played(self, breath: float, pitch: int | None) -> None:
-        """Report the breath and the pitch of the moment."""
+        """Set the current breath and pitch."""
         if (breath, pitch) != (self.breath, self.pitch):
             self.breath, self.pitch = breath, pitch
             self.played.emit()

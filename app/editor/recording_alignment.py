@@ -1,5 +1,6 @@
-"""Aligns the score with the recording: an offset, a tempo or every beat is taken over as one edit; what is doubtful is
-reported."""
+"""Aligns the score with the recording: applies an offset, a tempo or all beats as one edit, and reports uncertain
+bars.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +21,7 @@ SAME_TEMPO = 0.002
 
 
 def take_estimate(session: Session, estimate: Estimate, unasked: bool, with_tempo: bool) -> None:
-    """Set the offset that was estimated, and the tempo if requested, as one edit; report how certain they are."""
+    """Set an estimated offset, and optionally the tempo, as one edit; report their confidence."""
     percent = round(100 * estimate.confidence)
     if estimate.confidence < SURE and (unasked or with_tempo):
         session.notice(Message("audio.not_recognised", {"percent": percent}), Severity.WARNING)
@@ -43,7 +44,7 @@ def take_estimate(session: Session, estimate: Estimate, unasked: bool, with_temp
 
 
 def follow_in_background(session: Session, recording: AudioRecording, options: FollowOptions) -> None:
-    """Put every beat where the recording has it; nothing where the project has another recording or score by then."""
+    """Align every beat to the recording in the background; the result is dropped if recording or score have changed."""
     project = session.project
 
     def work(progress: Progress, stop_requested: StopRequested) -> Followed:

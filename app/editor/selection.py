@@ -1,4 +1,4 @@
-"""The selection, as a value."""
+"""The selection as an immutable value."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ UNPLANNED: Final = ("vary", "additive", MARK)
 
 
 class EventKey(msgspec.Struct, frozen=True, order=True):
-    """An event of a player's plan."""
+    """Key of an event in a player's plan."""
 
     player_id: str
     event_id: str
@@ -35,7 +35,7 @@ class Selection(msgspec.Struct, frozen=True):
     span : (int, int) or None
         A range of ticks, half-open.
     take : str or None
-        A take of the player in front; empty: what was there before the first.
+        Take of the front player; empty: the part before the first take.
     """
 
     notes: frozenset[str] = frozenset()

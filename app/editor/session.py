@@ -1,6 +1,6 @@
-"""State that panels share: the document, the plans made from it, and what no file keeps.
+"""State shared by panels: the document, its plans, and everything not stored in files.
 
-Panels read it, listen to its signals and edit through `Session.apply`; they do not know one another.
+Panels read it, listen to its signals and edit through `Session.apply`; they do not know each other.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Severity(Enum):
 
 
 class PitchDisplay(State):
-    """Display of pitches: concert or written, the octave of middle C, what they are called."""
+    """Display of pitches: concert or written, octave of middle C, note names."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -170,11 +170,11 @@ class Session(QObject):
 
     @property
     def performance(self) -> Performance:
-        """The newest plans; of `project`, or of the value it had a moment ago (compare ``performance.project``)."""
+        """The current performance, of `project` or of a slightly older version (compare ``performance.project``)."""
         return self._performance
 
     def set_performance(self, performance: Performance) -> None:
-        """New plans are ready."""
+        """Set new plans."""
         if performance is not self._performance:
             self._performance = performance
             self.performance_changed.emit()
@@ -183,22 +183,22 @@ class Session(QObject):
 
     @property
     def plans(self) -> Mapping[str, PlayerPlan]:
-        """The newest plan of every player by id; none before they are made."""
+        """The current plan of every player by id; empty before planning."""
         return self._performance.plans if self._performance.planned else {}
 
     @property
     def plan(self) -> PlayerPlan | None:
-        """The plan of the player in front, if there are both."""
+        """The plan of the front player; None without one."""
         return self.plans.get(self._players[0]) if self._players else None
 
     def problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a player's performance by time, including its motion as far as it was made, without those that
-        the user ignores; the same tuple until they change, and none before there are plans. For a dancer, who has no
-        plan, the problems of the dance."""
+        """Problems of a player by time, without ignored ones, including those of the motion computed so far; the same
+        tuple until they change, and empty before planning. For a dancer, the problems of the dance.
+        """
         return self._split_problems(player_id)[0]
 
     def ignored_problems(self, player_id: str) -> tuple[Problem, ...]:
-        """Problems of a player or dancer that are there and ignored."""
+        """Problems of a performer that the user ignores."""
         return self._split_problems(player_id)[1]
 
     def _split_problems(self, player_id: str) -> tuple[tuple[Problem, ...], tuple[Problem, ...]]:
@@ -218,7 +218,7 @@ class Session(QObject):
         return known[1], known[2]
 
     def set_broken(self, broken: Mapping[str, tuple[Problem, ...]]) -> None:
-        """By player the contacts that the motion breaks, as the worker found."""
+        """Set the broken contacts by player, as found by the worker."""
         if broken != self._broken:
             self._broken = broken
             self.problems_changed.emit()
@@ -226,7 +226,7 @@ class Session(QObject):
     def apply(
         self, name: Message, project: Project, gesture: object | None = None, origin: object | None = None
     ) -> bool:
-        """Edit: see `Document.apply`. Returns whether it was done; the user is informed why it was not."""
+        """Edit the document (see `Document.apply`); returns whether it succeeded, and shows the reason if not."""
         try:
             self.document.apply(name, project, gesture, origin)
         except UsageError as error:
@@ -241,7 +241,7 @@ class Session(QObject):
         gesture: object | None = None,
         origin: object | None = None,
     ) -> bool:
-        """Edit with a function that may refuse: the user is informed why; whether it was done."""
+        """Edit with a function that may raise an AppError, which is shown; returns whether it succeeded."""
         try:
             project = edit(self.project)
         except AppError as error:
@@ -280,28 +280,28 @@ class Session(QObject):
 
     @property
     def players(self) -> tuple[str, ...]:
-        """Ids of the selected players; the first is in front."""
+        """Ids of the selected players; the first one is in front."""
         return self._players
 
     @property
     def player(self) -> Player | None:
-        """The player in front; None in a project without players."""
+        """The front player; None without players."""
         return self.project.player(self._players[0]) if self._players else None
 
     @property
     def in_front(self) -> tuple[str, ...]:
-        """Ids of the selected players, the one in front first; of the selected dancer where there are no players."""
+        """Ids of the selected players, front player first; without players, of the selected dancer."""
         return self._players or ((self._dancer_id,) if self._dancer_id else ())
 
     def set_players(self, players: tuple[str, ...]) -> None:
-        """Select players; the first is in front."""
+        """Select players; the first one becomes the front player."""
         if players != self._players:
             self._players = players
             self.players_changed.emit()
 
     @property
     def dancer(self) -> Dancer | None:
-        """The selected dancer; None in a project without dancers."""
+        """The selected dancer; None without dancers."""
         return self.project.dancer(self._dancer_id) if self._dancer_id else None
 
     def set_dancer(self, dancer_id: str) -> None:
@@ -322,11 +322,11 @@ class Session(QObject):
 
     @property
     def selection(self) -> Selection:
-        """The selection; always part of the present project."""
+        """The selection, always within the current project."""
         return self._selection
 
     def select(self, selection: Selection) -> None:
-        """Select this instead, as far as the project has it: what panels show may lag behind."""
+        """Select the existing part of a selection; panels may lag behind the project."""
         selection = selection.within(self.project)
         if selection != self._selection:
             self._selection = selection
@@ -378,12 +378,11 @@ class Session(QObject):
 
     @property
     def folded(self) -> Mapping[str, bool]:
-        """Return which parts of panels are folded (or not), by name; what the user never folded or unfolded is not
-        there."""
+        """Return the folded state of panel parts by name; parts the user never folded are missing."""
         return self._folded
 
     def set_folded(self, name: str, folded: bool) -> None:
-        """A part of a panel is folded, or not."""
+        """Set the folded state of a panel part."""
         if self._folded.get(name) is not folded:
             self._folded[name] = folded
             self.folded_changed.emit()
@@ -393,5 +392,5 @@ class Session(QObject):
         self.noticed.emit(message, severity)
 
     def reveal(self, time_s: float) -> None:
-        """Bring a time into view."""
+        """Scroll a time into view."""
         self.revealed.emit(time_s)

@@ -1,4 +1,4 @@
-"""Bindings between settings and the session that they are restored to and remembered from."""
+"""Bindings of settings to the session's values they are restored to and stored from."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from app.editor.session import Session
 
 @dataclass(frozen=True)
 class SettingBinding:
-    """Place of a setting in a running session."""
+    """Place of a setting's value in a session."""
 
     get: Callable[[Session], Any]
     set: Callable[[Session, Any], object]
@@ -22,7 +22,7 @@ class SettingBinding:
 
 
 def within(state: str, name: str) -> SettingBinding:
-    """Binding to a field of a state of the session: ``listening``, ``pitch_display``, ``video`` or ``viewport``."""
+    """Binding to an attribute of the session's state ``listening``, ``pitch_display``, ``video`` or ``viewport``."""
     return SettingBinding(
         lambda session: getattr(getattr(session, state), name),
         lambda session, value: getattr(session, state).set(**{name: value}),

@@ -1,7 +1,7 @@
-"""Settings of the editor on this machine, in the user's configuration folder, never in a project.
+"""Settings of the editor on this computer, in the user's configuration folder.
 
-The file is a TOML table that may be edited by hand. A value that is not possible is as if it were not there; a file
-that cannot be read at all is left as it is, and what is chosen meanwhile is kept until it can be, or the editor ends.
+The file is a TOML table that may be edited by hand. Invalid values are ignored; an unreadable file is not changed, and
+new values are kept in memory until it is readable or the editor ends.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ _Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 
 
 def settings_path() -> Path:
-    """Return where the settings of this user are."""
+    """Return the path of the user's settings."""
     return Path(platformdirs.user_config_dir("suisou", appauthor=False)) / "editor.toml"
 
 
 class Settings(StoredSettings):
-    """Settings of the editor on this machine, and what it remembers."""
+    """All settings and remembered values of the editor on this computer."""
 
     language = Setting(
         "interface/language", "", label="setting.language", options=(("", "setting_choice.systems"), *LANGUAGES.items())
@@ -169,7 +169,7 @@ class Settings(StoredSettings):
         return table
 
     def hold(self, session: Session) -> None:
-        """Restore what a session holds, and remember it there whenever it changes."""
+        """Restore the session's bound values, and store them whenever they change."""
         for setting in SETTINGS:
             if setting.held is not None:
                 setting.held.set(session, getattr(self, setting.name))
@@ -186,17 +186,17 @@ class Settings(StoredSettings):
     # Values that are several
 
     def midi_device(self, port: str, name: str) -> str:
-        """Stored settings of a device; empty: none."""
+        """Stored property of a device; empty: none."""
         return self._midi_devices.get(port, {}).get(name, "")
 
     def set_midi_device(self, port: str, name: str, value: str) -> None:
-        """Remember something of a device."""
+        """Store a property of a device."""
         if port:
             devices = self._midi_devices
             self._midi_devices = {**devices, port: {**devices.get(port, {}), name: value}}
 
     def rename_midi_device(self, before: str, port: str) -> None:
-        """Remember of a device by another name what was remembered by the one before; what that one has stays."""
+        """Copy the stored properties of a device to its new name, without overwriting."""
         devices = self._midi_devices
         if before in devices:
             self._midi_devices = {**devices, port: {**devices[before], **devices.get(port, {})}}
@@ -206,20 +206,20 @@ class Settings(StoredSettings):
         return dict(self._workspaces.get(workspace_id, {}))
 
     def set_workspace_state(self, workspace_id: str, **parts: str) -> None:
-        """Remember something of a workspace."""
+        """Store parts of a workspace's layout."""
         known = self._workspaces
         self._workspaces = {**known, workspace_id: {**known.get(workspace_id, {}), **parts}}
 
     def forget_workspace(self, workspace_id: str) -> None:
-        """A workspace is as at first."""
+        """Reset a workspace to its default layout."""
         self._workspaces = {id: state for id, state in self._workspaces.items() if id != workspace_id}
 
     def piece_view(self, path: str) -> str:
-        """The view of a piece that is opened again, by its file; empty: none is known."""
+        """Stored view of a piece by its file; empty: none."""
         return self._pieces.get(encoding.stored(path), "")
 
     def set_piece_view(self, path: str, view: str) -> None:
-        """Remember the view of a piece, and forget those that were not opened for long."""
+        """Store the view of a piece; the oldest ones are dropped."""
         path = encoding.stored(path)
         pieces = {other: text for other, text in self._pieces.items() if other != path} | {path: view}
         sizes = [len(f"{other}{text}") for other, text in pieces.items()]
@@ -229,25 +229,25 @@ class Settings(StoredSettings):
 
     @property
     def recent(self) -> tuple[str, ...]:
-        """Files opened lately, the newest first."""
+        """Recent files, newest first."""
         return tuple(path for text in self._recent[:MOST_RECENT] if (path := encoding.restored(text)))
 
     def add_recent(self, path: Path) -> None:
-        """Put a file that was just opened or saved at the top of the recent files."""
+        """Add a file to the top of the recent files."""
         text = str(path)
         others = tuple(other for other in self.recent if other != text)
         self._recent = tuple(map(encoding.stored, (text, *others)))[:MOST_RECENT]
 
     def remove_recent(self, path: str) -> None:
-        """Forget a file."""
+        """Remove a recent file."""
         self._recent = tuple(encoding.stored(other) for other in self.recent if other != path)
 
     def shortcut(self, action_id: str) -> str | None:
-        """The user's own shortcut of an action, ``;`` between several, empty for none; None: as it comes."""
+        """The user's shortcuts of an action, separated by ``;``, empty for none; None: the default."""
         return self._shortcuts.get(action_id)
 
     def set_shortcut(self, action_id: str, keys: str | None) -> None:
-        """Set a user's own shortcut for an action; None: the default."""
+        """Set a user's shortcuts for an action; None: the default."""
         others = {id: own for id, own in self._shortcuts.items() if id != action_id}
         self._shortcuts = others if keys is None else {**others, action_id: keys}
 

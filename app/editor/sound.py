@@ -1,6 +1,6 @@
-"""The sound follows the project: recording, players and metronome are kept ready and given to the playback.
+"""Keeps recording, players and metronome ready for playback while the project changes.
 
-While it plays, the playhead follows the sound.
+During playback the playhead follows the sound.
 """
 
 from __future__ import annotations
@@ -47,11 +47,11 @@ class EditorSound(QObject):
     Parameters
     ----------
     session : Session
-        Gets the playback, and becomes the parent.
+        Session that gets the playback and becomes the parent.
     playback : Playback, optional
-        One on the system's device, if None.
+        Playback to use; None: one on the system's device.
     audible : bool
-        Whether the performance can be played; else the recording is read to be seen, and nothing more.
+        Whether sound can be played; otherwise the recording is only read for its waveform.
     """
 
     def __init__(self, session: Session, playback: Playback | None = None, audible: bool = True) -> None:
@@ -145,7 +145,7 @@ class EditorSound(QObject):
     # Takes
 
     def listen(self, take: RecordedTake, from_s: float) -> None:
-        """Play a take without taking it, as soon as its beginning is rendered; it is over when the sound stops."""
+        """Audition a take as soon as its beginning is rendered, until playback stops."""
         self.playback.stop()
         self._session.set_playhead(from_s)
         self._session.listening.set(take=take)
@@ -154,7 +154,7 @@ class EditorSound(QObject):
         self._play_take()
 
     def stop_listening(self) -> None:
-        """Hear the part again."""
+        """End the audition of a take."""
         self._take_timer.stop()
         self.playback.stop()
         self._session.listening.set(take=None)
@@ -168,7 +168,7 @@ class EditorSound(QObject):
             self.playback.play(self._session.playhead_s)
 
     def _sounding_project(self) -> Project:
-        """The project as it sounds: the auditioned take replaces the part."""
+        """The project with the auditioned take in place of the part."""
         project, take = self._session.project, self._session.listening.take
         recorded = project.takes.get(take.player_id) if take is not None else None
         if take is None or recorded is None or (take.take_id and all(take.take_id != t.id for t in recorded.takes)):
@@ -216,7 +216,7 @@ class EditorSound(QObject):
             self._take()
 
     def _take(self) -> None:
-        """Play the present project."""
+        """Play the current project."""
         project = self._sounding_project()
         self._set_span(project)
         path = project.audio.path if project.audio is not None else ""
@@ -227,14 +227,13 @@ class EditorSound(QObject):
         self._set_mix()
 
     def _go_on(self) -> None:
-        """Synthesise what was held back: the piece is planned, or to be heard."""
+        """Synthesise what was deferred until the piece was planned or played."""
         if self._held_back:
             self._held_back = False
             self._take()
 
     def set_recording(self, counted_s: tuple[float, float] | None) -> None:
-        """A take is recorded: it is counted in from a moment to another, and the performance goes on without an end.
-        None: no more."""
+        """Set the span of a count-in while recording, with playback continuing past the end; None: not recording."""
         self._counted_s = counted_s
         self._set_span(self._sounding_project())
         self._set_mix()
@@ -288,7 +287,7 @@ class EditorSound(QObject):
     # The recording
 
     def _read_agreed(self) -> None:
-        """Read the recording that was left alone before the user agreed to its computer."""
+        """Read a recording on another computer after the user has agreed."""
         if self._recording is None:
             self._path = ""
             self._take()
@@ -329,14 +328,14 @@ class EditorSound(QObject):
         )
 
     def estimate(self, unasked: bool = False, with_tempo: bool = False) -> None:
-        """Estimate the recording's offset from its sound; set it as an edit.
+        """Estimate the recording's offset from its sound, and set it as an edit.
 
         Parameters
         ----------
         unasked : bool
-            The recording was just added: an uncertain offset is reported, but not taken.
+            Whether the recording was just added: an uncertain offset is then reported but not set.
         with_tempo : bool
-            Fit the score's tempo to the recording's as well.
+            Whether to fit the score's tempo too.
         """
         recording, project = self._recording, self._session.project
         if recording is None or project.audio is None:
@@ -356,7 +355,7 @@ class EditorSound(QObject):
         self._session.tasks.run(Message("work.estimate_offset"), work, done, key="estimate")
 
     def follow(self, options: FollowOptions | None = None) -> None:
-        """Put every beat where the recording has it, as an edit; what is doubtful is reported."""
+        """Align every beat to the recording as an edit, and report uncertain bars."""
         if self._recording is not None and self._session.project.audio is not None:
             follow_in_background(self._session, self._recording, options or FollowOptions())
 
@@ -366,7 +365,7 @@ def _is_large(project: Project) -> bool:
 
 
 def span_of(project: Project) -> TimeFrame:
-    """The performance's span at once, while its plans are still being made."""
+    """Time span of the performance, available before its plans."""
     parts = [project.part(player) for player in project.players]
     first_tick = min((part.notes[0].onset_tick for part in parts if part.notes), default=0)
     last_tick = max((part.end_tick for part in parts), default=0)

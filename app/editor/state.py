@@ -1,4 +1,4 @@
-"""State of the editor that is in no file, shared by all who show it."""
+"""Shared editor state that is not stored in files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 class State(QObject):
-    """Attributes that are set together.
+    """Attributes with a common signal of change.
 
     Signals
     -------
@@ -22,7 +22,7 @@ class State(QObject):
     changed = Signal()
 
     def set(self, **values: Any) -> None:
-        """Change some attributes; `changed` once if any changes."""
+        """Change some attributes; emits `changed` once if any changes."""
         different = [name for name, value in values.items() if getattr(self, name) != value]
         for name in different:
             setattr(self, name, values[name])
@@ -31,12 +31,12 @@ class State(QObject):
 
 
 class Watched(Generic[T]):
-    """A value of an object that is read as an attribute and set by its `setter`.
+    """A value that is read as an attribute and set by its `setter`.
 
     Parameters
     ----------
     signal : str
-        The object's signal of a change of the value.
+        Name of the object's signal for a change of the value.
     initial : object
     is_sent : bool
         Whether the signal carries the value.
@@ -64,7 +64,7 @@ class Watched(Generic[T]):
         return self if holder is None else cast("T", vars(holder).get(self._name, self._initial))
 
     def put(self, holder: QObject, value: T) -> bool:
-        """Set the value without the signal; return whether it is a different one."""
+        """Set the value without emitting; returns whether it changed."""
         before = self.__get__(holder, type(holder))
         vars(holder)[self._name] = value
         return bool(before != value)

@@ -1,4 +1,4 @@
-"""The sound of every player and of the percussion by the synthesiser, kept up to date in the background."""
+"""Renders the sound of every player and of the percussion with the synthesiser in the background."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ _AHEAD_S = 20.0
 
 @dataclass(frozen=True, eq=False)
 class _Made:
-    """The phrases of a player or of the percussion, and what they were made from."""
+    """The phrases of a player or of the percussion, with the sources they were made from."""
 
     sources: tuple[object, ...]
     phrases: tuple[RenderedPhrase, ...]
 
     def is_of(self, sources: tuple[object, ...]) -> bool:
-        """Return whether they are up to date: compared by identity, as values are."""
+        """Return whether the phrases are up to date, comparing sources by identity."""
         return all(one is other for one, other in zip(self.sources, sources, strict=True))
 
 
 @dataclass(eq=False)
 class _Job:
-    """Rendering under way; the worker writes, the window's thread reads."""
+    """Rendering in progress; written by the worker, read on the window's thread."""
 
     project: Project
     made: dict[str, _Made] = field(default_factory=dict)
@@ -60,17 +60,17 @@ class _Job:
 
 
 class Stems(QObject):
-    """The players' tracks.
+    """Rendered tracks of the players.
 
     Parameters
     ----------
     key : str
-        Of the rendering among the tasks (`Tasks.run`).
+        Task key of the rendering (`Tasks.run`).
 
     Signals
     -------
     changed()
-        More is rendered than before.
+        More sound has been rendered.
     """
 
     changed = Signal()
@@ -95,16 +95,16 @@ class Stems(QObject):
 
     @property
     def is_busy(self) -> bool:
-        """True if something is to be rendered, or being rendered."""
+        """True if something is waiting or being rendered."""
         return self._settle_timer.isActive() or self._look_timer.isActive()
 
     def follow(self, project: Project, from_s: float) -> None:
-        """Render what a project needs and is not there yet.
+        """Render the missing sound of a project.
 
         Parameters
         ----------
         from_s : float
-            What sounds from here on is rendered first.
+            Playback time from which to render first.
         """
         self._requested = (project, from_s)
         job = self._job
@@ -117,27 +117,26 @@ class Stems(QObject):
             self._settle_timer.start()
 
     def stop(self) -> None:
-        """Render nothing more."""
+        """Stop rendering."""
         self._settle_timer.stop()
         self._look_timer.stop()
         if self._job is not None:
             self._job.is_stopped = True
 
     def clear(self) -> None:
-        """Forget the project that was followed, and its tracks."""
+        """Drop the project and its tracks."""
         self.stop()
         self._job, self._requested, self._made, self._tracks, self.ready = None, None, {}, {}, 0.0
 
     def covers(self, at_s: float) -> bool:
-        """Return whether what sounds next at a moment is rendered, or being rendered."""
+        """Return whether the sound after a time is rendered or being rendered."""
         if self._job is None:
             return True
         start_s, end_s = self._job.window_s
         return start_s <= at_s and (at_s + _AHEAD_S < end_s or end_s == inf)
 
     def tracks(self, project: Project, percussion: bool = True) -> list[MixTrack]:
-        """The audible players, and the percussion if it is requested, as far as they are rendered; a track is kept
-        while nothing of it changes."""
+        """Audible players and, if requested, percussion, as far as rendered; unchanged tracks stay the same objects."""
         tracks, kept = [], {}
         for player_id, gains in player_gains(project).items():
             if player_id == PERCUSSION and not percussion:
@@ -155,7 +154,7 @@ class Stems(QObject):
         return tracks
 
     def _render(self) -> None:
-        """Render what is missing, what sounds next first."""
+        """Render missing sound, in the order of playback."""
         if self._requested is None:
             return
         project, from_s = self._requested
@@ -191,7 +190,7 @@ class Stems(QObject):
         self._tasks.run(Message("work.synthesise"), work, lambda _: self._look(), key=self._key)
 
     def _look(self) -> None:
-        """Take over windows of sound that have been rendered."""
+        """Add newly rendered sound."""
         job = self._job
         if job is None:
             return
@@ -210,7 +209,7 @@ class Stems(QObject):
 def _next_phrases(
     phrases: Sequence[tuple[str, RenderedPhrase]], from_s: float
 ) -> tuple[tuple[tuple[str, RenderedPhrase], ...], tuple[float, float]]:
-    """Phrases of as many players as there is room for, the next to sound first, and the seconds that they cover."""
+    """Phrases of as many players as fit in memory, in the order of playback, and the time span that they cover."""
     ordered = sorted(phrases, key=lambda item: (item[1].end < from_s * RATE_HZ, item[1].start))
     taken = 0
     for index, (_, phrase) in enumerate(ordered):
@@ -223,7 +222,7 @@ def _next_phrases(
 
 
 def _voices(project: Project) -> dict[str, Player | None]:
-    """Return what sounds, by id; None is the percussion."""
+    """Return everything that sounds, by id; None is the percussion."""
     voices: dict[str, Player | None] = {player.id: player for player in project.players}
     return voices | {PERCUSSION: None} if project.score.percussion else voices
 

@@ -1,4 +1,4 @@
-"""Typed settings in a TOML file: what a setting declares, and the file that has them."""
+"""Typed settings stored in a TOML file."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ WRITE_MS: Final = 300
 
 
 class Setting(Generic[T]):
-    """Declaration of one setting, an attribute of `StoredSettings`: its default, label and options. It is restored,
-    remembered and shown by this declaration alone.
+    """Declaration of one setting, an attribute of `StoredSettings`: default, label and options. Restoring, storing and
+    preferences are derived from it.
 
     Parameters
     ----------
     key : str
         ``section/name``, or a whole section.
     kind : type, optional
-        What is possible, as msgspec understands it; by default the default's type.
+        Allowed type for msgspec; by default the type of the default.
     held : SettingBinding, optional
-        It is restored at the start, and remembered whenever it changes there.
+        Binding from which it is stored, and to which it is restored.
     label : str
-        In the preferences; empty: it is not there.
+        Text id of its label in the preferences; empty: not shown.
     options : tuple of (value, word)
-        What is possible, if not all of a kind. The words are ids of texts, like the label.
+        Allowed values with their text ids, if limited to these.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class Setting(Generic[T]):
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Return the ids of the setting's label and of its options."""
+        """Return the text ids of label and options."""
         return (self.label, *(word for _, word in self.options))
 
     @overload
@@ -78,7 +78,7 @@ class Setting(Generic[T]):
         settings.store(self.keys, self.written(value))
 
     def read(self, stored: object, file: str) -> T:
-        """The value; MapError where it is not possible."""
+        """Decode a stored value; MapError if it is invalid."""
         value: T = shaped(stored, self._kind, file)
         possible = [one for one, _ in self.options]
         if possible and value not in possible:
@@ -86,12 +86,12 @@ class Setting(Generic[T]):
         return value
 
     def written(self, value: T) -> object:
-        """Return a value in the file's form."""
+        """Return a value in its stored form."""
         return value
 
 
 class BytesSetting(Setting[QByteArray]):
-    """Bytes of Qt, as base64."""
+    """Setting with Qt bytes, stored as base64."""
 
     def __init__(self, key: str) -> None:
         super().__init__(key, QByteArray(), str)
@@ -107,7 +107,7 @@ class BytesSetting(Setting[QByteArray]):
 
 
 class FilePathSetting(Setting[str]):
-    """A path, also one whose name is not UTF-8."""
+    """Setting with a path, including names that are not valid UTF-8."""
 
     def read(self, stored: object, file: str) -> str:
         return encoding.restored(super().read(stored, file))
@@ -117,17 +117,17 @@ class FilePathSetting(Setting[str]):
 
 
 class StoredSettings(QObject):
-    """Settings in a file; each is written soon after it changes, beside those of other editors.
+    """Settings in a file; each change is written soon afterwards, merged with changes of other editors.
 
     Parameters
     ----------
     path : Path
-        Need not exist.
+        Path of the file, which need not exist.
 
     Signals
     -------
     failed(Message)
-        The file can no longer be read or written; reported once.
+        The file cannot be read or written; emitted once.
     """
 
     failed = Signal(object)
@@ -150,17 +150,17 @@ class StoredSettings(QObject):
 
     @classmethod
     def declared(cls) -> tuple[Setting[Any], ...]:
-        """Every setting of the class."""
+        """All settings of the class."""
         return tuple(value for value in vars(cls).values() if isinstance(value, Setting))
 
     def stored(self, keys: tuple[str, str]) -> object:
-        """Return the file's value under a section and a name; None: none."""
+        """Return a stored value by section and name; None: none."""
         section, name = keys
         values = self._table.get(section)
         return values if not name else values.get(name) if isinstance(values, dict) else None
 
     def store(self, keys: tuple[str, str], value: object) -> None:
-        """Put something under a section and a name, and write it soon."""
+        """Store a value by section and name, and write the file soon."""
         if self.stored(keys) == value:
             return
         _put(self._table, keys, value)
@@ -169,8 +169,9 @@ class StoredSettings(QObject):
             self._timer.start()
 
     def sync(self) -> None:
-        """Write what changed to the disk now; what other editors have written there stays, and so does a file that
-        cannot be read: the changes wait until it can."""
+        """Write changes to disk now, merged with those of other editors; an unreadable file is not replaced, and the
+        changes wait.
+        """
         self._timer.stop()
         if not self._changes:
             return
@@ -200,7 +201,7 @@ class StoredSettings(QObject):
             raise
 
     def _possible(self, table: dict[str, Any]) -> dict[str, Any]:
-        """The table without values that are not possible, which are problems."""
+        """The table without invalid values, which are reported."""
         self._table = table
         file = os.fspath(self.path)
         for value in self.declared():
@@ -215,7 +216,7 @@ class StoredSettings(QObject):
 
 
 def _put(table: dict[str, Any], keys: tuple[str, str], value: object) -> None:
-    """Put a value into a table of tables; None takes it away."""
+    """Put a value into nested tables; None removes it."""
     section, name = keys
     if not name:
         table[section] = value

@@ -1,8 +1,8 @@
-"""Streams the poses of players and dancers while the editor plays, is scrubbed, rests or records: see `app.stream`.
+"""Streams poses of performers during playback, scrubbing, rest and recording: see `app.stream`.
 
-A thread sends, so that neither waits for the other: the window says what is requested, where the sound is and that
-something moves. A frame that the network does not take at once is dropped. While nothing moves it continues slowly, so
-that the receiver knows that the sender is there.
+Sending runs on a thread; the window provides the requested performers, the playback position, and whether something
+moves. Frames that the network does not accept immediately are dropped. At rest it continues slowly, so that receivers
+see the connection.
 """
 
 from __future__ import annotations
@@ -49,16 +49,16 @@ _SECOND_S: Final = 1.0
 
 
 class Streamer(QObject):
-    """Sends what `session.streaming` says, as long as it is on.
+    """Streams as set in `session.streaming`.
 
     Parameters
     ----------
     session : Session
-        Becomes the parent.
+        Session that becomes the parent.
     settings : Settings
-        Remember where to; not that it was on.
+        Settings that store the destination, but not whether streaming was on.
     poses : PoseSource
-        Of the performance; asked by the thread.
+        Poses of the performance, read on the thread.
     """
 
     def __init__(self, session: Session, settings: Settings, poses: PoseSource) -> None:
@@ -103,7 +103,7 @@ class Streamer(QObject):
 
     @property
     def _broadcast(self) -> bool:
-        """True if the host may be many computers."""
+        """True if the host is a confirmed broadcast address."""
         return self._state.broadcast == self._state.host
 
     def _changed(self) -> None:
@@ -123,7 +123,7 @@ class Streamer(QObject):
             self._request()
 
     def _look_up(self) -> None:
-        """A computer with a name may take seconds to be found."""
+        """Resolve the host name, which may take seconds."""
         asked = host, port, broadcast = self._state.host, self._state.port, self._broadcast
         self.close()
         self._asked = asked
@@ -154,7 +154,7 @@ class Streamer(QObject):
         self._request()
 
     def close(self) -> None:
-        """Send no more."""
+        """Stop sending."""
         self._asked = self._address = None
         if self._ending is not None:
             self._ending()
@@ -162,7 +162,7 @@ class Streamer(QObject):
         self._state.set(state="off", lines=(), sent_hz=0, trouble=None)
 
     def _request(self, *_: object) -> None:
-        """Update the performers that are sent, and the receiver."""
+        """Update the performers to send, and the receiver."""
         if self._address is None or self._thread is None:
             return
         state, project = self._state, self._session.project
@@ -192,7 +192,7 @@ class Streamer(QObject):
         self.moved()
 
     def moved(self, *_: object) -> None:
-        """Something moves, or did just now."""
+        """Record that something moves."""
         if self._thread is None:
             return
         session, playback = self._session, self._session.playback
@@ -209,20 +209,20 @@ class Streamer(QObject):
         self._state.set(state=state, sent_hz=sent_hz, trouble=None)
 
     def _fail(self, message: Message) -> None:
-        """Report the failure once, and try again as long as streaming is on and the computer is known."""
+        """Report a failure once; sending is retried while streaming is on and the host is resolved."""
         if self._state.trouble != message:
             self._session.notice(message, Severity.ERROR)
         self._state.set(state="failed", trouble=message, sent_hz=0)
 
     def _fell(self, fault: BaseException) -> None:
-        """A fault of the program ended the thread: nothing is sent any more."""
+        """End streaming after an unexpected exception of the thread."""
         self._state.set(on=False)
         raise fault
 
 
 @dataclass(frozen=True)
 class _Request:
-    """Data for the streaming thread; ``beside`` are the other parts that each performer plays."""
+    """Data for the streaming thread; ``beside`` are the other parts of each performer."""
 
     address: Address
     performers: tuple[Player | Dancer, ...]
@@ -236,7 +236,7 @@ class _Request:
 
 @dataclass(frozen=True)
 class _Anchor:
-    """Position of the performance at a moment of `time.perf_counter`, with its speed."""
+    """Performance position and speed at a time of `time.perf_counter`."""
 
     position_s: float
     at_s: float
@@ -244,7 +244,7 @@ class _Anchor:
     loop_s: tuple[float, float] | None
 
     def position(self, now_s: float) -> float:
-        """Return where it is now; the end of a loop is not gone beyond."""
+        """Return the current position, at most the end of the loop."""
         position_s = self.position_s + min(now_s - self.at_s, ALONE_S) * self.speed
         if self.loop_s is not None and self.position_s < self.loop_s[1]:
             return min(position_s, self.loop_s[1])
@@ -252,7 +252,7 @@ class _Anchor:
 
 
 class _Thread:
-    """Sends at its rate until it is closed. Holds nothing of the window."""
+    """Thread that sends frames at a rate. It holds no objects of the window."""
 
     def __init__(self, poses: LivePoses, say: Reporter[Streamer]) -> None:
         self._poses, self._say = poses, say
@@ -305,7 +305,7 @@ class _Thread:
             self._close_senders()
 
     def _step(self, due_s: float) -> float:
-        """Send what is due; when the next one is."""
+        """Send what is due; returns the time of the next frame."""
         with self._changed:
             moved_s = self._moved_s
             # Woken early where something moves again, or something else is requested.
@@ -336,7 +336,7 @@ class _Thread:
         return time.perf_counter() - moved_s > SETTLED_S
 
     def _send(self, request: _Request, time_s: float, now_s: float) -> bool:
-        """The present poses of all players; whether no receiver answers."""
+        """Send the current poses of all performers; returns whether no receiver answers."""
         for port in self._senders.keys() - set(request.ports):
             self._senders.pop(port).close()
         everything = [*(one.id for one in request.performers), *(one.id for played in request.beside for one in played)]
@@ -365,7 +365,7 @@ class _Thread:
         return bool(outcomes) and all(outcome is SendOutcome.NO_RECEIVER for outcome in outcomes)
 
     def _sent_of(self, performer: Player | Dancer, faces: FaceNames, beside: Sequence[Player]) -> Sent:
-        """Stream of a performer; made again for another character, instrument or names."""
+        """Stream of a performer; made again after a change of character, instrument or curve names."""
         instrument = performer.instrument_id if isinstance(performer, Player) else None
         of = (character_named(performer.character_id), instrument, faces, tuple(one.instrument_id for one in beside))
         known = self._sent.get(performer.id)

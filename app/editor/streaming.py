@@ -1,4 +1,4 @@
-"""State of streaming to other programs, shared by the dialog, the commands, the status line and the streamer."""
+"""State of streaming to other programs, shared by dialog, commands, status line and streamer."""
 
 from __future__ import annotations
 
@@ -23,36 +23,35 @@ USUAL_RATE_HZ: Final = 60
 
 @dataclass(frozen=True)
 class StreamTarget:
-    """A player or dancer and the port they are sent to."""
+    """A performer with its destination port."""
 
     player_id: str
     port: int
 
 
 class Streaming(State):
-    """State of the streaming.
+    """State of streaming.
 
     Attributes
     ----------
     on : bool
-        Whether it is to be streamed.
+        Whether streaming is on.
     host : str
-        A computer's name or address.
+        Name or address of the receiving computer.
     broadcast : str
-        The host that may be sent to although every computer on the network can receive it: it was confirmed.
+        Broadcast host that the user has confirmed, although every computer on the network can receive it.
     port : int
-        Of the active player; of several, the first one's.
+        Port of the active player; of several players, the first port.
     everyone : bool
-        Every player and dancer, each to a port of their own, at their places on the stage; else the one in front, in
-        the middle.
+        Whether all performers are sent, each to its own port, at their stage places; otherwise the front one, centred.
     rate_hz : int
-        Frames in a second while something moves.
+        Frames per second while something moves.
     lines : tuple of StreamTarget
-        Who is sent where.
+        Destination of each performer.
     sent_hz : int
-        Frames of a performer that were sent in the last second.
+        Frames of one performer sent in the last second.
     trouble : Message or None
-        Why nothing can be sent.
+        Reason why nothing can be sent.
     """
 
     def __init__(self) -> None:
@@ -70,7 +69,7 @@ class Streaming(State):
         self.trouble: Message | None = None
 
     def planned(self, project: Project, front: Sequence[str]) -> tuple[StreamTarget, ...]:
-        """Return which player is sent to which port, or would be; players without a port are excluded.
+        """Return the destination of each performer; those without a port are excluded.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Stretches of time: what a place can be set to, how far the timeline scrolls, and where the selection lies."""
+"""Time ranges: limits of typed positions and of scrolling, the whole piece, and the selection."""
 
 from __future__ import annotations
 
@@ -16,20 +16,19 @@ LEAST_BARS = 4
 
 
 def place_limits(session: Session) -> tuple[float, float]:
-    """Limits of places that are typed, seconds: the performance with its pre-roll, and room to write on."""
+    """Range of allowed positions in seconds: the performance with its pre-roll, and free room after it."""
     start_s, end_s = _performance_s(session)
     return start_s, max(end_s + max(ROOM_S, ROOM_SHARE * end_s), LEAST_S)
 
 
 def scroll_limits(session: Session) -> tuple[float, float]:
-    """Limits of the timeline, seconds: those of places, and a margin in front."""
+    """Scroll range of the timeline in seconds: allowed positions, and a margin before them."""
     start_s, end_s = place_limits(session)
     return start_s - MARGIN_S, end_s
 
 
 def whole_piece(session: Session) -> tuple[float, float]:
-    """Span that shows the whole piece, seconds: its performance, at least some bars; all there is room for where
-    nothing has been written yet."""
+    """Range in seconds that shows the whole piece, at least some bars; everything for an empty piece."""
     limits_s = scroll_limits(session)
     score = session.project.score
     if not score.sounding_end_tick:
@@ -40,7 +39,7 @@ def whole_piece(session: Session) -> tuple[float, float]:
 
 
 def _performance_s(session: Session) -> tuple[float, float]:
-    """First and last second of the performance; of the notes and the usual pre-roll before it is planned."""
+    """First and last second of the performance; before planning, of the notes with the usual pre-roll."""
     score = session.project.score
     end_s = score.tempo_map.seconds(float(score.end_tick))
     performance = session.performance
@@ -51,7 +50,7 @@ def _performance_s(session: Session) -> tuple[float, float]:
 
 
 def selected_span(session: Session) -> tuple[float, float] | None:
-    """Span of all that is selected, seconds; None: nothing is."""
+    """Time range of the selection in seconds; None without one."""
     selection, project = session.selection, session.project
     tempo = project.score.tempo_map
     places: list[tuple[float, float]] = []

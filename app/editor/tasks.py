@@ -1,7 +1,7 @@
-"""Slow work in the background: in threads, with progress, stopped on request, its errors reported.
+"""Background tasks on threads, with progress, cancellation and error reports.
 
-A thread never lets go of anything last: what its work knew may be of the window, and an object of Qt that dies in a
-thread not its own takes the program with it. The window's thread waits for the thread's end before it lets go.
+A thread must not release the last reference to an object of the window, since deleting a Qt object on another thread
+crashes the program. The window's thread therefore keeps the references until the thread has ended.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 class Tasks(Protocol):
-    """Runs work in the background; shows its name and progress in the status line, where it can be cancelled."""
+    """Runs work in the background, with name and progress in the status line, where it can be cancelled."""
 
     def run(
         self,
@@ -36,47 +36,47 @@ class Tasks(Protocol):
         *,
         writes: bool = False,
     ) -> None:
-        """Start work in a thread; ``done`` or ``failed`` follows in the window's thread.
+        """Start work on a thread; ``done`` or ``failed`` is called on the window's thread.
 
         Parameters
         ----------
         name : Message
-            What is being done.
+            Name of the work.
         work : callable
-            Gets progress and stop_requested; it takes snapshots of values and touches no widget.
+            Called with progress and stop_requested; it uses immutable snapshots and no widgets.
         done : callable
-            Gets the result. Not called after a cancel.
+            Called with the result, unless cancelled.
         failed : callable, optional
-            Gets an error the user can act on; without it the session shows it.
+            Called with an error for the user; by default the session shows it.
         key : str, optional
-            Work with a key takes the place of work with the same key, which is stopped.
+            New work replaces and stops running work with the same key.
         ended : callable, optional
-            Called in the window's thread when the work is over, however it went and before anything else is reported.
+            Called on the window's thread when the work has ended in any way, before other reports.
         writes : bool
-            True: it makes files that the user asked for, and the editor does not end meanwhile without a question.
+            Whether it writes files requested by the user, so that quitting asks first.
         """
         ...
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """Names of the work under way that makes files the user asked for, oldest first."""
+        """Names of running work that writes requested files, oldest first."""
         ...
 
 
 @dataclass(eq=False)
 class Task:
-    """Work under way.
+    """Running work.
 
     Attributes
     ----------
     name : Message
-        What is being done.
+        Name of the work.
     share : float
-        0..1 of it that is done, as the worker says.
+        Share of the work done, 0..1.
     is_cancelled : bool
-        The user does not want it any more; what is stopped by newer work of its key is not cancelled.
+        Whether the user cancelled it; False if newer work with its key replaced it.
     writes : bool
-        It makes files that the user asked for.
+        Whether it writes files requested by the user.
     """
 
     name: Message
@@ -122,17 +122,17 @@ class ThreadTasks(QObject):
 
     @property
     def running(self) -> tuple[Task, ...]:
-        """Work that was not stopped, oldest first."""
+        """Work that is not stopped, oldest first."""
         return tuple(task for task in self._running if not task.stop.is_set())
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """Names of the work under way that makes files: see `Tasks.writing`."""
+        """Names of running work that writes files: see `Tasks.writing`."""
         return tuple(task.name for task in self.running if task.writes)
 
     @property
     def is_idle(self) -> bool:
-        """True if no thread works any more, stopped ones included."""
+        """True if no thread is running, including stopped ones."""
         return not self._running
 
     def run(
@@ -159,13 +159,13 @@ class ThreadTasks(QObject):
         self.changed.emit()
 
     def cancel(self, task: Task) -> None:
-        """Ask work to stop; it is no longer shown, and its result is dropped."""
+        """Cancel work; it is no longer shown, and its result is dropped."""
         task.is_cancelled = True
         task.stop.set()
         self.changed.emit()
 
     def cancel_all(self, wait_s: float = 0.0) -> None:
-        """Ask everything to stop, and wait at most this long in all."""
+        """Stop all work, waiting at most this many seconds in total."""
         for task in self._running:
             task.stop.set()
         for task in self._running:
@@ -201,7 +201,7 @@ class ThreadTasks(QObject):
 
 
 def _work(task: Task, ask: Ask) -> None:
-    """In the thread."""
+    """Run a task; called on its thread."""
 
     def progress(share: float) -> None:
         task.share = min(max(share, 0.0), 1.0)
@@ -215,7 +215,7 @@ def _work(task: Task, ask: Ask) -> None:
 
 
 def _take_back(task: Task) -> None:
-    """In the window's thread: the thread has nothing left to do but to end."""
+    """Release a task's references on the window's thread, after its thread has finished."""
     if task.thread is not None:
         task.thread.join()
     runner = task.runner()
@@ -224,6 +224,6 @@ def _take_back(task: Task) -> None:
 
 
 def _is_there(callback: Callable[..., None]) -> bool:
-    """Return whether the receiver of a report is still open."""
+    """Return whether the receiver of a callback still exists."""
     reported = getattr(callback, "__self__", None)
     return not isinstance(reported, QObject) or isValid(reported)

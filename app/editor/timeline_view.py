@@ -1,4 +1,4 @@
-"""Interface of the timeline for commands, so that the shell need not know its widgets."""
+"""Interface of the timeline for commands, independent of widgets."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from app.errors import Message
 
 
 class Tool(Enum):
-    """Tool of the left button on notes."""
+    """Tool of the left mouse button on notes."""
 
     SELECT = "select"
     DRAW = "draw"
@@ -18,7 +18,7 @@ class Tool(Enum):
 
 
 class Ghosts(Enum):
-    """Display of the players behind the one in front."""
+    """Display of other players' notes behind those of the front player."""
 
     GHOSTS = "ghosts"
     SELECTED = "selected"

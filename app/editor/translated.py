@@ -1,4 +1,4 @@
-"""Texts by their ids in the language of the editor."""
+"""Texts by id in the editor's language."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from app.messages import LANGUAGES
 
 
 def tr(text_id: str) -> str:
-    """The text of an id; the id itself where there is none. Objects of Qt have the same as their method ``tr``."""
+    """The text of an id; the id itself if it is unknown. Qt objects have the same function as method ``tr``."""
     return QCoreApplication.translate("", text_id)
 
 
 def system_language() -> str:
-    """The first language of the system's list that the editor speaks; English where it speaks none."""
+    """First language of the system's list that the editor supports; English if none."""
     for name in QLocale.system().uiLanguages():
         code = name.split("-")[0].split("_")[0]
         if code in LANGUAGES:
@@ -22,5 +22,5 @@ def system_language() -> str:
 
 
 def speaks_as_system() -> bool:
-    """Return whether the editor's language is that of the system, whose own dialogs can then be used."""
+    """Return whether the editor's language is the system's, so that system dialogs can be used."""
     return QLocale().name().split("_")[0] == system_language()

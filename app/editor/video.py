@@ -1,4 +1,4 @@
-"""The reference video at the playhead: pictures are read in the background, its place is found by its sound."""
+"""Reference video at the playhead: frames are read in the background, and its offset is found by its sound."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class ReferenceVideo(QObject):
     Parameters
     ----------
     session : Session
-        Its `video` gets the pictures; it becomes the parent.
+        Session whose `video` receives the frames; it becomes the parent.
     """
 
     def __init__(self, session: Session) -> None:
@@ -53,7 +53,7 @@ class ReferenceVideo(QObject):
         session.video.changed.connect(self._state_changed)
 
     def refresh(self) -> None:
-        """Show the picture of the playhead's time."""
+        """Show the frame at the playhead."""
         video, facts, reader = self._session.project.video, self._facts, self._reader
         if video is None or facts is None or reader is None:
             return
@@ -64,7 +64,7 @@ class ReferenceVideo(QObject):
             self._session.video.set_picture(picture)
 
     def close(self) -> None:
-        """End reading."""
+        """Stop reading."""
         reader, self._reader = self._reader, None
         if reader is not None:
             reader.close()
@@ -85,7 +85,7 @@ class ReferenceVideo(QObject):
             self.refresh()
 
     def _read_agreed(self) -> None:
-        """Look at the video that was left alone before the user agreed to its computer."""
+        """Read a video on another computer after the user has agreed."""
         if self._facts is None:
             self._take(self._path)
 
@@ -146,12 +146,12 @@ class ReferenceVideo(QObject):
     # Its place
 
     def estimate(self, unasked: bool = False) -> None:
-        """Find by its sound where the video begins; set it as an edit.
+        """Find the video's offset by its sound, and set it as an edit.
 
         Parameters
         ----------
         unasked : bool
-            The video was just added: an uncertain offset is reported, but not taken.
+            Whether the video was just added: an uncertain offset is then reported but not set.
         """
         project = self._session.project
         if project.video is None:

@@ -1,4 +1,4 @@
-"""Display of the reference video and its current picture: state of the editor that no file keeps."""
+"""State of the reference video's display and its current frame; not stored in files."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ DEFAULT_OPACITY: Final = 0.6
 
 
 class VideoState(State):
-    """State that the viewport, the commands and the reader of the video share.
+    """State shared by viewport, commands and video reader.
 
     Attributes
     ----------
     placement : str
-        Beside the players, behind them, or hidden.
+        Next to the players, behind them, or hidden.
     opacity : float
-        0..1, behind the players.
+        Opacity 0..1 behind the players.
     picture : uint8 array, shape (height, width, 3), or None
-        Of now; None before and after the video, and while it is not read yet.
+        Current frame; None before and after the video, and while it is not read yet.
     ratio : float
-        Width by height; 0.0 as long as the video is not known.
+        Width divided by height; 0.0 until known.
     fault : Message or None
-        Why it cannot be shown.
+        Reason why it cannot be shown.
 
     Signals
     -------
@@ -50,7 +50,7 @@ class VideoState(State):
         self.fault: Message | None = None
 
     def set_picture(self, picture: Picture | None) -> None:
-        """Show another picture."""
+        """Set the current frame."""
         if picture is not self.picture:
             self.picture = picture
             self.pictured.emit()

@@ -1,4 +1,4 @@
-"""State of the viewport, shared by commands, menus and the viewport's own buttons."""
+"""State of the viewport, shared by commands, menus and the viewport's buttons."""
 
 from __future__ import annotations
 
@@ -28,31 +28,31 @@ class ViewportCamera(Protocol):
 
 
 class ViewportState(State):
-    """The chosen view, and what is drawn in addition to the players.
+    """The chosen view, and the optional things drawn.
 
     Attributes
     ----------
     follows_selection : bool
-        The playhead goes to the note that is selected.
+        Whether the playhead moves to selected notes.
     camera : ViewportCamera or None
-        The camera, for commands that mean it; the panel sets it.
+        The camera for commands; set by the panel.
     camera_follows : str
-        When the camera goes to what is selected or corrected: one of `FOLLOWS`.
+        When the camera moves to selected or corrected things: one of `FOLLOWS`.
     bookmarks : tuple of str
-        Names of the bookmarks of cameras that were kept or recalled in this piece, the last one first.
+        Names of camera bookmarks used in this piece, the latest first.
 
     Signals
     -------
     changed()
-        Something is shown otherwise.
+        A display option has changed.
     viewed()
-        A view was asked for, perhaps the same once more.
+        A view was requested, possibly the same again.
     framed(bool)
         The camera should frame the selected players (True) or the ensemble.
     turned()
-        The camera should look from the other side.
+        The camera should change to the opposite side.
     dollied(float)
-        The camera should come nearer by so many steps of the wheel.
+        The camera should move nearer by a number of wheel steps.
     """
 
     viewed = Signal()
@@ -72,7 +72,7 @@ class ViewportState(State):
 
     @property
     def view(self) -> View:
-        """The view that was asked for last."""
+        """The view requested last."""
         return self._view
 
     def set_view(self, view: View) -> None:
@@ -82,11 +82,11 @@ class ViewportState(State):
         self.changed.emit()
 
     def shows(self, what: Shown) -> bool:
-        """Return whether it is drawn."""
+        """Return whether an optional thing is drawn."""
         return what in self._shown
 
     def show(self, what: Shown, shown: bool) -> None:
-        """Show or hide one of the things drawn in addition to the players."""
+        """Show or hide an optional thing."""
         after = self._shown | {what} if shown else self._shown - {what}
         if after != self._shown:
             self._shown = after
@@ -94,23 +94,23 @@ class ViewportState(State):
 
     @property
     def posing(self) -> bool:
-        """True if the pose tool is in hand."""
+        """True if the pose tool is active."""
         return self._posing
 
     def set_posing(self, posing: bool) -> None:
-        """Take the pose tool, or put it down."""
+        """Activate or deactivate the pose tool."""
         if posing != self._posing:
             self._posing = posing
             self.changed.emit()
 
     def use_bookmark(self, name: str) -> None:
-        """Note that a bookmark was kept, renamed or recalled."""
+        """Record that a bookmark was stored, renamed or recalled."""
         self.set(bookmarks=(name, *(other for other in self.bookmarks if other != name)))
 
     def turn(self) -> None:
-        """Look from the other side."""
+        """Move the camera to the opposite side."""
         self.turned.emit()
 
     def frame(self, selected: bool) -> None:
-        """Bring the selected players, or everyone, into the picture."""
+        """Frame the selected players, or everyone."""
         self.framed.emit(selected)

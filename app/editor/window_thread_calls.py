@@ -1,7 +1,7 @@
-"""Calls from other threads into the window's thread.
+"""Calls from other threads on the window's thread.
 
-A thread puts a call into a queue and wakes the window by a byte; it touches no object of Qt, so that none can vanish
-under it, and none dies in it.
+A thread puts a call into a queue and wakes the window by writing a byte; it uses no Qt objects, which could be deleted
+meanwhile or on the wrong thread.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Ask = Callable[[Call], None]
 
 
 class _Bell:
-    """Wakes the window from any thread, as long as there is one."""
+    """Wakes the window from any thread, while it exists."""
 
     def __init__(self) -> None:
         self.near, self._far = socket.socketpair()
@@ -46,7 +46,7 @@ class _Bell:
 
 
 class Calls(QObject):
-    """Makes calls in the window's thread, one in each turn of its event loop. Made in that thread."""
+    """Runs calls on the window's thread, one per turn of its event loop. Must be created on that thread."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -80,7 +80,7 @@ _calls: Calls | None = None
 
 
 def window_calls() -> Calls:
-    """The program's; made where it is first requested, which is the window's thread."""
+    """The process-wide instance, created on first use, which must be on the window's thread."""
     global _calls
     if _calls is None or not isValid(_calls):
         _calls = Calls(QCoreApplication.instance())
@@ -88,13 +88,13 @@ def window_calls() -> Calls:
 
 
 class Reporter(Generic[T]):
-    """Carries what a thread says into the window's thread, as long as the one it is said to lives and awaits it."""
+    """Passes reports of a thread to a listener on the window's thread, while the listener exists and waits for them."""
 
     def __init__(self, listener: T, is_awaited: Callable[[T], bool]) -> None:
         self._ask, self._listener, self._is_awaited = window_calls().ask, weakref.ref(listener), is_awaited
 
     def __call__(self, say: Callable[[T], None]) -> None:
-        """Let something be said to the listener soon."""
+        """Call the listener soon with a report."""
         listening, is_awaited = self._listener, self._is_awaited
 
         def call() -> None:

@@ -1,7 +1,7 @@
-"""The editor: composition of the panels in a window, and nothing else.
+"""The editor's window, composed of the panels.
 
-For `from __feature__ import ...`, which no module here has, PySide puts an import of its own in the place of Python's:
-it reads and keeps the source of each of the nine hundred modules that are imported after it. Python's own goes back.
+PySide replaces Python's import function for its optional `from __feature__ import ...`, and then reads and stores the
+source of all further modules. No module here uses that feature, so the original function is restored.
 """
 
 import builtins

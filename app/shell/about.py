@@ -1,4 +1,4 @@
-"""Dialog about the program: version, libraries and folders."""
+"""About dialog: version, libraries and folders."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from widgets.common.plain import Label
 
 
 class AboutDialog(Retranslated, QDialog):
-    """About Suisou.
+    """The dialog Help > About Suisou.
 
     Parameters
     ----------
     settings : Path
-        Where the settings are.
+        Path of the settings.
     """
 
     def __init__(self, settings: Path, parent: QWidget | None = None) -> None:

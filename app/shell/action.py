@@ -1,4 +1,4 @@
-"""One row of the table of actions."""
+"""Rows of the action table."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ Subject = TypeVar("Subject")
 
 @dataclass(frozen=True)
 class ActionRow(Generic[Subject]):
-    """An action of the user; menus, palette, tool tips and shortcuts are all made from this row.
+    """A user action, from whose row menus, palette, tool tips and shortcuts are made.
 
-    Its functions are given what it is about: `Action` the session, `app.shell.editor.EditorAction` the whole editor.
+    Its functions take the session (`Action`) or the whole editor (`app.shell.editor.EditorAction`).
 
     Attributes
     ----------
     id : str
-        ``"notes.split"``; settings keep shortcuts by it. Its text is ``"action.notes.split"`` of
-        `app.shell.commands.texts`, with a trailing ``...`` where a dialog follows.
+        Id such as ``"notes.split"``, by which settings store shortcuts. Its text id is ``"action.notes.split"`` in
+        `app.shell.commands.texts`; the text ends with ``...`` if a dialog follows.
     run : callable
-        Takes the session or editor (and the checked state, where ``checked`` is given).
+        Takes the session or editor, and the checked state if ``checked`` is given.
     menu : str
-        Path of the menu, ``"edit/notes"``, whose parts have their texts as ``"menu.notes"``; empty: only in the
+        Path of the menu, ``"edit/notes"``, whose parts have text ids such as ``"menu.notes"``; empty: only in the
         palette.
     shortcut : str
-        Portable text as of `QKeySequence`; several are separated by ``;``; empty: none by default.
+        Portable text as in `QKeySequence`; several separated by ``;``; empty: none by default.
     context : str
-        Where the shortcut holds: ``"window"`` or the object name of a panel (``"timeline"``, ``"viewport"``).
+        Scope of the shortcut: ``"window"`` or the object name of a panel (``"timeline"``, ``"viewport"``).
     enabled : callable, optional
-        Whether it makes sense now; asked when the session changes.
+        Returns whether it is available; called when the session changes.
     checked : callable, optional
-        Makes it a toggle: whether it is on.
+        Makes it a toggle: returns whether it is on.
     icon : str
         Name of an icon in ``resources/icons``; empty: none.
     hides : bool
-        It is in no menu while it makes no sense.
+        Whether it is hidden in menus while unavailable.
     step : callable, optional
-        What it would do now, which its text names; None: nothing.
+        Returns the step it would undo or redo, for its text; None: none.
     """
 
     about_editor: ClassVar[bool] = False
@@ -60,26 +60,26 @@ class ActionRow(Generic[Subject]):
 
     @property
     def text(self) -> str:
-        """Its text in the language of the editor."""
+        """Text in the editor's language."""
         return tr(f"action.{self.id}")
 
     @property
     def place(self) -> str:
-        """Return where it stands in the menus, in the language of the editor; empty: nowhere."""
+        """Return the menu path in the editor's language; empty: none."""
         return " › ".join(without_key(tr(f"menu.{part}")) for part in self.menu.split("/") if part)
 
 
 class Action(ActionRow[Session]):
-    """A row about the project and what of it is shown: its functions take the session."""
+    """An action on the project and its display, whose functions take the session."""
 
 
 def without_dots(text: str) -> str:
-    """An action's text without dots and marks."""
+    """Text of an action without dots and mnemonic marks."""
     return text.replace("&", "").removesuffix("...").removesuffix("…")
 
 
 def without_key(text: str) -> str:
-    """A menu's name without the mark of its key: ``&File``, ``ファイル(&F)``."""
+    """Name of a menu without its mnemonic mark: ``&File``, ``ファイル(&F)``."""
     if text.endswith(")") and "(&" in text:
         text = text[: text.rindex("(&")]
     return text.replace("&", "")

@@ -1,4 +1,4 @@
-"""Every row of the table of actions, in the order in which they stand in the menus."""
+"""All rows of the action table, in the order of the menus."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ FILE_ORDER: Final = (
 
 
 def rows() -> tuple[ActionRow[Any], ...]:
-    """Every row of the table."""
+    """All rows of the table."""
     place = {action_id: number for number, action_id in enumerate(FILE_ORDER)}
     own: tuple[ActionRow[Any], ...] = (
         *(*file.ACTIONS, *exchange.ACTIONS, *edit.ACTIONS, *notes.ACTIONS, *marks.ACTIONS, *fingerings.ACTIONS),

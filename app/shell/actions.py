@@ -1,4 +1,4 @@
-"""The one table of actions, of which menus, palette, tool tips and shortcuts are made."""
+"""The action table, from which menus, palette, tool tips and shortcuts are made."""
 
 from __future__ import annotations
 
@@ -28,26 +28,26 @@ CONTEXTS: Final = {
 
 @cache
 def sequences(keys: str) -> tuple[QKeySequence, ...]:
-    """Shortcuts as a row has them, ``;`` between several."""
+    """Key sequences of a shortcut text, separated by ``;``."""
     portable = QKeySequence.SequenceFormat.PortableText
     return tuple(QKeySequence.fromString(part.strip(), portable) for part in keys.split(";") if part.strip())
 
 
 @cache
 def written(keys: str) -> frozenset[str]:
-    """The same as text, written alike."""
+    """Key sequences of a shortcut text, in normalised form."""
     return frozenset(sequence.toString() for sequence in sequences(keys))
 
 
 class RowAction(QAction):
-    """A row as Qt shows it: it asks, names and pictures itself.
+    """A row as Qt action, with text, icon and state.
 
-    Qt notifies only widgets of a language change (``QEvent.LanguageChange``): actions are notified by their table.
+    Qt sends language changes (``QEvent.LanguageChange``) only to widgets, so the table notifies its actions.
 
     Parameters
     ----------
     table : ActionTable
-        Knows what the row is about, and its shortcuts.
+        Table with the argument of the row's functions, and its shortcuts.
     """
 
     def __init__(self, row: ActionRow[Any], table: ActionTable) -> None:
@@ -71,12 +71,12 @@ class RowAction(QAction):
         self._table.refresh_soon()
 
     def refresh(self, answers: dict[Callable[[Any], bool], bool]) -> None:
-        """Ask the row whether it makes sense now, and whether it is on.
+        """Update whether the action is available and checked.
 
         Parameters
         ----------
         answers : dict
-            What was answered just now: many rows ask the same question.
+            Cache of results, since many rows share a condition.
         """
         row, about = self.row, self._table.about(self.row)
         if about is None:
@@ -100,7 +100,7 @@ class RowAction(QAction):
         self.setText(text)
 
     def retranslate(self) -> None:
-        """Set text and tool tip again."""
+        """Update text and tool tip."""
         native = QKeySequence.SequenceFormat.NativeText
         text = without_dots(self.row.text)
         keys = ", ".join(sequence.toString(native) for sequence in sequences(self._table.keys(self.row.id)))
@@ -109,38 +109,39 @@ class RowAction(QAction):
         self.setToolTip(f"{text} ({keys})" if keys else text)
 
     def apply_theme(self) -> None:
-        """Set the icon again, in the colours of the theme."""
+        """Update the icon in the theme's colours."""
         if self.row.icon:
             self.setIcon(icon(self.row.icon, self._table.session.tokens))
 
     # Qt
 
     def event(self, event: QEvent) -> bool:
-        """Do nothing by a shortcut while a menu or list is open: Qt lets the keys through to the panel behind it, where
-        Delete would remove a player."""
+        """Ignore shortcuts while a menu or list is open: Qt would pass the keys to the panel behind it, where Delete
+        would remove a player.
+        """
         if event.type() == QEvent.Type.Shortcut and QApplication.activePopupWidget() is not None:
             return True
         return super().event(event)
 
 
 class ActionTable(QObject):
-    """The rows as actions of Qt.
+    """The rows as Qt actions.
 
     Parameters
     ----------
     session : Session
-        Is the table's parent: `widgets.common.actions` finds the actions there.
+        Parent of the table, where `widgets.common.actions` finds the actions.
     settings : Settings
-        Knows the user's own shortcuts.
+        Settings with the user's shortcuts.
     rows : sequence of ActionRow
-        Those about the editor make no sense before `begin`.
+        Rows; those that take the editor are unavailable before `begin`.
 
     Signals
     -------
     shortcuts_changed()
-        Some action has another shortcut.
+        Shortcuts of some action have changed.
     context_changed(str)
-        The keyboard is in another panel (``"window"``: in none).
+        Keyboard focus moved to another panel (``"window"``: none).
     """
 
     shortcuts_changed = Signal()
@@ -190,7 +191,7 @@ class ActionTable(QObject):
         self._give_shortcuts()
 
     def begin(self, editor: object) -> None:
-        """Rows about the editor are about this one."""
+        """Set the editor that rows refer to."""
         self._editor = editor
         self.refresh()
 
@@ -199,7 +200,7 @@ class ActionTable(QObject):
         return self._editor if row.about_editor else self.session
 
     def attach(self, context: str, widget: QWidget) -> None:
-        """Shortcuts of a context hold while the keyboard is in this widget."""
+        """Enable the shortcuts of a context while a widget has the keyboard focus."""
         widget.addActions([self.actions[row.id] for row in self.rows.values() if row.context == context])
 
     def _retranslate(self) -> None:
@@ -213,12 +214,12 @@ class ActionTable(QObject):
     # Shortcuts
 
     def keys(self, action_id: str) -> str:
-        """The shortcuts of an action as text."""
+        """Shortcuts of an action as text."""
         own = self.settings.shortcut(action_id)
         return self.rows[action_id].shortcut if own is None else own
 
     def set_keys(self, action_id: str, keys: str | None) -> None:
-        """Give an action other shortcuts; None: as they come."""
+        """Set the shortcuts of an action; None: the default."""
         if keys == self.rows[action_id].shortcut:
             keys = None
         self.settings.set_shortcut(action_id, keys)
@@ -227,7 +228,7 @@ class ActionTable(QObject):
         self.shortcuts_changed.emit()
 
     def conflicts(self, action_id: str, keys: str) -> tuple[str, ...]:
-        """Actions that one of these shortcuts would do as well, in the same place."""
+        """Ids of actions in the same scope that use one of these shortcuts."""
         requested = written(keys)
         context = self.rows[action_id].context
         return tuple(
@@ -251,8 +252,9 @@ class ActionTable(QObject):
             self.context_changed.emit(context)
 
     def _give_shortcuts(self) -> None:
-        """Give a shortcut that a panel and the window share to the panel while it has the keyboard, and to none without
-        it: Qt would do neither. The same holds for a part of a panel and the panel."""
+        """Resolve shortcuts shared by a panel and the window: the panel's is active while it has the focus, the
+        window's otherwise; Qt would activate neither. The same holds for parts of panels.
+        """
         keys = {row.id: self.keys(row.id) for row in self.rows.values()}
         of_context: dict[str, set[str]] = {}
         for row in self.rows.values():
@@ -269,7 +271,7 @@ class ActionTable(QObject):
     # State
 
     def refresh_soon(self, *changes: object) -> None:
-        """Ask all rows again once whatever happens now is over."""
+        """Update all rows after the current event."""
         if not self._soon.isActive():
             self._soon.start()
 
@@ -278,7 +280,7 @@ class ActionTable(QObject):
             self.refresh_soon()
 
     def refresh(self) -> None:
-        """Ask every row whether it makes sense now, and whether it is on."""
+        """Update the availability and checked state of all rows."""
         answers: dict[Callable[[Any], bool], bool] = {}
         for action in self.actions.values():
             action.refresh(answers)

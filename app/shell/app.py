@@ -1,4 +1,4 @@
-"""The editor as a program: the application of Qt, the parts of the editor put together, and a picture of its window."""
+"""The editor as a program: the Qt application, its assembled parts, and screenshots of its window."""
 
 from __future__ import annotations
 
@@ -66,16 +66,16 @@ PICTURE_S = 60.0
 
 @dataclass(frozen=True)
 class LaunchOptions:
-    """Options of the command line for the editor.
+    """Command-line options of the editor.
 
     Attributes
     ----------
     screenshot : Path or None
-        Draw the window once, write it there, and end.
+        Path of a screenshot: draw the window once, write it and exit.
     view, language, theme : str
-        Empty: as the user left it.
+        View, language and theme; empty: as stored by the user.
     size : (int, int)
-        Of the picture, in device-independent pixels.
+        Size of the screenshot in device-independent pixels.
     """
 
     file: Path | None = None
@@ -105,11 +105,11 @@ class Program(QObject):
     Parameters
     ----------
     audible : bool
-        Whether the performance can be played.
+        Whether sound can be played.
     playback : Playback, optional
-        One on the system's device, if None.
+        Playback to use; None: one on the system's device.
     recorder : callable, optional
-        Makes another recorder than the system's.
+        Makes the recorder; by default the system's.
     """
 
     def __init__(
@@ -175,7 +175,7 @@ class Program(QObject):
         apply_theme(self._application, self.session.tokens)
 
     def end(self) -> None:
-        """Stop everything that works in the background."""
+        """Stop all background work."""
         self.editor.video.close()
         self.recorder.close()
         self.editor.streamer.close()
@@ -185,7 +185,7 @@ class Program(QObject):
 
 
 def _clean_up() -> None:
-    """Remove what killed processes left behind."""
+    """Delete temporary files of killed processes."""
     # What exports is not needed for the first picture.
     from app.export.tree import clean_up
 
@@ -240,7 +240,7 @@ def _assignment(program: Program, start: LaunchOptions) -> None:
 
 
 def _end_on_signal(application: QApplication) -> None:
-    """Ctrl-C in the terminal ends the editor like its window's button; unsaved work stays recoverable."""
+    """Make Ctrl-C in the terminal end the editor like closing its window; unsaved work stays recoverable."""
 
     def stop(number: int, frame: object) -> None:
         application.exit(128 + number)
@@ -254,7 +254,7 @@ def _end_on_signal(application: QApplication) -> None:
 
 
 def picture(start: LaunchOptions, target: Path) -> int:
-    """Draw the real window once, whatever the user's settings are, write it to a file, and end."""
+    """Draw the real window once, independent of the user's settings, write it to a file, and exit."""
     application = make_application()
     stopped = threading.Event()
     signal.signal(signal.SIGINT, lambda number, frame: stopped.set())
@@ -314,7 +314,7 @@ def picture(start: LaunchOptions, target: Path) -> int:
 
 
 def _moves(program: Program, time_s: float) -> bool:
-    """Return whether everyone's pose at a time is there, or known to be impossible."""
+    """Return whether the poses of all performers at a time are computed or known to be impossible."""
     live = program.generator.live
     return all(
         live.pose(player.id, time_s) is not None or live.error(player.id) is not None
@@ -327,7 +327,7 @@ def _working(program: Program) -> bool:
 
 
 def _write_picture(image: QImage, target: Path) -> None:
-    """Write a picture in the format that the file's name asks for. Raises FileError."""
+    """Write a picture in the format given by the file's suffix. Raises FileError."""
     data = QBuffer()
     data.open(QIODevice.OpenModeFlag.WriteOnly)
     if not image.save(data, target.suffix[1:]):  # type: ignore[call-overload]

@@ -1,4 +1,4 @@
-"""A question that can wait, over the panels: something was found, and there are two or three answers."""
+"""A non-modal question shown above the panels, with two or three answers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Texts = Callable[[], tuple[str, tuple[str, ...]]]
 
 
 class Banner(Retranslated, QFrame):
-    """One question at a time."""
+    """Shows one question at a time."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class Banner(Retranslated, QFrame):
         session.theme_changed.connect(self.retranslate)
 
     def ask(self, texts: Texts, answers: tuple[Callable[[], None], ...]) -> None:
-        """Ask; whatever is answered, the banner goes."""
+        """Show a question; any answer closes the banner."""
         for button in self._buttons:
             self._answers.removeWidget(button)
             button.hide()
@@ -65,7 +65,7 @@ class Banner(Retranslated, QFrame):
         answer()
 
     def retranslate(self) -> None:
-        """Set the texts and the colours."""
+        """Update texts and colours."""
         tokens = self._session.tokens
         self.setStyleSheet(f"#banner {{ background: {tokens.raised}; border-bottom: 1px solid {tokens.warning}; }}")
         self._mark.setPixmap(pixmap("warning", 18, tokens.warning, self.devicePixelRatioF()))
@@ -79,11 +79,11 @@ class Banner(Retranslated, QFrame):
     # Qt's own names
 
     def minimumSizeHint(self) -> QSize:
-        """Narrow: what lies beside the banner keeps its width."""
+        """Return a narrow minimum size, so that neighbouring panels keep their width."""
         return QSize(LEAST_PX, super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """The answers beside the question, or below it."""
+        """Place the answers next to the question, or below it if the banner is narrow."""
         super().resizeEvent(event)
         narrow = self.width() < NARROW_PX
         self._line.setDirection(QBoxLayout.Direction.TopToBottom if narrow else QBoxLayout.Direction.LeftToRight)

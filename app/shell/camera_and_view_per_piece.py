@@ -1,8 +1,8 @@
-"""Views of pieces: camera, player in front, playhead, timeline and lanes come back when a piece is opened again.
+"""Restores the view of a piece when it is reopened: camera, front player, playhead, timeline and lanes.
 
-They are kept with the editor's settings on this machine, by the piece's file. A look at a piece is no change of it: it
-is remembered without saving, also of a MIDI file, and is in no one else's way when the project is shared. Cameras to
-share are bookmarks (`app.project.camera_bookmarks`), which are part of the project.
+Views are stored in the editor's settings on this computer, by the piece's file, so that looking at a piece does not
+change it, and shared projects are unaffected. Cameras to be shared are bookmarks (`app.project.camera_bookmarks`) in
+the project.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ class PieceView(msgspec.Struct, frozen=True):
     Attributes
     ----------
     camera : CameraBookmark or None
-        None: none could be drawn.
+        None: nothing was drawn.
     is_moved : bool
-        The user moved the camera; else it is that of its view.
+        Whether the user moved the camera away from its view.
     players : tuple of str
-        The selected ones, the one in front first.
+        Ids of the selected players, front player first.
     lanes : str
-        As of `TimelinePanel.save_state`, in ``workspace``.
+        State from `TimelinePanel.save_state`, for ``workspace``.
     """
 
     camera: CameraBookmark | None
@@ -52,12 +52,12 @@ class PieceView(msgspec.Struct, frozen=True):
 
 
 class PieceViews(QObject):
-    """Remembers views of pieces, and brings them back.
+    """Stores and restores the views of pieces.
 
     Parameters
     ----------
     files : Files
-        Signals when a piece is closed and opened.
+        Files, whose signals announce opening and closing.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class PieceViews(QObject):
         files.opened.connect(self._restore)
 
     def _piece(self) -> str:
-        """The file of the open piece; empty: none, or one that is always shown from the beginning."""
+        """Path of the open piece; empty: none, or a bundled one, which always starts in its default view."""
         path = self._files.path or Path(self._session.project.source)
         bundled = Path(str(resource_files("resources")))
         return "" if path == Path() or not self._files.is_open or path.is_relative_to(bundled) else str(path)
