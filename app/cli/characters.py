@@ -18,6 +18,7 @@ from app.rig.characters.character_library import LEAST_M, MOST_M, CharacterEntry
 from app.rig.people.body_shapes import AGE_YEARS, age_of
 from app.rig.people.bundled_people import bundled_people, bundled_person, like
 from app.rig.people.person import HEIGHTS_M
+from app.rig.people.wardrobe import wardrobe
 
 if TYPE_CHECKING:
     from app.rig.characters.load_character import CharacterFigure
@@ -66,7 +67,7 @@ def _add_file(command: argparse.ArgumentParser) -> None:
 
 
 def list_characters(arguments: argparse.Namespace) -> None:
-    """Print every character: id, title and file; then the user's own folder and what is wrong in it."""
+    """Print every character: id, title and file; the outfits; then the user's own folder and what is wrong in it."""
     from app.rig.characters.character_library import character_library, character_problems
 
     known = character_library()
@@ -80,14 +81,27 @@ def list_characters(arguments: argparse.Namespace) -> None:
         }
         for id, source in known.sources.items()
     ]
+    outfits = [
+        {
+            "id": id,
+            "title": speech.name(outfit.title),
+            "colours": {str(tint): colour for tint, colour in outfit.colours.items()},
+        }
+        for id, outfit in wardrobe().items()
+    ]
     problems = {shown(id): speech(problem) for id, problem in character_problems().items()}
     if arguments.json:
-        found = {"characters": rows, "folder": stored(known.folder), "problems": problems}
+        found = {"characters": rows, "outfits": outfits, "folder": stored(known.folder), "problems": problems}
         say_json(found)
         return
     for row in rows:
         mark = "*" if row["own"] else ""
         say(on_left(f"{row['id']}{mark}", 28) + f" {row['title']}" if row["title"] else f"{row['id']}{mark}")
+    if outfits:
+        say("", said("characters.outfits"))
+    for id, outfit in wardrobe().items():
+        parts = ", ".join(f"{tint} {colour}" for tint, colour in outfit.colours.items())
+        say("  " + on_left(id, 26) + f" {speech.name(outfit.title)}" + (f" ({parts})" if parts else ""))
     say("", said("cli.own_folder", folder=str(known.folder)))
     for problem in problems.values():
         say(f"  {problem}")

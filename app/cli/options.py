@@ -19,6 +19,7 @@ from app.errors import FileError, Message, UsageError
 from app.plan.generate import COME_UP_S, PREROLL_BEATS, PREROLL_LEAST_S
 from app.project import limits
 from app.project.casting import ConductorPlace, conductor_place
+from app.project.edit.outfits import with_outfits
 from app.project.edit.piece import PieceSettings, piece_settings, set_piece_settings, set_preroll
 from app.project.frame_rate import exact_number
 from app.project.frame_rate import frame_rate as typed_rate
@@ -165,6 +166,7 @@ def add_source_options(command: argparse.ArgumentParser) -> None:
         "--set", dest="settings", action="append", default=[], metavar='"PLAYER.parameter=value"'
     )
     fill_help(settings, parameters=", ".join(parameter_names()))
+    command.add_argument("--outfit", dest="outfits", action="append", default=[], metavar='"[NAME=]OUTFIT[,COLOUR...]"')
     command.add_argument("--seed", type=whole_number, metavar="N")
     preroll = command.add_argument("--preroll", type=beats, metavar="BEATS")
     fill_help(preroll, least_s=f"{PREROLL_LEAST_S:g}", usual=f"{PREROLL_BEATS:g}", come_up_s=f"{COME_UP_S:g}")
@@ -224,7 +226,7 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     if getattr(arguments, "preroll", None) is None and not is_project_file(arguments.file):
         # Of a new piece it is as long as it takes to come up from rest, in whatever beat is felt.
         found = set_preroll(found, preroll_of_new(found))
-    return with_settings(found, settings, maps)
+    return with_outfits(with_settings(found, settings, maps), arguments.outfits)
 
 
 def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:

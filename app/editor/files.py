@@ -311,7 +311,9 @@ class Files(QObject):
                 maps = all_maps()
                 asked = assignment or ImportRequest(usual_rows(contents, maps))
                 project = import_project(
-                    asked.contents or contents, asked.rows, maps, source, stop_requested, encoding=asked.encoding
+                    *(asked.contents or contents, asked.rows, maps, source, stop_requested),
+                    encoding=asked.encoding,
+                    outfit=asked.outfit,
                 )
                 if asked.dances:
                     project, _ = add_dancer(project, bundled_choreographies()[0], called)

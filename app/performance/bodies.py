@@ -12,7 +12,8 @@ from app.errors import FileError, MapError, Progress, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.contacts.ready_player import put_aside_transform
 from app.project.performers import Dancer, Player
-from app.rig.characters.character_library import character_in, character_named, character_revision, our_characters
+from app.rig.characters.character_library import character_named, character_revision, our_characters
+from app.rig.characters.dressed_characters import character_in
 from app.rig.grip.body_size import leg_size, sized_body, sized_model
 from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body

@@ -11,6 +11,7 @@ from app.errors import Message, StopRequested
 from app.project.doubling import doubled_parts
 from app.project.import_decisions import ImportDecisions, RowDecision, TrackMark, mark_of
 from app.project.model import Project, map_choices, project_from_score
+from app.project.usual_outfits import outfit_of_piece, with_outfit
 from app.score.assignments import PERCUSSION, PartAssignment, suggestions
 from app.score.contents import PieceContents, assigned_score
 from app.score.model import Score, UnplayedPart
@@ -46,12 +47,15 @@ class ImportRequest(msgspec.Struct, frozen=True):
         Contents that the rows belong to, if texts were decoded again; None: as first read.
     encoding : str or None
         Encoding of the texts; None: guessed.
+    outfit : str or None
+        Id of the outfit of all players, empty: clothes of their own; None: by the kind of piece.
     """
 
     rows: tuple[ImportRow, ...]
     dances: bool = False
     contents: PieceContents | None = None
     encoding: str | None = None
+    outfit: str | None = None
 
 
 def usual_rows(contents: PieceContents, maps: Mapping[str, InstrumentMap]) -> tuple[ImportRow, ...]:
@@ -224,6 +228,7 @@ def import_project(
     *,
     encoding: str | None = None,
     seed: int = 0,
+    outfit: str | None = None,
 ) -> Project:
     """Create a project that plays the selected rows and stores them for later readings of the file.
 
@@ -235,6 +240,8 @@ def import_project(
         Raises Cancelled once it returns True.
     encoding : str, optional
         Encoding with which the contents were read.
+    outfit : str, optional
+        As in `ImportRequest`.
     """
     project = project_from_score(score_of_rows(contents, rows, maps, stop_requested), maps, seed=seed)
     characters = {}
@@ -248,7 +255,9 @@ def import_project(
         places = [project.part(one).place for one in project.played_by(player)]
         character = next((characters[place] for place in places if place in characters), player.character_id)
         players.append(msgspec.structs.replace(player, character_id=character))
-    return replace(project, players=tuple(players), source=source, imported=decisions_of(contents, rows, encoding))
+    worn = outfit_of_piece(contents, len(project.bodies)) if outfit is None else outfit
+    cast = with_outfit(replace(project, players=tuple(players)), worn)
+    return replace(cast, source=source, imported=decisions_of(contents, rows, encoding))
 
 
 def decisions_of(contents: PieceContents, rows: Sequence[ImportRow], encoding: str | None = None) -> ImportDecisions:

@@ -91,7 +91,13 @@ dancers_duplicate_button, dancers_remove_button = dancer project + lanes
 dancer_look = dialog
 dancer_choreography ? asked + project
 dancer_character, dancer_source, parameter_* ? project
-player_part, player_instrument, player_character ? project + selection
+player_part, player_instrument, player_character, player_outfit ? project + selection
+dancer_outfit ? project
+player_outfit_*, dancer_outfit_* ? popup
+player_outfit_* > Other Colour... = asked
+player_outfit_* > * ? project
+dancer_outfit_* > Other Colour... = asked
+dancer_outfit_* > * ? project
 stage_snap = snap
 stage_arc, reset_parameters ? project
 */SectionHeader = folded

@@ -1,10 +1,11 @@
-"""Names of instruments, their families and characters in the user's language."""
+"""Names of instruments, their families, characters and outfits in the user's language."""
 
 from __future__ import annotations
 
 from app.editor.translated import tr
 from app.rig.characters.character_library import character_library
 from app.rig.people.bundled_people import bundled_people, bundled_person
+from app.rig.people.wardrobe import OWN_CLOTHES, wardrobe
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
 
@@ -26,6 +27,13 @@ def family_name(family: str) -> str:
     if name is None:
         return tr("instrument_family.others")
     return name.ja if language() == "ja" else name.en
+
+
+def outfit_names() -> dict[str, str]:
+    """The names of what can be worn, by id: first clothes of one's own."""
+    japanese = language() == "ja"
+    names = {id: outfit.title.ja if japanese else outfit.title.en for id, outfit in wardrobe().items()}
+    return {OWN_CLOTHES: tr("outfit_name.own_clothes"), **names}
 
 
 def character_name(character_id: str) -> str:

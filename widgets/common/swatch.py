@@ -16,6 +16,11 @@ from widgets.common.controls import named
 class ColourSwatch(QPushButton):
     """Shows a colour; a click offers others.
 
+    Parameters
+    ----------
+    title : str
+        Id of the title of the dialog for any colour.
+
     Signals
     -------
     chosen(str)
@@ -24,9 +29,11 @@ class ColourSwatch(QPushButton):
 
     chosen = Signal(str)
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, session: Session, parent: QWidget | None = None, *, title: str = "colour_swatch.colour_of_player"
+    ) -> None:
         super().__init__(parent)
-        self._session = session
+        self._session, self._title = session, title
         self._colours: tuple[str, ...] = ()
         self.setFixedSize(44, LEAST_TARGET_PX + 1)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
@@ -67,7 +74,7 @@ class ColourSwatch(QPushButton):
         options = QColorDialog.ColorDialogOption(0)
         if not speaks_as_system():
             options = QColorDialog.ColorDialogOption.DontUseNativeDialog
-        colour = QColorDialog.getColor(before, self, self.tr("colour_swatch.colour_of_player"), options)
+        colour = QColorDialog.getColor(before, self, self.tr(self._title), options)
         if colour.isValid():
             self.chosen.emit(colour.name())
 

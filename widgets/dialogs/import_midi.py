@@ -36,8 +36,10 @@ from app.score.contents import PieceContents
 from app.score.model import UnplayedPart
 from app.score.parts import stream_name
 from instrument_maps.model import InstrumentMap
+from widgets.common.combo import Combo, Option
 from widgets.common.controls import Button, Caption, Check, OkCancel, Retranslated, named
 from widgets.common.help import with_help
+from widgets.common.instrument_name import outfit_names
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_row
 from widgets.common.plain import Label
 from widgets.common.text import message_text, sentence
@@ -47,6 +49,8 @@ from widgets.dialogs.import_table import ImportTable
 _SIZE = QSize(1280, 580)
 _TITLE_PX = 600
 _SLOW_MS = 300
+_BY_PIECE = "\0by_piece"
+"""Option that is no outfit's id."""
 """After this long the dialog says that it is working."""
 
 
@@ -105,6 +109,9 @@ class ImportDialog(Retranslated, QDialog):
             named(Check("import_dialog.add_dancer"), "import_dancer"),
             tip="import_dialog.dancer_who_moves_to_percussion",
         )
+        self._outfit = named(Combo(), "import_outfit")
+        self._outfit_title = Caption("import_dialog.outfit", self._outfit)
+        self.texted(self._outfit, tip="import_dialog.outfit_tip")
         self._encodings = EncodingChoice()
         self._encoding_title = Caption("import_dialog.encoding", self._encodings)
         self._encodings.chosen.connect(self._choose_encoding)
@@ -121,7 +128,10 @@ class ImportDialog(Retranslated, QDialog):
         self._buttons.rejected.connect(self.reject)
 
         heading = in_row((self._heading, 1), self._encoding_title, self._encodings)
-        tools = in_row(self._merge, self._separate, 12, self._dancer, STRETCH, self._summary)
+        tools = in_row(
+            *(self._merge, self._separate, 12, self._dancer, 12, self._outfit_title, self._outfit),
+            *(STRETCH, self._summary),
+        )
         in_column(
             heading, (self._table, 1), tools, self._warning_title, self._warnings, with_help(self._buttons), of=self
         )
@@ -140,8 +150,10 @@ class ImportDialog(Retranslated, QDialog):
 
     @property
     def assignment(self) -> ImportRequest:
-        """Rows, whether a dancer comes with them, and the encoding of the file's texts."""
-        return ImportRequest(self._table.rows, self._dancer.isChecked(), self._table.contents, self._encoding)
+        """Rows, whether a dancer comes with them, the encoding of the file's texts, and what everyone wears."""
+        table, chosen = self._table, self._outfit.shown
+        outfit = None if chosen == _BY_PIECE else chosen
+        return ImportRequest(table.rows, self._dancer.isChecked(), table.contents, self._encoding, outfit)
 
     def merge_selected(self) -> None:
         """Make one part of the selected tracks."""
@@ -172,6 +184,10 @@ class ImportDialog(Retranslated, QDialog):
                 metre=f"{contents.metres[0].numerator}/{contents.metres[0].denominator}",
             )
         )
+        outfits = {_BY_PIECE: self.tr("import_dialog.by_piece"), **outfit_names()}
+        self._outfit.set_options([Option(id, name) for id, name in outfits.items()])
+        if self._outfit.shown is None:
+            self._outfit.show_option(_BY_PIECE)
         self._fill()
 
     def _choose_encoding(self, encoding: str | None) -> None:

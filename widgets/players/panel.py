@@ -60,6 +60,7 @@ MENU = (
     "players.select_section",
     "players.select_all",
     "players.randomise",
+    "players.dress_everyone",
     "players.arrange",
     "",
     "players.grouped",

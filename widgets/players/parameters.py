@@ -16,9 +16,11 @@ from app.editor.session import Session
 from app.errors import AppError, Message, Progress, StopRequested
 from app.plan.parameters import Parameter, Value
 from app.project.edit import players as edit
+from app.project.edit.outfits import colour_outfit, give_outfit
 from app.project.model import Project
 from app.project.performers import Player
 from app.rig.characters.character_library import characters, our_characters
+from app.rig.people.wardrobe import Tint
 from instrument_maps.library import library
 from metadata.acting import AMOUNTS
 from widgets.common.character_picture import portrait_of
@@ -33,6 +35,7 @@ from widgets.common.text import parameter_text
 from widgets.players.acting import ActingRows
 from widgets.players.body_dance import BodyDanceRows
 from widgets.players.layer_switch import LayerSwitch
+from widgets.players.outfit_rows import OutfitChooser, OutfitColours
 from widgets.players.parameter_rows import ParameterChoice, ParameterSlider, rows_of
 
 LABEL_PX = 88
@@ -49,7 +52,10 @@ _TITLES: Final = (
     "parameter_sections.face",
     "parameter_sections.player",
 )
-_LABELS: Final = {name: f"parameter_sections.{name}" for name in ("part", "instrument", "character", "colour")}
+_LABELS: Final = {
+    **{name: f"parameter_sections.{name}" for name in ("part", "instrument", "character", "colour")},
+    "outfit": "outfit_rows.outfit",
+}
 
 
 class ParameterSections(Retranslated, QWidget):
@@ -96,16 +102,19 @@ class ParameterSections(Retranslated, QWidget):
         self._labels = {name: Caption(text_id) for name, text_id in _LABELS.items()}
         self._part, self._instrument, self._character = Combo(), Combo(), Combo()
         self._colour = ColourSwatch(self._session)
+        self._outfit, self._outfit_colours = OutfitChooser("player"), OutfitColours(self._session, "player")
         controls: dict[str, QWidget] = {
             "part": self._part,
             "instrument": self._instrument,
             "character": self._character,
+            "outfit": self._outfit,
             "colour": self._colour,
         }
         for name, control in controls.items():
             control.setObjectName(f"player_{name}")
             self._labels[name].setBuddy(control)
         rows: list[tuple[Label, QWidget]] = [(self._labels[name], control) for name, control in controls.items()]
+        rows.insert(-1, (self._outfit_colours.caption, self._outfit_colours))
         choices = [self._make_choice(parameter) for parameter in rows_of("player")]
         rows[-1:-1] = [(choice.label, choice) for choice in choices]
         self._character.setIconSize(QSize(PORTRAIT_PX, PORTRAIT_PX))
@@ -121,6 +130,8 @@ class ParameterSections(Retranslated, QWidget):
         self._part.chosen.connect(lambda id: self._assign("edit.player_part", part_id=id))
         self._instrument.chosen.connect(lambda id: self._assign("edit.player_instrument", instrument_id=id))
         self._character.chosen.connect(lambda id: self._change("edit.player_character", character_id=id))
+        self._outfit.chosen.connect(self._wear)
+        self._outfit_colours.chosen.connect(self._tint)
         self._colour.chosen.connect(lambda colour: self._change("edit.player_colour", colour=colour))
 
     def _make_row(self, parameter: Parameter) -> None:
@@ -168,6 +179,8 @@ class ParameterSections(Retranslated, QWidget):
         self._part.show_option(_common(players, lambda player: player.part_id))
         self._instrument.show_option(_common(players, lambda player: player.instrument_id))
         self._character.show_option(_common(players, lambda player: player.character_id))
+        self._outfit.show_worn(players)
+        self._outfit_colours.show_worn(players)
         self._show_postures(players)
         for name, choice in self._choices.items():
             if name != _POSTURE:
@@ -212,6 +225,16 @@ class ParameterSections(Retranslated, QWidget):
     def _change(self, name: str, **fields: object) -> None:
         chosen = self._session.players
         self._apply(self._name(name), lambda project: edit.change(project, chosen, **fields))
+
+    def _wear(self, outfit: str) -> None:
+        chosen = self._session.players
+        self._apply(self._name("edit.player_outfit"), lambda project: give_outfit(project, chosen, outfit))
+
+    def _tint(self, tint: Tint, colour: str) -> None:
+        chosen = self._session.players
+        self._apply(
+            self._name("edit.player_outfit_colour"), lambda project: colour_outfit(project, chosen, tint, colour)
+        )
 
     def _assign(self, name: str, **ids: str) -> None:
         chosen = self._session.players

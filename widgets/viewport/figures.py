@@ -9,7 +9,8 @@ from app.performance.bodies import is_held
 from app.performance.cast import LeftOut, attempt
 from app.project.model import Project
 from app.project.performers import Dancer, Player
-from app.rig.characters.character_library import character_revision, dressed_as
+from app.rig.characters.character_library import character_revision
+from app.rig.characters.dressed_characters import dressed_as
 from instrument_maps.library import library
 from widgets.viewport.cast import (
     Member,

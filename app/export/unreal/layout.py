@@ -13,7 +13,7 @@ from app.export.unreal.names import asset_name
 from app.formats.unique_names import numbered
 from app.project.model import Project
 from app.project.performers import Dancer, Player
-from app.rig.characters.character_library import dressed_as
+from app.rig.characters.dressed_characters import dressed_as
 
 SOURCES: Final = "SuisouSource"
 """Folder of the sources. Not in ``Content``, which Unreal may watch for new files to import by itself."""

@@ -25,6 +25,11 @@ _MOST_FILES: Final = 256
 _FARTHEST: Final = 1e6
 
 
+def media_folder(path: Path) -> Path:
+    """Return the folder beside an FBX file in which its images are looked for first."""
+    return path.with_name(f"{path.stem}.fbm")
+
+
 class FbxTextures:
     """Converts the materials of one file, reading each image once."""
 
@@ -67,6 +72,11 @@ class FbxTextures:
             "mask" if cut else None,
         )
 
+    @property
+    def beside(self) -> dict[str, bytes]:
+        """Files beside this one that its materials show so far, by their names."""
+        return {name: content for name, content in self._beside.items() if content}
+
     def _use(self, texture: FbxTexture) -> TextureUse | None:
         made = self._texture(texture)
         if made is None or not all(abs(number) < _FARTHEST for number in (*texture.scaled, *texture.moved)):
@@ -87,7 +97,7 @@ class FbxTextures:
         self._left_files -= 1
         content = b""
         folder = self._path.parent.resolve()
-        for below in (f"{self._path.stem}.fbm", *FOLDERS):
+        for below in (media_folder(self._path).name, *FOLDERS):
             try:
                 file = (folder / below / name).resolve()
                 if not is_file(file) or not file.is_relative_to(folder):

@@ -28,6 +28,7 @@ from app.project.ids import MADE_PART, fresh_note_ids, fresh_part_ids, fresh_pla
 from app.project.model import Project, characters_for
 from app.project.names import clean_name
 from app.project.performers import Dancer, Player
+from app.project.usual_outfits import common_outfit
 from app.score.channel_sound import DRUM_CHANNEL
 from app.score.instrument_choice import require_map
 from app.score.marks import renamed_marks
@@ -328,6 +329,7 @@ def newcomer(
         parameters=cast_parameters(project, player_id, playing[-1]),
         stage=StagePosition(0.0, 0.0, 0.0),
         doubles=doubles,
+        outfit=common_outfit(project),
     )
 
 

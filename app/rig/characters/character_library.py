@@ -23,6 +23,7 @@ import msgspec
 from app.encoding import shown
 from app.errors import AppError, FileError, MapError, Message, UsageError, shortened
 from app.formats.atomic import atomic_write
+from app.formats.fbx.foreign_textures import media_folder
 from app.formats.files import cannot_write, open_file
 from app.formats.gltf.self_contained import read_whole
 from app.formats.toml import read_toml, shaped, toml
@@ -33,9 +34,7 @@ from app.rig.characters.read_figure import SUFFIXES
 from app.rig.grip.body_size import arm_m
 from app.rig.model import Character
 from app.rig.people.bundled_people import bundled_people, bundled_person, person_arm_m, person_of
-from app.rig.people.dressed import dressed, dressed_id
-from app.rig.people.person import Person, checked, phenotypes
-from app.rig.people.wardrobe import OutfitChoice
+from app.rig.people.person import Person, checked
 
 MOST_ID: Final = 60
 MOST_TITLE: Final = 200
@@ -211,34 +210,6 @@ def character_named(id: str) -> Character:
         return character
 
 
-def person_behind(id: str) -> Person | None:
-    """Return the person that a character is made as; None of a figure of the user's own, and where there is none."""
-    if id in bundled_characters():
-        return Person(id, phenotypes()[id])
-    if id in bundled_people():
-        return bundled_person(id)
-    entry = character_library().own.get(id)
-    return None if entry is None else entry.person
-
-
-def character_in(id: str, choice: OutfitChoice) -> Character:
-    """Return a character in an outfit, or in its own clothes where it is no person. Raises as `character_named`."""
-    character = character_named(id)
-    return _dressed(character, choice) if choice.id else character
-
-
-def dressed_as(id: str, choice: OutfitChoice) -> str:
-    """Return the id of `character_in`, which none in other clothes or colours has; nothing is made for it."""
-    person = person_behind(id)
-    return id if person is None else dressed_id(id, person, choice)
-
-
-@lru_cache(maxsize=64)
-def _dressed(character: Character, choice: OutfitChoice) -> Character:
-    person = person_behind(character.id)
-    return character if person is None else dressed(character, person, choice)
-
-
 @cache
 def our_arm_m(id: str) -> float:
     """Return the length of the right arm of a character of ours, upper and lower; no person is made for it."""
@@ -314,10 +285,28 @@ def add_character(
         content = read_whole(path)
         with atomic_write(folder / f"{id}{suffix}") as stream:
             stream.write(content)
+        if suffix == ".fbx":
+            _keep_images(path, media_folder(folder / f"{id}{suffix}"))
         # A file without a description is no one: what fails between the two leaves no half of a character.
         faces = {name: dict(parts) for name, parts in (morphs or {}).items()}
         write_entry(id, CharacterEntry(f"{id}{suffix}", title, dict(joints or {}), faces, height_m, list(hidden)))
         return id
+
+
+def _keep_images(path: Path, folder: Path) -> None:
+    """Copy the images beside an FBX file into a folder. Raises FileError."""
+    from app.rig.characters.figure_fbx import fbx_images  # starts a process, for FBX files alone
+
+    images = fbx_images(path)
+    if not images:
+        return
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise cannot_write(folder, error) from error
+    for name, content in images.items():
+        with atomic_write(folder / name) as stream:
+            stream.write(content)
 
 
 def add_person(person: Person, title: str) -> str:
@@ -353,9 +342,13 @@ def remove_character(id: str) -> None:
     if source is None or source.entry is None:
         raise UsageError("character.missing", id=id, known=", ".join(character_library().own))
     shared = any(other.path == source.path for name, other in sources.items() if name != id)
-    for path in (own_folder() / f"{id}.toml", *(() if shared else (source.path,))):
+    images = media_folder(source.path)
+    beside = () if shared or not os.path.isdir(images) else tuple(images.iterdir())
+    for path in (own_folder() / f"{id}.toml", *(() if shared else (source.path, *beside))):
         try:
             path.unlink(missing_ok=True)
+            if path in beside[-1:]:
+                images.rmdir()
         except OSError as error:
             raise cannot_write(path, error) from error
     reload_characters()

@@ -58,6 +58,16 @@ def fbx_figure(path: Path) -> Figure:
     return build_figure(str(path), "fbx", nodes, parts)
 
 
+def fbx_images(path: Path) -> dict[str, bytes]:
+    """Read the images beside an FBX file that it shows, by their names. Raises FileError."""
+    content = read_foreign_fbx(path)
+    textures = FbxTextures(path, content)
+    for mesh in content.meshes:
+        for material in mesh.materials:
+            textures.material(material)
+    return textures.beside
+
+
 def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
     """Return where each bone of a skin was when it was bound; empty where skins contradict one another or
     themselves."""

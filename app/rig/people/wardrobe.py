@@ -6,7 +6,7 @@ A file has the garments alone, skinned to the joints of a finished body that the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -92,50 +92,66 @@ class Outfit:
     ----------
     files : mapping of str to (Path, OutfitFacts)
         By the finished body whose people wear them.
-    tints : tuple of str
-        Colours that can be chosen of it.
+    colours : dict of str to str
+        By colour that can be chosen, in their order: the outfit's own, ``#rrggbb``.
     """
 
     id: str
     title: PersonName
     files: Mapping[str, tuple[Path, OutfitFacts]]
-    tints: tuple[Tint, ...]
+    colours: Mapping[Tint, str]
+
+    @property
+    def tints(self) -> tuple[Tint, ...]:
+        """Colours that can be chosen of it."""
+        return tuple(self.colours)
 
 
 @cache
 def wardrobe() -> Mapping[str, Outfit]:
     """Return the outfits by id, in their order. Looked up once. Raises FileError."""
     found: dict[str, dict[str, tuple[Path, OutfitFacts]]] = {}
+    colours: dict[str, dict[Tint, str]] = {}
     for path in sorted(_folder().glob("*.glb")):
-        facts = _facts(path)
+        facts, own = _facts(path)
+        colours[facts.id] = {**own, **colours.get(facts.id, {})}
         ending = path.stem.rpartition("_")[2]
         named = [id for id in phenotypes() if id.partition("_")[0] == ending]
         body = facts.body or (named or list(phenotypes()))[0]
         whole = msgspec.structs.replace(facts, body=body)
         for id in named or phenotypes():
             found.setdefault(facts.id, {})[id] = (path, whole)
-    return MappingProxyType({id: _outfit(id, found[id]) for id in sorted(found)})
+    return MappingProxyType({id: _outfit(id, found[id], colours[id]) for id in sorted(found)})
 
 
 def _folder() -> Path:
     return Path(str(files("resources"))) / "characters" / "wardrobe"
 
 
-def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]]) -> Outfit:
-    tinted = {tint for _, facts in made.values() for tint in facts.tints.values()}
+def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]], colours: Mapping[Tint, str]) -> Outfit:
     title = next(iter(made.values()))[1].title
-    return Outfit(id, title, MappingProxyType(dict(made)), tuple(tint for tint in TINTS if tint in tinted))
+    ordered = {tint: colours[tint] for tint in TINTS if tint in colours}
+    return Outfit(id, title, MappingProxyType(dict(made)), MappingProxyType(ordered))
 
 
-def _facts(path: Path) -> OutfitFacts:
-    """Facts of a file, of which only the document is read. Raises FileError."""
+def _facts(path: Path) -> tuple[OutfitFacts, dict[Tint, str]]:
+    """Facts of a file, of which only the document is read, and its colours. Raises FileError."""
     with open_file(path) as stream:
         head = stream.read(_HEADER)
         document, _ = split(head + stream.read(int.from_bytes(head[12:16], "little")), str(path))
     scenes: list[Any] = field(document, "scenes") or [None]
     told = field(field(field(scenes[0], "extras"), "suisou"), "outfit")
     try:
-        return msgspec.convert(told, OutfitFacts)
+        facts = msgspec.convert(told, OutfitFacts)
+        factors = {
+            field(material, "name"): field(field(material, "pbrMetallicRoughness"), "baseColorFactor")
+            or [1.0, 1.0, 1.0]
+            for material in field(document, "materials") or []
+        }
+        return facts, {
+            tint: _hexadecimal([facts.means.get(name, 1.0) * part for part in factors.get(name, [0.0, 0.0, 0.0])[:3]])
+            for name, tint in facts.tints.items()
+        }
     except msgspec.ValidationError as error:
         raise FileError("model.invalid", file=str(path), detail=f"damaged: {error}") from error
 
@@ -144,6 +160,12 @@ def linear_colour(colour: str) -> tuple[float, float, float]:
     """Linear values of ``#rrggbb`` (IEC 61966-2-1)."""
     red, green, blue = (int(colour[place : place + 2], 16) / 255.0 for place in (1, 3, 5))
     return _linear(red), _linear(green), _linear(blue)
+
+
+def _hexadecimal(linear: Sequence[float]) -> str:
+    """A colour of linear values as ``#rrggbb``."""
+    parts = [12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055 for value in linear]
+    return "#" + "".join(f"{round(255.0 * min(max(part, 0.0), 1.0)):02x}" for part in parts)
 
 
 def _linear(value: float) -> float:

@@ -9,6 +9,7 @@ from app.editor.player_marks import PlayerMark, mark_players
 from app.editor.session import Session
 from app.errors import Message
 from app.project.edit import players as edit
+from app.project.edit.outfits import dress_everyone as dress_all
 from app.project.model import Project
 from app.project.performers import Player
 from app.project.player_sections import are_worth_grouping, in_sections_of, sections
@@ -88,6 +89,14 @@ def toggle_posture(session: Session) -> None:
 def arrange(session: Session) -> None:
     """Put everyone on the automatic arc."""
     session.attempt(Message("edit.arrange_players"), edit.arrange)
+
+
+def dress_everyone(session: Session) -> None:
+    """Give everyone the outfit and the colours of the active player."""
+    front = session.player
+    if front is not None:
+        choice = front.outfit
+        session.attempt(Message("edit.dress_everyone"), lambda project: dress_all(project, choice))
 
 
 def select_all(session: Session) -> None:
@@ -211,6 +220,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     Action("players.previous", partial(step, by=-1), "edit/players", "Ctrl+PgUp", enabled=_has_several),
     Action("players.posture", toggle_posture, "edit/players", enabled=_may_sit_or_stand, icon="seated"),
     Action("players.randomise", performer_edits.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
+    Action("players.dress_everyone", dress_everyone, "edit/players", enabled=_has_several),
     Action("players.arrange", arrange, "edit/players", enabled=_has_players, icon="stage"),
     Action("players.select_section", select_section, "edit/players", "Shift+A", "players", enabled=_has_players),
     Action("players.select_all", select_all, "edit/players", "Ctrl+Shift+A", enabled=_has_several),

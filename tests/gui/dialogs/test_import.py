@@ -29,6 +29,7 @@ from app.project import importing
 from app.project.importing import import_project, usual_rows
 from app.project.model import Project, map_choices, project_from_score
 from app.project.reimport import reimported
+from app.project.usual_outfits import outfit_of_piece, with_outfit
 from app.score.read import read_contents, read_midi
 from instrument_maps.load import bundled_maps
 from tests.support.take_files import take_file
@@ -72,8 +73,9 @@ def choose(dialog: ImportDialog, name: str, data: object) -> None:
 
 def test_untouched_it_is_what_the_command_line_does(dialog: ImportDialog) -> None:
     score = read_midi(LUTKIN, maps=map_choices(MAPS.values()))
-    usual = project_from_score(score, MAPS)
-    project = import_project(read_contents(LUTKIN), dialog.rows, MAPS, str(LUTKIN))
+    contents = read_contents(LUTKIN)
+    usual = with_outfit(project_from_score(score, MAPS), outfit_of_piece(contents, 3))
+    project = import_project(contents, dialog.rows, MAPS, str(LUTKIN), outfit=dialog.assignment.outfit)
     assert project.players == usual.players
     assert project.score == usual.score
     assert project.source == str(LUTKIN)

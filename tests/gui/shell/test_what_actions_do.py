@@ -22,10 +22,11 @@ from app.plan.by_hand.corrections import AddGesture, PinFingering, RemoveEvent, 
 from app.plan.by_hand.mark_corrections import SetMark
 from app.project.casting import StagePosition
 from app.project.edit.notes import move
-from app.project.edit.players import join, place, set_parameters
+from app.project.edit.players import change, join, place, set_parameters
 from app.project.edit.takes import set_cleaning
 from app.project.model import Project, map_choices
 from app.project.piece_metadata import load_metadata, metadata_of, save_metadata
+from app.rig.people.wardrobe import OutfitChoice
 from app.score.marks import MARK_KINDS, WRITABLE, WRITABLE_DYNAMICS
 from app.score.model import Note
 from app.score.read import read_midi
@@ -93,6 +94,11 @@ def two_players_in_turn(desk: Desk) -> None:
     later = move(desk.project, ids, desk.project.score.end_tick + 8 * 480, 0)
     desk.session.document.apply(Message("edit.move_notes", {"count": len(ids), "of": ""}), later)
     desk.session.set_players((first.id, second.id))
+
+
+def wear_what_is_not_here(desk: Desk) -> None:
+    edited = change(desk.project, [desk.player.id], outfit=OutfitChoice("elsewhere", "#102030"))
+    desk.session.document.apply(Message("edit.player_outfit", {"of": "Trumpet 1"}), edited)
 
 
 def joined(desk: Desk) -> None:
@@ -620,6 +626,11 @@ CASES: dict[str, Case] = {
     ),
     "players.randomise": Case(
         lambda d: all(a.parameters != b.parameters for a, b in zip(d.before.players, d.project.players, strict=True)),
+        edits=True,
+    ),
+    "players.dress_everyone": Case(
+        lambda d: {player.outfit for player in d.project.players} == {OutfitChoice("elsewhere", "#102030")},
+        lambda d: wear_what_is_not_here(d),
         edits=True,
     ),
     "players.arrange": Case(

@@ -20,10 +20,12 @@ from app.encoding import shown
 from app.errors import AppError, Message
 from app.project.choreography_files import SUFFIX, bundled_choreographies, choreography_path
 from app.project.edit import dancers as edit
+from app.project.edit.outfits import colour_outfit, give_outfit
 from app.project.model import DANCER_PARAMETERS, Project
 from app.project.performers import Dancer
 from app.project.undoable_document import Change
 from app.rig.characters.character_library import characters
+from app.rig.people.wardrobe import Tint
 from widgets.common.actions import actions
 from widgets.common.clicks import on_click, on_switch
 from widgets.common.combo import Combo, Option
@@ -35,6 +37,7 @@ from widgets.common.paths import ask_for_file
 from widgets.common.plain import verbatim
 from widgets.common.section import Section
 from widgets.players.choreography.dancer_list import DancerList
+from widgets.players.outfit_rows import OutfitChooser, OutfitColours
 from widgets.players.parameter_rows import ParameterSlider, rows_of
 from widgets.players.performer_edits import add_dancer, duplicate_dancer, remove_dancer
 from widgets.players.place_numbers import place_sliders, shown_number, with_number
@@ -73,6 +76,7 @@ class DancersSection(Retranslated, QWidget):
         self.list = self.texted(named(DancerList(session), "dancer_list"), name="dancers_section.dancers")
         self._form = QWidget()
         self._choreography, self._character, self._source = Combo(), Combo(), Combo()
+        self._outfit, self._outfit_colours = OutfitChooser("dancer"), OutfitColours(session, "dancer")
         self.texted(self._source, tip=_SOURCE.tip)
         self._mirrored = self.texted(
             named(Check("dancers_section.mirrored"), "dancer_mirrored"), tip="dancers_section.left_and_right_exchanged"
@@ -111,6 +115,7 @@ class DancersSection(Retranslated, QWidget):
         combos = {
             "choreography": (self._choreography, "dancers_section.choreography"),
             "character": (self._character, "dancers_section.character"),
+            "outfit": (self._outfit, "outfit_rows.outfit"),
             "source": (self._source, _SOURCE.label),
         }
         for row, (name, (combo, text_id)) in enumerate(combos.items()):
@@ -121,7 +126,9 @@ class DancersSection(Retranslated, QWidget):
         choreography = in_row((self._choreography, 1), self._look, spacing=4)
         grid.addLayout(choreography, 0, 1)
         seed = in_row(spacing=4)
-        for row, (name, slider) in enumerate(self._numbers.items(), len(combos)):
+        grid.addWidget(self._outfit_colours.caption, len(combos), 0)
+        grid.addWidget(self._outfit_colours, len(combos), 1)
+        for row, (name, slider) in enumerate(self._numbers.items(), len(combos) + 1):
             if name == "seed":
                 seed.addWidget(slider, 1)
                 seed.addWidget(self._dice)
@@ -156,6 +163,8 @@ class DancersSection(Retranslated, QWidget):
         self.list.moved.connect(self._move)
         self._choreography.chosen.connect(self._choose_choreography)
         self._character.chosen.connect(lambda id: self._change("character", character_id=id))
+        self._outfit.chosen.connect(self._wear)
+        self._outfit_colours.chosen.connect(self._tint)
         self._source.chosen.connect(lambda number: self._change("source", source=int(number)))
         on_switch(self._mirrored, lambda on: self._change("mirrored", mirrored=bool(on)))
         for name, number in self._numbers.items():
@@ -206,6 +215,8 @@ class DancersSection(Retranslated, QWidget):
         self._choreography.setToolTip(shown(dancer.choreography))
         self._character.set_options([Option(id, character_name(id)) for id in characters()])
         self._character.show_option(dancer.character_id)
+        self._outfit.show_worn([dancer])
+        self._outfit_colours.show_worn([dancer])
         self._source.set_options([Option("-1", self.tr("dancers_section.none")), *self._sources(dancer)])
         self._source.show_option(str(dancer.source))
         self._mirrored.setChecked(dancer.mirrored)
@@ -304,6 +315,12 @@ class DancersSection(Retranslated, QWidget):
 
     def _change(self, name: str, token: object | None = None, **fields: object) -> None:
         self._edit(name, lambda project, id: edit.change_dancers(project, (id,), **fields), token)
+
+    def _wear(self, outfit: str) -> None:
+        self._edit("outfit", lambda project, id: give_outfit(project, (id,), outfit))
+
+    def _tint(self, tint: Tint, colour: str) -> None:
+        self._edit("outfit_colour", lambda project, id: colour_outfit(project, (id,), tint, colour))
 
     def _place(self, name: str, value: float, token: object | None) -> None:
         dancer = self.dancer

@@ -8,6 +8,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from app.errors import FileError, MapError, UsageError
+from app.formats.fbx.foreign import read_foreign_fbx
+from app.formats.fbx.foreign_textures import FbxTextures
+from app.formats.fbx.write import write_scene
 from app.rig.characters import character_library
 from app.rig.characters.character_library import (
     FOLDER_VARIABLE,
@@ -29,6 +32,7 @@ from app.rig.characters.character_library import (
 from app.rig.characters.character_library import (
     character_library as library,
 )
+from tests.support.textured import textured_scene
 
 OURS = bundled_characters()["woman_adult"]
 
@@ -69,6 +73,21 @@ def test_who_is_added_can_play_under_an_id_of_its_own(folder: Path) -> None:
     with pytest.raises(UsageError):
         remove_character("woman_adult")
     assert OURS.is_file()
+
+
+def test_images_beside_an_fbx_file_are_kept_with_it(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_scene(tmp_path / "card.fbx", textured_scene())
+    monkeypatch.setattr(character_library, "load_character", lambda *_: None)
+    id = add_character(tmp_path / "card.fbx", "Card")
+    shutil.rmtree(tmp_path / "Textures")
+    content = read_foreign_fbx(folder / f"{id}.fbx")
+    textures = FbxTextures(folder / f"{id}.fbx", content).material(content.meshes[0].materials[0]).textures
+    assert textures.color is not None
+    assert textures.normal is not None
+    remove_character(id)
+    assert not [*folder.iterdir()]
 
 
 def test_a_long_title_is_cut_when_written_and_refused_when_read(folder: Path) -> None:

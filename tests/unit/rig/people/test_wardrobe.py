@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from app.errors import FileError
-from app.rig.characters.character_library import character_in, character_named, person_behind
+from app.rig.characters.character_library import character_named
+from app.rig.characters.dressed_characters import character_in, person_behind
 from app.rig.people.wardrobe import OutfitChoice, linear_colour, wardrobe
 from app.rig.skinning import mesh_named
 from tests.support.wardrobe import GARMENTS, TITLE, wardrobe_in, write_outfit

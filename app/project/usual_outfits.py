@@ -1,0 +1,56 @@
+"""Outfits that players are given by themselves: those of the kind of piece, later those of most on the stage."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import msgspec
+
+from app.project.model import Project
+from app.rig.people.wardrobe import NO_CHOICE, OWN_CLOTHES, OutfitChoice, wardrobe
+from app.score.contents import PieceContents
+from app.score.track_channel import TrackChannel
+from app.score.track_instrument import use_of
+
+CONCERT, JAZZ = "concert_black", "jazz_suit"
+BASSES: Final = frozenset(range(32, 40))
+CHORDS: Final = frozenset((*range(8), *range(16, 21), *range(24, 32)))
+"""Programs of General MIDI: basses; pianos, organs and guitars."""
+MOST_IN_JAZZ: Final = 18
+"""Winds of a large jazz orchestra; a band with more is a concert band, whatever else plays."""
+
+
+def outfit_of_piece(contents: PieceContents, players: int) -> str:
+    """Return the id of the outfit that suits a piece: winds with a rhythm section play jazz, others a concert.
+
+    Parameters
+    ----------
+    players : int
+        Musicians on the stage.
+    """
+    rhythm = any(use_of(channel) == "rhythm" for channel in contents.channels)
+    jazz = rhythm and players <= MOST_IN_JAZZ and all(_has(contents.channels, one) for one in (BASSES, CHORDS))
+    chosen = JAZZ if jazz else CONCERT
+    return chosen if chosen in wardrobe() else OWN_CLOTHES
+
+
+def _has(channels: Sequence[TrackChannel], programs: frozenset[int]) -> bool:
+    return any(use_of(channel) == "melodic" and channel.program in programs for channel in channels)
+
+
+def with_outfit(project: Project, outfit_id: str) -> Project:
+    """The project with everyone who plays in an outfit, in its own colours."""
+    choice = OutfitChoice(outfit_id)
+    players = (msgspec.structs.replace(player, outfit=choice) for player in project.players)
+    return replace(project, players=tuple(players)) if outfit_id else project
+
+
+def common_outfit(project: Project) -> OutfitChoice:
+    """Return what most players on the stage wear, for one who comes; in an empty piece as in a concert."""
+    worn = Counter(player.outfit for player in project.bodies)
+    if worn:
+        return worn.most_common(1)[0][0]
+    return OutfitChoice(CONCERT) if CONCERT in wardrobe() else NO_CHOICE

@@ -1,0 +1,40 @@
+"""Characters in outfits: the people among them by what they are made of, others as they are."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from app.rig.characters.character_library import bundled_characters, character_library, character_named
+from app.rig.model import Character
+from app.rig.people.bundled_people import bundled_people, bundled_person
+from app.rig.people.dressed import dressed, dressed_id
+from app.rig.people.person import Person, phenotypes
+from app.rig.people.wardrobe import OutfitChoice
+
+
+def person_behind(id: str) -> Person | None:
+    """Return the person that a character is made as; None of a figure of the user's own, and where there is none."""
+    if id in bundled_characters():
+        return Person(id, phenotypes()[id])
+    if id in bundled_people():
+        return bundled_person(id)
+    entry = character_library().own.get(id)
+    return None if entry is None else entry.person
+
+
+def character_in(id: str, choice: OutfitChoice) -> Character:
+    """Return a character in an outfit, or in its own clothes where it is no person. Raises as `character_named`."""
+    character = character_named(id)
+    return _dressed(character, choice) if choice.id else character
+
+
+def dressed_as(id: str, choice: OutfitChoice) -> str:
+    """Return the id of `character_in`, which none in other clothes or colours has; nothing is made for it."""
+    person = person_behind(id)
+    return id if person is None else dressed_id(id, person, choice)
+
+
+@lru_cache(maxsize=64)
+def _dressed(character: Character, choice: OutfitChoice) -> Character:
+    person = person_behind(character.id)
+    return character if person is None else dressed(character, person, choice)

@@ -1,0 +1,111 @@
+"""Outfits of a piece: those chosen for its kind, those of who comes later, and those asked for in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from app.errors import UsageError
+from app.project.edit.outfits import colour_outfit, dress_everyone, give_outfit, with_outfits
+from app.project.edit.players import add_player
+from app.project.importing import import_project, usual_rows
+from app.project.usual_outfits import common_outfit, outfit_of_piece
+from app.rig.people.wardrobe import OutfitChoice
+from app.score.contents import PieceContents
+from app.score.read import read_contents
+from instrument_maps.load import bundled_maps
+from tests.support.wardrobe import wardrobe_in, write_outfit
+from tests.unit.project.pieces import full_project, small_project
+
+
+@pytest.fixture(scope="module", autouse=True)
+def suits(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    folder = tmp_path_factory.mktemp("wardrobe")
+    for id in ("concert_black", "jazz_suit"):
+        write_outfit(folder / f"{id}.glb", id)
+    with wardrobe_in(folder):
+        yield
+
+
+QUARTET = Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid"
+MAPS = bundled_maps()
+
+
+def contents_with(programs: list[int], drums: bool = True) -> PieceContents:
+    """The quartet with further tracks of these programs, silent as they are, and with a track of drums."""
+    contents = read_contents(QUARTET)
+    first = contents.channels[0]
+    others = [
+        msgspec.structs.replace(first, track=20 + index, program=program, name="", instrument_name="", reported=())
+        for index, program in enumerate(programs)
+    ]
+    kit = [msgspec.structs.replace(first, track=40, use="rhythm", certain=True, name="", reported=())] * drums
+    return msgspec.structs.replace(contents, channels=(*contents.channels, *others, *kit))
+
+
+def test_a_piece_is_dressed_by_its_kind_and_as_it_is_told_to_be() -> None:
+    contents = read_contents(QUARTET)
+    for told, worn in ((None, "concert_black"), ("", ""), ("jazz_suit", "jazz_suit")):
+        project = import_project(contents, usual_rows(contents, MAPS), MAPS, outfit=told)
+        assert {player.outfit for player in project.players} == {OutfitChoice(worn)}
+
+
+def test_winds_with_a_rhythm_section_play_jazz() -> None:
+    for programs, drums, players, worn in (
+        ([33, 0], True, 17, "jazz_suit"),
+        ([33, 0], True, 40, "concert_black"),
+        ([33, 0], False, 17, "concert_black"),
+        ([33], True, 17, "concert_black"),
+        ([0], True, 17, "concert_black"),
+    ):
+        assert outfit_of_piece(contents_with(programs, drums), players) == worn, (programs, drums, players)
+
+
+def test_who_comes_later_wears_what_most_do() -> None:
+    project = small_project()
+    assert common_outfit(replace(project, players=())) == OutfitChoice("concert_black")
+    red = OutfitChoice("jazz_suit", "#aa0000")
+    dressed = dress_everyone(project, red)
+    more, id = add_player(dressed, MAPS["trumpet_Bb"], MAPS, "Horn")
+    assert more.player(id).outfit == red
+
+
+def test_outfits_and_colours_are_those_of_the_performers_named_and_nothing_else_changes() -> None:
+    project = full_project()
+    first, dancer = project.players[0].id, project.dancers[0].id
+    worn = give_outfit(project, [first, dancer], "jazz_suit")
+    assert worn.player(first).outfit == worn.dancer(dancer).outfit == OutfitChoice("jazz_suit")
+    assert worn.players[1] is project.players[1]
+    assert worn.corrections is project.corrections
+    red = colour_outfit(worn, [first], "second", "#aa0000")
+    assert red.player(first).outfit == OutfitChoice("jazz_suit", second="#aa0000")
+    assert colour_outfit(red, [first], "second", "").player(first).outfit == OutfitChoice("jazz_suit")
+    assert give_outfit(red, [first], "jazz_suit") is red, "it is worn already, in its colours"
+
+
+def test_a_musician_wears_one_outfit_with_every_instrument() -> None:
+    project = small_project()
+    first, second = project.players
+    doubling = replace(project, players=(first, msgspec.structs.replace(second, doubles=first.id)))
+    worn = give_outfit(doubling, [second.id], "jazz_suit")
+    assert {player.outfit.id for player in worn.players} == {"jazz_suit"}
+
+
+def told(*texts: str) -> list[OutfitChoice]:
+    return [one.outfit for one in with_outfits(small_project(), texts).performers]
+
+
+def test_outfits_in_words_are_of_everyone_or_of_those_named() -> None:
+    assert told("jazz_suit") == 2 * [OutfitChoice("jazz_suit")]
+    assert told("jazz_suit", "tromb*=concert_black,#AA0000,,#ffffff") == [
+        OutfitChoice("jazz_suit"),
+        OutfitChoice("concert_black", "#AA0000", "", "#ffffff"),
+    ]
+    assert told("jazz_suit", "trumpet=own") == [OutfitChoice(), OutfitChoice("jazz_suit")]
+    for wrong in ("sailor", "tuba=jazz_suit", "jazz_suit,red", "jazz_suit,#000,#000000", "own,#000000", "", "x="):
+        with pytest.raises(UsageError):
+            told(wrong)

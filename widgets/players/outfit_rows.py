@@ -1,0 +1,91 @@
+"""Controls of what someone wears: the outfit, and the colours of its parts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QWidget
+
+from app.editor.session import Session
+from app.project.performers import Dancer, Player
+from app.rig.characters.dressed_characters import person_behind
+from app.rig.people.wardrobe import OWN_CLOTHES, TINTS, OutfitChoice, Tint, wardrobe
+from widgets.common.combo import Combo, Option
+from widgets.common.controls import Caption, Retranslated
+from widgets.common.instrument_name import outfit_names
+from widgets.common.layouts import in_row
+from widgets.common.swatch import ColourSwatch
+
+
+class OutfitChooser(Retranslated, Combo):
+    """The outfits, and the clothes that people have of their own."""
+
+    def __init__(self, prefix: str) -> None:
+        super().__init__()
+        self.setObjectName(f"{prefix}_outfit")
+        self.retranslate()
+
+    def show_worn(self, performers: Sequence[Player | Dancer]) -> None:
+        """Show what some performers wear; those who are no people have no choice."""
+        worn = {one.outfit.id for one in _people(performers)}
+        self.setEnabled(bool(worn))
+        self.setToolTip("" if worn else self.tr("outfit_rows.own_figure"))
+        # Those that are not there are of a project of another version.
+        unknown = [Option(id, id) for id in sorted(worn) if id != OWN_CLOTHES and id not in wardrobe()]
+        self.set_options([*_outfits(), *unknown])
+        self.show_option(OWN_CLOTHES if not worn else worn.pop() if len(worn) == 1 else None)
+
+    def retranslate(self) -> None:
+        self.set_options(_outfits())
+
+
+class OutfitColours(Retranslated, QWidget):
+    """The colours of the parts of outfits that can be chosen.
+
+    Signals
+    -------
+    chosen(str, str)
+        The user chose a colour for a part (`TINTS`); empty: the outfit's own.
+    """
+
+    chosen = Signal(str, str)
+
+    def __init__(self, session: Session, prefix: str) -> None:
+        super().__init__()
+        self.caption = Caption("outfit_rows.colours")
+        self._swatches: dict[Tint, ColourSwatch] = {}
+        for tint in TINTS:
+            swatch = self._swatches[tint] = ColourSwatch(session, title="outfit_rows.colour_of_outfit")
+            swatch.setObjectName(f"{prefix}_outfit_{tint}")
+            swatch.chosen.connect(partial(self.chosen.emit, tint))
+            self.texted(swatch, explained=f"outfit_rows.{tint}")
+        row = in_row(*self._swatches.values(), of=self, margins=0, spacing=4)
+        row.setAlignment(Qt.AlignmentFlag.AlignLeft)
+        self.caption.setBuddy(self._swatches["main"])
+
+    def show_worn(self, performers: Sequence[Player | Dancer]) -> None:
+        """Show the colours of what some performers wear; nothing where none can be chosen."""
+        people = _people(performers)
+        tints = {tint for one in people if one.outfit.id in wardrobe() for tint in wardrobe()[one.outfit.id].tints}
+        for one in (self, self.caption):
+            one.setVisible(bool(tints))
+        for tint, swatch in self._swatches.items():
+            swatch.setVisible(tint in tints)
+            swatch.show_colours(tuple(dict.fromkeys(filter(None, (_seen(one.outfit, tint) for one in people)))))
+
+
+def _outfits() -> list[Option]:
+    return [Option(id, name) for id, name in outfit_names().items()]
+
+
+def _people(performers: Sequence[Player | Dancer]) -> list[Player | Dancer]:
+    """Those of the performers who can wear outfits."""
+    return [one for one in performers if person_behind(one.character_id) is not None]
+
+
+def _seen(choice: OutfitChoice, tint: Tint) -> str:
+    """The colour that a part of an outfit has; empty where there is no such part."""
+    outfit = wardrobe().get(choice.id)
+    return "" if outfit is None or tint not in outfit.colours else choice.colour(tint) or outfit.colours[tint]
