@@ -37,6 +37,7 @@ from app.export.run import export as write
 from app.export.tree import clean_up
 from app.formats.images import TEXTURE_SIZES, USUAL_TEXTURE_PX
 from app.formats.keys import KEY_CHOICES
+from app.formats.levels_of_detail import MOST_LEVELS, levels_for
 from app.messages import text
 from app.performance.ensemble import Performance
 from app.project.parameters import select_players
@@ -97,6 +98,8 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
     sizes = tuple(texture_size_text(px) for px in TEXTURE_SIZES)
     textures = command.add_argument("--texture-size", choices=sizes, default=texture_size_text(USUAL_TEXTURE_PX))
     fill_help(textures, formats=names_where(lambda kind: kind.textured), usual=USUAL_TEXTURE_PX)
+    levels = command.add_argument("--levels-of-detail", type=level_count, default=0, metavar="N")
+    fill_help(levels, formats=names_where(lambda kind: kind.textured), most=MOST_LEVELS)
     keys = command.add_argument("--keys", choices=KEY_CHOICES, default="every")
     fill_help(keys, formats=names_where(lambda kind: kind.reduces_keys))
 
@@ -116,6 +119,7 @@ def texture_size_text(px: int) -> str:
 
 
 jobs = bounded_number(1, 256, "quantity.processes", int)
+level_count = bounded_number(1, MOST_LEVELS, "quantity.levels_of_detail", int)
 
 
 def file_formats(text: str) -> list[Format]:
@@ -268,6 +272,7 @@ def _request(
         face=FaceOptions(arguments.face_names, arguments.face_parts),
         motion_only=arguments.motion_only,
         texture_px=next(px for px in TEXTURE_SIZES if texture_size_text(px) == arguments.texture_size),
+        levels=levels_for(arguments.levels_of_detail, arguments.unreal is not None),
         with_ignored=arguments.ignored,
     )
 

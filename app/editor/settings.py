@@ -22,6 +22,7 @@ from app.editor.video_state import DEFAULT_OPACITY, Placement
 from app.editor.viewport_state import Follows
 from app.formats.images import USUAL_TEXTURE_PX, TextureSize
 from app.formats.keys import KeyChoice
+from app.formats.levels_of_detail import LevelChoice
 from app.messages import LANGUAGES
 from app.messages.pitches import PitchNames
 from app.stream.sender import LEAST_PORT, MOST_PORT
@@ -151,6 +152,8 @@ class Settings(StoredSettings):
     """Destination of the last export: ``"folder"`` or ``"unreal"``."""
     export_texture_px = Setting[TextureSize]("files/export_texture_px", USUAL_TEXTURE_PX, TextureSize)
     """Longest side of textures of the last export; 0: none."""
+    export_levels = Setting[LevelChoice]("files/export_levels", 0, LevelChoice)
+    """Levels of detail of the last export; 0: the usual."""
     export_keys = Setting[KeyChoice]("files/export_keys", "every", KeyChoice)
     """Keys of the last export."""
     _recent = Setting("files/recent", tuple[str, ...](), tuple[str, ...])

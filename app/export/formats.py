@@ -11,6 +11,7 @@ from app.arrays import AnyFloatArray
 from app.errors import UsageError
 from app.export.rig_options import Attachment
 from app.formats.images import USUAL_TEXTURE_PX
+from app.formats.levels_of_detail import with_levels
 from app.formats.scene import Scene, SkinnedMesh, without_meshes
 from app.formats.texture_colors import with_textures
 from app.formats.usd import UsdSound
@@ -37,6 +38,8 @@ class WriteOptions:
         Whether to write meshes in formats that can omit them.
     texture_px : int
         Longest side of textures; 0: none.
+    levels : int
+        Levels of detail of the meshes, 1 to `MOST_LEVELS`.
     t_pose : ndarray, shape (B, 4), or None
         Rotations of the scene's bones relative to their parents in the T-pose.
     """
@@ -46,6 +49,7 @@ class WriteOptions:
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     meshes: bool = True
     texture_px: int = USUAL_TEXTURE_PX
+    levels: int = 1
     t_pose: AnyFloatArray | None = None
 
 
@@ -122,7 +126,10 @@ class FileFormat:
 def _shown(scenes: Iterable[Scene], options: WriteOptions) -> Iterator[Scene]:
     """Yield scenes with the requested meshes and textures."""
     for scene in scenes:
-        yield with_textures(scene, options.texture_px) if options.meshes else without_meshes(scene)
+        if options.meshes:
+            yield with_levels(with_textures(scene, options.texture_px), options.levels)
+        else:
+            yield without_meshes(scene)
 
 
 def _write_fbx(path: Path, scenes: Iterable[Scene], beside: WriteOptions) -> None:

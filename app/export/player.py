@@ -272,5 +272,6 @@ def write_options(request: ExportRequest, character: Character, target: TargetSk
         expressions=vrm_expressions(character),
         meshes=not request.motion_only,
         texture_px=request.texture_px,
+        levels=request.levels,
         t_pose=target.t_pose,
     )

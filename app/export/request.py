@@ -72,6 +72,8 @@ class ExportRequest:
         Whether to omit meshes in formats that allow this.
     texture_px : int
         Longest side of textures; 0: no textures, surfaces have mean colours.
+    levels : int
+        Number of levels of detail of meshes, 1 to `MOST_LEVELS`.
     with_ignored : bool
         Whether problems ignored by the project are listed as warnings.
     """
@@ -96,6 +98,7 @@ class ExportRequest:
     face: FaceOptions = DEFAULT_FACE
     motion_only: bool = False
     texture_px: int = USUAL_TEXTURE_PX
+    levels: int = 1
     with_ignored: bool = False
 
 

@@ -40,7 +40,9 @@ def write_stage(
     """
     files = stage_names(request.performance, request.formats, request.source)
     sound = sound_name(request.source) if request.sound else None
-    beside = WriteOptions(sound=sound, meshes=not request.motion_only, texture_px=request.texture_px)
+    beside = WriteOptions(
+        sound=sound, meshes=not request.motion_only, texture_px=request.texture_px, levels=request.levels
+    )
     figures: dict[str, StageFigure] = {}
     for number, (name, file) in enumerate(files.items()):
 

@@ -56,6 +56,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     face: FaceOptions
     motion_only: bool
     texture_px: int
+    levels: int
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
@@ -95,6 +96,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         face=request.face,
         motion_only=request.motion_only,
         texture_px=request.texture_px,
+        levels=request.levels,
     )
 
 
@@ -118,6 +120,7 @@ def _request(job: ExportJob) -> ExportRequest:
         face=job.face,
         motion_only=job.motion_only,
         texture_px=job.texture_px,
+        levels=job.levels,
     )
 
 

@@ -121,6 +121,8 @@ class SkinnedMesh:
     world_from_bone_bind : ndarray, shape (J, 4, 4)
         Transform of every bone when the mesh was bound; equal for all meshes of a scene, and possibly different from
         the rest pose.
+    levels : tuple of SkinnedMesh
+        Lower levels of detail: the same mesh with fewer and fewer triangles; these have no levels.
     """
 
     name: str
@@ -134,6 +136,7 @@ class SkinnedMesh:
     weights: AnyFloatArray
     world_from_bone_bind: AnyFloatArray
     morphs: tuple[MorphTarget, ...] = ()
+    levels: tuple[SkinnedMesh, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,10 +239,11 @@ def check_scene(scene: Scene) -> None:
     for index, bone in enumerate(scene.bones[1:], start=1):
         if not 0 <= bone.parent < index:
             raise ValueError(f"bone {bone.name!r}: its parent must come before it, and only the first is a root")
-    names = [bone.name for bone in scene.bones] + [mesh.name for mesh in scene.meshes]
+    meshes = [one for mesh in scene.meshes for one in (mesh, *mesh.levels)]
+    names = [bone.name for bone in scene.bones] + [mesh.name for mesh in meshes]
     if len(set(names)) != len(names) or not all(names):
         raise ValueError("bones and meshes must have different, non-empty names")
-    for mesh in scene.meshes:
+    for mesh in meshes:
         _check_mesh(mesh, bone_count)
         if not np.array_equal(mesh.world_from_bone_bind, scene.meshes[0].world_from_bone_bind):
             raise ValueError(f"mesh {mesh.name!r}: bound in another pose than {scene.meshes[0].name!r}")

@@ -3,8 +3,8 @@ are below one prim with the clip's name, each at its place, and share materials.
 
 Centimetres (``metersPerUnit`` 0.01), Y up, facing +Z; time code n is frame n. Names that are invalid for prims are
 changed, and kept unchanged as the prim's display name, in the skeleton's ``jointNames`` and in the blend shapes'
-tokens. Textures are separate files. The optional package usd-core (module ``pxr``) is imported only when a file is
-written.
+tokens. Levels of detail are variants of the SkelRoot. Textures are separate files. The optional package usd-core
+(module ``pxr``) is imported only when a file is written.
 
 Source: OpenUSD documentation, "UsdSkel: Skeleton Schema", "UsdPreviewSurface Specification", "UsdMedia".
 """
@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
@@ -35,6 +35,8 @@ from app.formats.usd_materials import UsdMaterials
 from app.formats.usd_package import open_libraries, refuse_without_usd
 
 METERS_PER_UNIT = 0.01
+LEVELS: Final = "levelOfDetail"
+"""The variant set of a SkelRoot with one variant for each level of detail of its meshes."""
 
 
 @dataclass(frozen=True)
@@ -170,7 +172,11 @@ class _Writer:
         joints = self._joint_paths()
         skeleton = self._skeleton(f"{root_path}/{skeleton_name}", joints)
         for mesh, mesh_name in zip(scene.meshes, mesh_names, strict=True):
-            self._mesh(f"{root_path}/{mesh_name}", mesh, skeleton)
+            if not mesh.levels:
+                self._mesh(f"{root_path}/{mesh_name}", mesh, skeleton)
+        self._levels(
+            root, {f"{root_path}/{name}": mesh for name, mesh in zip(mesh_names, scene.meshes, strict=True)}, skeleton
+        )
         if clip is not None:
             self._motion(f"{root_path}/{motion_name}", clip, joints, skeleton)
 
@@ -200,6 +206,23 @@ class _Writer:
         skeleton.CreateRestTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(rest)))
         skeleton.CreateBindTransformsAttr(Vt.Matrix4dArray.FromNumpy(_rows(bind)))
         return skeleton
+
+    def _levels(self, root: Any, meshes: Mapping[str, SkinnedMesh], skeleton: Any) -> None:
+        """Add meshes with levels of detail by their paths: a variant for each level, the mesh itself selected."""
+        found = {path: (mesh, *mesh.levels) for path, mesh in meshes.items() if mesh.levels}
+        if not found:
+            return
+        # What a variant has lies below its prim; materials do not.
+        for levels in found.values():
+            for material in (material for level in levels for material in level.materials):
+                self._materials[material]
+        variants = root.GetPrim().GetVariantSets().AddVariantSet(LEVELS)
+        for number in reversed(range(max(map(len, found.values())))):
+            variants.AddVariant(f"LOD{number}")
+            variants.SetVariantSelection(f"LOD{number}")
+            with variants.GetVariantEditContext():
+                for path, levels in found.items():
+                    self._mesh(path, levels[min(number, len(levels) - 1)], skeleton)
 
     def _mesh(self, path: str, mesh: SkinnedMesh, skeleton: Any) -> None:
         from pxr import Gf, Sdf, UsdGeom, UsdSkel, Vt

@@ -19,16 +19,17 @@ from app.export.formats import refuse_attachment, requested
 from app.export.request import ExportRequest
 from app.formats.images import TEXTURE_SIZES, USUAL_TEXTURE_PX, TextureSize
 from app.formats.keys import KEY_CHOICES, KeyChoice
+from app.formats.levels_of_detail import LEVEL_CHOICES, LevelChoice, levels_for
 from app.performance.ensemble import Performance
 from app.performance.span import bars_span
 from app.project.frame_rate import USUAL_RATES, frame_rate_text
 from app.project.performers import Player
-from metadata.load import load_bone_names
-from widgets.common.controls import Button, Caption, named, said, selectable, wrapped
+from widgets.common.controls import Button, Caption, named, selectable, wrapped
 from widgets.common.layouts import Scrolled, begin_with_size, in_column, in_form, in_row
 from widgets.common.paths import show_folder
 from widgets.common.plain import ComboBox, Label
 from widgets.common.text import sentence
+from widgets.dialogs.export_choices import bone_name_profiles, levels_of_detail, texture_sizes
 from widgets.dialogs.export_destination import Destination, Done, Written, write
 from widgets.dialogs.export_face import FaceChooser
 from widgets.dialogs.export_formats import FormatChooser
@@ -44,21 +45,6 @@ OUTCOME_PX = 84
 """Room for some lines of what comes of an export; more are scrolled to."""
 _NAMES = 6
 """Most replaced or removed files that are named."""
-
-
-def _profiles() -> ComboBox:
-    """The tables of bone names, after an entry for the skeleton's own."""
-    box = named(ComboBox(), "export_bvh_names")
-    # As wide as there is room, not as the longest title.
-    box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    box.addItem("", "")
-    for profile, table in load_bone_names().items():
-        box.addItem(table.title, profile)
-    return box
-
-
-def _size_text(px: int) -> str:
-    return "export_dialog.texture_size" if px else "export_dialog.no_textures"
 
 
 def _some(names: tuple[str, ...]) -> str:
@@ -81,6 +67,8 @@ class ExportDialog(WorkingDialog):
         What was chosen of `KEY_CHOICES` before.
     texture_px : int
         What was chosen of `TEXTURE_SIZES` before.
+    levels : int
+        What was chosen of `LEVEL_CHOICES` before.
     before : ExportedBars, of the piece's last export
     source, creator : str
         Name of the piece's file; program and version, for the report.
@@ -102,6 +90,7 @@ class ExportDialog(WorkingDialog):
         destination: Destination = "folder",
         keys: KeyChoice = "every",
         texture_px: TextureSize = USUAL_TEXTURE_PX,
+        levels: LevelChoice = 0,
         before: ExportedBars = WHOLE_PIECE,
     ) -> None:
         super().__init__("export_files", "export", parent)
@@ -114,14 +103,12 @@ class ExportDialog(WorkingDialog):
         self._place = PlaceChooser(folder, unreal, destination)
         self._shown_folder = folder
         self._formats = FormatChooser()
-        self._bvh_names = self.texted(_profiles(), items="export_dialog.same_as_skeleton")
+        self._bvh_names = bone_name_profiles(self)
         self._keys = self.texted(named(ComboBox(), "export_keys"), tip="export_dialog.reduced_keys_tip")
         key_texts = ("export_dialog.key_on_every_frame", "export_dialog.reduced_keys", "export_dialog.linear_keys")
         self.texted(self._keys, options=dict(zip(KEY_CHOICES, key_texts, strict=True)))
         self._keys.setCurrentIndex(KEY_CHOICES.index(keys))
-        self._textures = self.texted(named(ComboBox(), "export_textures"), tip="export_dialog.textures_tip")
-        self.texted(self._textures, options={str(px): said(_size_text(px), px=str(px)) for px in TEXTURE_SIZES})
-        self._textures.setCurrentIndex(TEXTURE_SIZES.index(texture_px))
+        self._textures, self._levels = texture_sizes(self, texture_px), levels_of_detail(self, levels)
         self._range = RangeChooser(session, self._project.score)
         self._range.begin_with(before.bars)
         self._preroll = self.texted(BeatsBox("export_preroll"), suffix="export_dialog.beats")
@@ -181,6 +168,7 @@ class ExportDialog(WorkingDialog):
                 "export_dialog.bone_names_in_bvh": self._bvh_names,
                 "export_dialog.keys": self._keys,
                 "export_dialog.textures": self._textures,
+                "export_dialog.levels_of_detail": self._levels,
                 "export_dialog.skeleton": self._skeleton,
                 "export_dialog.rig": self._rig,
                 "export_dialog.face": self._face,
@@ -194,6 +182,7 @@ class ExportDialog(WorkingDialog):
         self.fields = (self._players, self._everyone, self._place, self._formats, self._bvh_names, self._keys)
         self.fields += (
             self._textures,
+            self._levels,
             self._skeleton,
             self._rig,
             self._face,
@@ -227,6 +216,11 @@ class ExportDialog(WorkingDialog):
         return TEXTURE_SIZES[self._textures.currentIndex()]
 
     @property
+    def levels(self) -> LevelChoice:
+        """The chosen number of levels of detail; 0: the usual."""
+        return LEVEL_CHOICES[self._levels.currentIndex()]
+
+    @property
     def chosen_bars(self) -> ExportedBars:
         """The bars chosen, and their lead-in."""
         return ExportedBars(self._range.bars, self._lead_in.value())
@@ -252,6 +246,7 @@ class ExportDialog(WorkingDialog):
             bvh_names=self._bvh_names.currentData(),
             keys=self.keys if self._place.destination == "folder" else "every",
             texture_px=self.texture_px,
+            levels=levels_for(self.levels, self._place.destination == "unreal"),
             skeleton=self._skeleton.choice,
             rig=self._rig.options,
             face=self._face.options,
@@ -348,7 +343,8 @@ class ExportDialog(WorkingDialog):
         kinds = requested(self._formats.formats) if into_folder else ()
         self._form.setRowVisible(self._bvh_names, any(kind.bones_by_name for kind in kinds))
         self._form.setRowVisible(self._keys, any(kind.reduces_keys for kind in kinds))
-        self._form.setRowVisible(self._textures, not into_folder or any(kind.textured for kind in kinds))
+        for surfaces in (self._textures, self._levels):
+            self._form.setRowVisible(surfaces, not into_folder or any(kind.textured for kind in kinds))
         self._form.setRowVisible(self._preroll, self._range.bars is None)
         self._form.setRowVisible(self._lead_in, self._range.bars is not None)
         if not self.player_ids:

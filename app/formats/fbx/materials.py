@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from app.formats.fbx.graph import FbxObject, numbers, properties_of
 from app.formats.scene import Material
 
 DIELECTRIC_REFLECTANCE = 0.04
@@ -65,3 +66,19 @@ def phong(material: Material) -> Phong:
 def roughness_of(shininess: float) -> float:
     """The roughness whose `phong` surface has this shininess."""
     return min(max(1.0 - math.sqrt(max(shininess, 0.0)) / 10.0, 0.0), 1.0)
+
+
+def read_material(material: FbxObject) -> Material:
+    """The surface of a material's object."""
+    properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
+    red, green, blue = (*properties.get("DiffuseColor", []), 0.0, 0.0, 0.0)[:3]
+
+    def number(name: str, otherwise: float) -> float:
+        return next(iter(properties.get(name, [])), otherwise)
+
+    return Material(
+        material.name,
+        (red, green, blue, number("Opacity", 1.0)),
+        number("ReflectionFactor", 0.0),
+        roughness_of(number("Shininess", 20.0)),
+    )

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,11 +20,11 @@ from app.formats.fbx.curves import EULER_ORDER, ORDERS
 from app.formats.fbx.decode import read_elements
 from app.formats.fbx.encode import Element
 from app.formats.fbx.graph import FbxObject, ObjectGraph, numbers, properties_of
-from app.formats.fbx.materials import roughness_of
+from app.formats.fbx.materials import read_material
 from app.formats.fbx.take import MOST_VALUES, FbxCurve, FbxTake, read_take
 from app.formats.files import read_file
 from app.formats.joint_angles import AXES, channel_quaternions
-from app.formats.scene import Bone, Clip, Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
+from app.formats.scene import Bone, Clip, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 
 MOST_BYTES = 2**30
 _BLOCK = 16384
@@ -75,6 +76,7 @@ def decode_scenes(data: bytes, file: str) -> tuple[Scene, ...]:
     figures: list[FbxObject | None] = [*nodes] if nodes else [None]
     scenes = tuple(_figure(graph, node, take, made_by) for node in figures)
     found = sum(len(scene.bones) + len(scene.meshes) for scene in scenes)
+    found += sum(len(mesh.levels) for scene in scenes for mesh in scene.meshes)
     if found != len(graph.of_kind("Model", "LimbNode")) + len(graph.of_kind("Model", "Mesh")):
         raise FileError("fbx.unsupported", file=file, what="a bone or mesh outside the figures")
     try:
@@ -92,7 +94,19 @@ def _figure(graph: ObjectGraph, node: FbxObject | None, take: FbxTake | None, cr
         place = NodePlace(translation, euler.quaternions(rotation[::-1], EULER_ORDER))
         node_from_world[:] = np.linalg.inv(place.matrix)
         models = graph.below(node, "Model", "Mesh")
-    meshes = tuple(_mesh(graph, model, bone_of_model, node_from_world) for model in models)
+    levels = _levels(graph, node)
+    below = {model.id for ones in levels.values() for model in ones}
+    in_file = {model.id for model in models} | levels.keys() | below
+    models = [model for model in graph.of_kind("Model", "Mesh") if model.id in in_file]
+
+    def mesh(model: FbxObject) -> SkinnedMesh:
+        return _mesh(graph, model, bone_of_model, node_from_world)
+
+    meshes = tuple(
+        replace(mesh(model), levels=tuple(map(mesh, levels.get(model.id, ()))))
+        for model in models
+        if model.id not in below
+    )
     clip = None
     if take is not None:
         channels = {
@@ -204,13 +218,20 @@ def _mesh(
         faces=faces,
         normals=normals,
         uvs=_uvs(graph, element),
-        materials=tuple(_material(material) for material in graph.below(model, "Material")),
+        materials=tuple(read_material(material) for material in graph.below(model, "Material")),
         face_materials=_face_materials(graph, element, len(faces)),
         joint_indices=joint_indices,
         weights=weights,
         world_from_bone_bind=node_from_world @ binds,
         morphs=_morphs(graph, shapes[0]),
     )
+
+
+def _levels(graph: ObjectGraph, node: FbxObject | None) -> dict[int, list[FbxObject]]:
+    """Lower levels of detail by the id of their mesh, of the figure below a node or of the file's only one."""
+    groups = graph.of_kind("Model", "LodGroup") if node is None else graph.below(node, "Model", "LodGroup")
+    found = [graph.below(group, "Model", "Mesh") for group in groups]
+    return {models[0].id: models[1:] for models in found if models}
 
 
 def _layer(graph: ObjectGraph, element: Element, name: str, mapping: str) -> Element:
@@ -244,21 +265,6 @@ def _face_materials(graph: ObjectGraph, element: Element, face_count: int) -> In
     layer = graph.section(element, "LayerElementMaterial")
     indices = graph.integers(layer, "Materials")
     return np.repeat(indices, face_count) if len(indices) == 1 else indices
-
-
-def _material(material: FbxObject) -> Material:
-    properties = {name: numbers(values) for name, values in properties_of(material.element).items()}
-    red, green, blue = (*properties.get("DiffuseColor", []), 0.0, 0.0, 0.0)[:3]
-
-    def number(name: str, otherwise: float) -> float:
-        return next(iter(properties.get(name, [])), otherwise)
-
-    return Material(
-        material.name,
-        (red, green, blue, number("Opacity", 1.0)),
-        number("ReflectionFactor", 0.0),
-        roughness_of(number("Shininess", 20.0)),
-    )
 
 
 def _skin(

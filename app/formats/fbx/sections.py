@@ -9,6 +9,7 @@ import numpy as np
 
 from app.formats.fbx import encode, ticks
 from app.formats.fbx.encode import Element, Property
+from app.formats.levels_of_detail import LEAST_HEIGHTS
 
 
 def integer(name: str, value: int) -> Element:
@@ -108,6 +109,23 @@ def definitions(objects: Iterable[Element]) -> Element:
         counts[element.name] = counts.get(element.name, 0) + 1
     types = (Element("ObjectType", (kind,), (integer("Count", count),)) for kind, count in counts.items())
     return Element("Definitions", (), (integer("Version", 100), integer("Count", sum(counts.values())), *types))
+
+
+def lod_group(lower_levels: int) -> tuple[Element, ...]:
+    """Children of the attribute of a node that shows one of its children, by the figure's height on the screen."""
+    rows = [
+        property_row("MinMaxDistance", "bool", "", "", np.int32(0)),
+        property_row("ThresholdsUsedAsPercentage", "bool", "", "", np.int32(1)),
+        property_row("WorldSpace", "bool", "", "", np.int32(0)),
+    ]
+    rows += [
+        property_row(f"Thresholds|Level{number}", "Distance", "", "", float(100 * height), "cm")
+        for number, height in enumerate(LEAST_HEIGHTS[:lower_levels])
+    ]
+    rows += [
+        property_row(f"DisplayLevels|Level{number}", "enum", "", "", np.int32(0)) for number in range(lower_levels + 1)
+    ]
+    return (property_block(*rows),)
 
 
 def takes(take: str, last_tick: int) -> Element:

@@ -29,6 +29,7 @@ from app.formats.fbx.sections import (
     global_settings,
     header,
     integer,
+    lod_group,
     property_block,
     property_row,
     takes,
@@ -128,7 +129,7 @@ def _add_figure(graph: Assembly, scene: Scene) -> _Figure:
         _add_bone(graph, figure, bone, rest_degrees, () if figure.bone_ids else weights)
     if scene.meshes:
         binds = world_from_node @ _unconnected_binds(scene)
-        mesh_ids = [_add_mesh(graph, figure, mesh, binds, world_from_node) for mesh in scene.meshes]
+        mesh_ids = [id for mesh in scene.meshes for id in _add_levels(graph, figure, mesh, binds, world_from_node)]
         nodes = [_pose_node(mesh_id, world_from_node) for mesh_id in mesh_ids]
         nodes += [_pose_node(bone_id, bind) for bone_id, bind in zip(figure.bone_ids, binds, strict=True)]
         if figure.node:
@@ -197,16 +198,31 @@ def _unconnected_binds(scene: Scene) -> FloatArray:
     return binds
 
 
+def _add_levels(
+    graph: Assembly, figure: _Figure, mesh: SkinnedMesh, binds: FloatArray, world_from_node: FloatArray
+) -> tuple[int, ...]:
+    """Add a mesh; one with levels of detail below a node that shows one of them at a time."""
+    if not mesh.levels:
+        return (_add_mesh(graph, figure, mesh, figure.node, binds, world_from_node),)
+    name = f"{mesh.name}_LODs"
+    group = graph.add("Model", name, "Model", "LodGroup", _model(np.zeros(3), np.zeros(3)))
+    graph.connect(group, figure.node)
+    graph.connect(graph.add("NodeAttribute", name, "NodeAttribute", "LodGroup", lod_group(len(mesh.levels))), group)
+    levels = (_add_mesh(graph, figure, one, group, binds, world_from_node) for one in (mesh, *mesh.levels))
+    return (group, *levels)
+
+
 def _add_mesh(
     graph: Assembly,
     figure: _Figure,
     mesh: SkinnedMesh,
+    parent: int,
     binds: FloatArray,
     world_from_node: FloatArray,
 ) -> int:
     packed = packed_mesh(mesh)
     model = graph.add("Model", mesh.name, "Model", "Mesh", _model(np.zeros(3), np.zeros(3)))
-    graph.connect(model, figure.node)
+    graph.connect(model, parent)
     shape = graph.add("Geometry", mesh.name, "Geometry", "Mesh", packed.geometry)
     graph.connect(shape, model)
     for material in mesh.materials:

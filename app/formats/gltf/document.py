@@ -66,6 +66,11 @@ class GlbDocument:
     gltf: gltf.GLTF2
     buffer: _Buffer = field(default_factory=_Buffer)
 
+    def use_extension(self, name: str) -> None:
+        """Name an extension among those that the file uses."""
+        if name not in (self.gltf.extensionsUsed or []):
+            self.gltf.extensionsUsed = [*(self.gltf.extensionsUsed or []), name]
+
     def accessor(
         self,
         kind: str,

@@ -28,6 +28,7 @@ def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> 
     """Read a file with one scene written by `write_glb`.
 
     Normals and UVs are per corner. A vertex without a face is missing in the file and put at the origin.
+    Lower levels of detail are not read.
 
     Parameters
     ----------
@@ -40,7 +41,7 @@ def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> 
         The file is not of that form.
     """
     file, model = os.fspath(path), read_glb(path, animated=True, morphing=True)
-    if len(model.skins) != 1 or len(model.animations) > 1 or len(model.meshes) != len(written):
+    if len(model.skins) != 1 or len(model.animations) > 1 or len(model.meshes) < len(written):
         raise FileError("gltf.damaged", file=file, what="skin, animation or meshes")
     (skin,) = model.skins
     row_of = {node: row for row, node in enumerate(skin.joints)}
@@ -52,7 +53,7 @@ def read_scene(path: str | os.PathLike[str], written: Sequence[SkinnedMesh]) -> 
     try:
         scene = Scene(
             bones,
-            tuple(_mesh(model, mesh, skin, known) for mesh, known in zip(model.meshes, written, strict=True)),
+            tuple(_mesh(model, mesh, skin, known) for mesh, known in zip(model.meshes, written, strict=False)),
             _clip(model, model.animations[0], row_of, bones) if model.animations else None,
             model.generator,
             "" if above < 0 else model.nodes[above].name,

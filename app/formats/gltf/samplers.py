@@ -38,8 +38,10 @@ class Samplers:
         )
         document.gltf.animations.append(self._animation)
 
-    def add_clip(self, scene: Scene, clip: Clip, first: int, mesh_nodes: Sequence[int]) -> None:
-        """Add the animation of a scene's bones, whose nodes begin at `first`, and of its meshes' morphs."""
+    def add_clip(
+        self, scene: Scene, clip: Clip, first: int, meshes: Sequence[SkinnedMesh], mesh_nodes: Sequence[int]
+    ) -> None:
+        """Add the animation of a scene's bones, whose nodes begin at `first`, and of the morphs of meshes."""
         keys = clip.keys
         slopes_fps = float(clip.fps) if keys is not None and keys.curved else 0.0
         for bone in range(len(scene.bones)):
@@ -49,7 +51,7 @@ class Samplers:
                 self.add(first + bone, "translation", places, frames, slopes_fps=slopes_fps)
             turned = continuous(clip.rotations_xyzw[:, bone])
             self.add(first + bone, "rotation", turned, frames, slopes_fps=slopes_fps)
-        for node, mesh in zip(mesh_nodes, scene.meshes, strict=True):
+        for node, mesh in zip(mesh_nodes, meshes, strict=True):
             if weights_move(clip, mesh):
                 weights = _weights(clip, (morph.name for morph in mesh.morphs))
                 frames = None if keys is None else keys.face

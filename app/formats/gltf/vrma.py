@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -75,7 +74,7 @@ def write_vrma(
             parent = out.nodes[_FIRST + bone.parent]
             parent.children = [*(parent.children or []), len(out.nodes) - 1]
     samplers = Samplers(document, clip)
-    samplers.add_clip(replace(scene, meshes=()), clip, _FIRST, ())
+    samplers.add_clip(scene, clip, _FIRST, (), ())
     extension = {"specVersion": "1.0", **_bones(scene)}
     faces = len(out.nodes)
     expressions = _expressions(clip, sums or {})

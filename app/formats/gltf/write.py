@@ -6,8 +6,9 @@ since Blender otherwise leaves an empty for a node with keys; the node's place h
 has one primitive per material. Influences after the fourth are in a second set, so that readers of only one set show
 the closest skin. The clip is one animation with keys on frames at ``n / fps`` seconds; glTF times are float32, within
 0.12 ms after an hour. The rate and number of frames are stored in the animation's extras.
+Lower levels of detail are nodes of no scene, named by the extension MSFT_lod.
 
-Source: Khronos, "glTF 2.0 Specification", sections 3.6, 3.7, 3.11 and 4.
+Source: Khronos, "glTF 2.0 Specification", sections 3.6, 3.7, 3.11 and 4; "MSFT_lod".
 """
 
 from __future__ import annotations
@@ -29,11 +30,13 @@ from app.formats.gltf.document import GlbDocument, Pieces, listed
 from app.formats.gltf.primitives import Primitive, primitives
 from app.formats.gltf.samplers import METRES, Samplers, weights_move
 from app.formats.gltf.write_materials import add_materials
+from app.formats.levels_of_detail import LEAST_HEIGHTS
 from app.formats.scene import Material, MorphTarget, NodePlace, Scene, SkinnedMesh, checked_scenes
 from app.formats.skin import influences
 
 _MOST_BYTES = 2**32 - 1
 _PER_SET = 4
+_LOD = "MSFT_lod"
 
 
 def write_glb(path: str | os.PathLike[str], scene: Scene) -> None:
@@ -101,7 +104,7 @@ def _document(scenes: Iterable[Scene]) -> GlbDocument:
         first, mesh_nodes = _add_figure(document, scene, roots, materials)
         if scene.clip is not None:
             samplers = Samplers(document, scene.clip) if samplers is None else samplers
-            samplers.add_clip(scene, scene.clip, first, mesh_nodes)
+            samplers.add_clip(scene, scene.clip, first, every_mesh(scene), mesh_nodes)
     add_materials(document, materials)
     out.scenes.append(gltf.Scene(nodes=roots))
     out.scene = 0
@@ -128,17 +131,35 @@ def _add_figure(
     placed = None if scene.place is None else next((one for one in scene.meshes if weights_move(scene.clip, one)), None)
     mesh_nodes: list[int] = []
     for mesh in scene.meshes:
-        out.meshes.append(_mesh(document, mesh, len(scene.bones), materials))
         mesh_nodes.append(first - 1 if mesh is placed else len(out.nodes))
         if mesh is not placed:
             roots.append(len(out.nodes))
             out.nodes.append(gltf.Node(name=mesh.name))
-        node = out.nodes[mesh_nodes[-1]]
-        node.mesh, node.skin = len(out.meshes) - 1, len(out.skins)
+    for mesh, node in zip(scene.meshes, [*mesh_nodes], strict=True):
+        if mesh.levels:
+            levels = [*range(len(out.nodes), len(out.nodes) + len(mesh.levels))]
+            out.nodes += [gltf.Node(name=level.name) for level in mesh.levels]
+            _show_levels(document, out.nodes[node], levels)
+            mesh_nodes += levels
+    for mesh, node in zip(every_mesh(scene), mesh_nodes, strict=True):
+        out.nodes[node].mesh, out.nodes[node].skin = len(out.meshes), len(out.skins)
+        out.meshes.append(_mesh(document, mesh, len(scene.bones), materials))
     # Programs call the armature as the skin, and take nodes for bones by it.
     binds = scene.meshes[0].world_from_bone_bind if scene.meshes else _rest_transforms(scene)
     out.skins.append(_skin(document, binds, scene.title, first))
     return first, mesh_nodes
+
+
+def every_mesh(scene: Scene) -> tuple[SkinnedMesh, ...]:
+    """The meshes of a scene as a file has them: those that are seen from near by, then the lower levels of each."""
+    return (*scene.meshes, *(level for mesh in scene.meshes for level in mesh.levels))
+
+
+def _show_levels(document: GlbDocument, node: gltf.Node, levels: list[int]) -> None:
+    """Name the nodes, of no scene, that are shown in the place of a node from further and further away."""
+    node.extensions = {_LOD: {"ids": levels}}
+    node.extras = {"MSFT_screencoverage": [*LEAST_HEIGHTS[: len(levels)], 0.0]}
+    document.use_extension(_LOD)
 
 
 def _rest_transforms(scene: Scene) -> AnyFloatArray:

@@ -38,7 +38,7 @@ def _material(document: GlbDocument, material: Material, numbers: dict[Texture, 
         extensions: dict[str, Any] = {}
         if use.scale != (1.0, 1.0) or use.offset != (0.0, 0.0):
             extensions = {_TRANSFORM: {"scale": list(use.scale), "offset": list(use.offset)}}
-            document.gltf.extensionsUsed = [_TRANSFORM]
+            document.use_extension(_TRANSFORM)
         return kind(index=_texture(document, use.texture, numbers), extensions=extensions, **more)
 
     mode = material.alpha_mode

@@ -125,8 +125,9 @@ def _nodes(source: GltfSource) -> NodeHierarchy:
 
 def _parts(source: GltfSource) -> list[FigurePart]:
     parts = []
+    lower = _lower_levels(source)
     for node, entry in enumerate(source.gltf.nodes):
-        if entry.mesh is None:
+        if entry.mesh is None or node in lower:
             continue
         name = source.gltf.meshes[entry.mesh].name or entry.name
         mesh, skinned = build_mesh(source, entry.mesh, name)
@@ -142,6 +143,13 @@ def _parts(source: GltfSource) -> list[FigurePart]:
             rigid = replace(mesh, joints=np.zeros((count, 1), np.int32), weights=np.ones((count, 1), np.float32))
             parts.append(FigurePart(rigid, (node,), source.world_from_node[node][None]))
     return parts
+
+
+def _lower_levels(source: GltfSource) -> frozenset[int]:
+    """Nodes that are shown in the place of others from further away (MSFT_lod)."""
+    levels = (entry.extensions.get("MSFT_lod") for entry in source.gltf.nodes)
+    ids = (one.get("ids") for one in levels if isinstance(one, dict))
+    return frozenset(id for some in ids if isinstance(some, list) for id in some if isinstance(id, int))
 
 
 def morph_name(source: GltfSource, mesh: int, name: str) -> str:

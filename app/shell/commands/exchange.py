@@ -151,6 +151,7 @@ def export_files(editor: Editor) -> None:
         destination="unreal" if unreal and editor.settings.export_into == "unreal" else "folder",
         keys=editor.settings.export_keys,
         texture_px=editor.settings.export_texture_px,
+        levels=editor.settings.export_levels,
         before=editor.exported_bars.get(piece, ExportedBars()),
     )
 
@@ -158,6 +159,7 @@ def export_files(editor: Editor) -> None:
         editor.exported_bars[piece] = dialog.chosen_bars
         editor.settings.export_into = destination
         editor.settings.export_texture_px = dialog.texture_px
+        editor.settings.export_levels = dialog.levels
         if destination == "folder":
             editor.settings.export_keys = dialog.keys
         if destination == "unreal":

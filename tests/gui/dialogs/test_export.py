@@ -308,6 +308,16 @@ def test_the_size_of_textures_is_chosen(dialog: ExportDialog) -> None:
     assert sizes.isHidden()
 
 
+def test_levels_of_detail_are_chosen(dialog: ExportDialog) -> None:
+    assert dialog._request().levels == 1
+    levels = child(dialog, QComboBox, "export_levels")
+    assert [levels.itemText(row) for row in range(4)] == ["3 in Unreal projects, otherwise 1", "1", "2", "3"]
+    levels.setCurrentIndex(2)
+    assert dialog._request().levels == dialog.levels == 2
+    bvh_only(dialog)
+    assert levels.isHidden()
+
+
 def test_curves_of_faces_are_chosen_by_name_and_part(dialog: ExportDialog) -> None:
     assert dialog._request().face == DEFAULT_FACE
     names = child(dialog, QComboBox, "export_face_names")

@@ -116,6 +116,8 @@ def test_formats_are_for_folders(dialog: ExportDialog, game: Path) -> None:
     into_unreal(dialog)
     assert not box.isVisible()
     assert child(dialog, QComboBox, "export_textures").isVisible()
+    assert child(dialog, QComboBox, "export_levels").isVisible()
+    assert dialog._request().levels == 3
     for name, format_box in dialog._formats._boxes.items():
         format_box.setChecked(False)
         assert name not in dialog._formats.formats

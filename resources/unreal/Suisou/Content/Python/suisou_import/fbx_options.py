@@ -122,7 +122,7 @@ def _mesh() -> dict[str, Any]:
         **_scene(),
         "transform_vertex_to_absolute": True,
         "bake_pivot_in_vertex": False,
-        "import_mesh_lods": False,
+        "import_mesh_lods": True,
         "normal_import_method": unreal.FBXNormalImportMethod.FBXNIM_IMPORT_NORMALS_AND_TANGENTS,
         "normal_generation_method": unreal.FBXNormalGenerationMethod.MIKK_T_SPACE,
         "compute_weighted_normals": True,

@@ -1,0 +1,209 @@
+"""Lower levels of detail of meshes: some of a mesh's own vertices, with their normals, UVs, weights and morphs.
+
+Edges are collapsed by fast-simplification (quadric error metrics: Garland and Heckbert 1997), which is loaded, as
+scipy is, when levels are made. No vertex moves, so that a level lies where the mesh does in every pose and
+expression.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from threading import Lock
+from typing import Final, Literal, get_args
+
+import numpy as np
+
+from app.arrays import AnyFloatArray, AnyIntArray, FloatArray, IntArray
+from app.formats.scene import MorphTarget, Scene, SkinnedMesh
+
+MOST_LEVELS: Final = 3
+"""The mesh itself, and the levels of `TRIANGLE_SHARES`."""
+LevelChoice = Literal[0, 1, 2, 3]
+LEVEL_CHOICES: Final[tuple[LevelChoice, ...]] = get_args(LevelChoice)
+"""Numbers of levels to choose from; 0: as many as is usual (`levels_for`)."""
+TRIANGLE_SHARES: Final = (0.5, 0.25)
+"""Triangles of each lower level, of the mesh's."""
+LEAST_HEIGHTS: Final = (0.5, 0.2)
+"""Height of the figure on the screen, of the screen's, below which each lower level is shown."""
+_LEAST_TRIANGLES: Final = 64
+"""A mesh of fewer has no lower levels: a reed, a finger hook."""
+_TOUCHING_CM: Final = 1e-4
+_AGGRESSIVENESS: Final = 5.0
+"""Growth of the error that is allowed. With the usual 7 a level is up to a third further from the mesh."""
+_WORTH_IT: Final = 0.8
+"""Most triangles of a level, of those of the one before."""
+_ONE_AT_A_TIME: Final = Lock()
+"""The library works on one mesh in a place of its own."""
+
+
+def levels_for(chosen: int, into_unreal: bool) -> int:
+    """The number of levels for a choice of `LEVEL_CHOICES`: other programs would show all levels at once."""
+    return chosen or (MOST_LEVELS if into_unreal else 1)
+
+
+def with_levels(scene: Scene, count: int) -> Scene:
+    """Return a scene whose meshes have levels of detail.
+
+    Parameters
+    ----------
+    scene : Scene
+    count : int
+        Number of levels, 1 to `MOST_LEVELS`, the mesh itself among them.
+    """
+    if count == 1:
+        return scene
+    return replace(scene, meshes=tuple(replace(mesh, levels=lower_levels(mesh, count - 1)) for mesh in scene.meshes))
+
+
+def lower_levels(mesh: SkinnedMesh, count: int) -> tuple[SkinnedMesh, ...]:
+    """The lower levels of a mesh whose normals and UVs are given per vertex.
+
+    Parameters
+    ----------
+    mesh : SkinnedMesh
+    count : int
+        At most as many as `TRIANGLE_SHARES` has.
+
+    Returns
+    -------
+    tuple of SkinnedMesh
+        Fewer where a level would hardly have fewer triangles than the one before: of a mesh with few triangles, or with
+        hard edges everywhere.
+    """
+    triangles = _triangles(mesh)
+    if len(triangles) < _LEAST_TRIANGLES:
+        return ()
+    materials = _face_materials(mesh, len(triangles))
+    vertices_cm = np.asarray(mesh.vertices_cm, dtype=np.float64)
+    parts = _parts(mesh, vertices_cm, triangles, materials)
+    levels = list[SkinnedMesh]()
+    before = len(triangles)
+    for number, share in enumerate(TRIANGLE_SHARES[:count], start=1):
+        kept = np.arange(len(vertices_cm))
+        for part in parts:
+            kept = _collapsed(vertices_cm, part.triangles, round(share * len(part.triangles)), part.is_sewn)[kept]
+        corners = kept[triangles]
+        whole = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+        if np.count_nonzero(whole) > _WORTH_IT * before:
+            break
+        before = int(np.count_nonzero(whole))
+        levels.append(_level(mesh, number, corners[whole], materials[whole]))
+    return tuple(levels)
+
+
+def _triangles(mesh: SkinnedMesh) -> IntArray:
+    """Faces as fans of triangles, those of one face together."""
+    faces = np.asarray(mesh.faces, dtype=np.int64)
+    fan = [faces[:, [0, corner, corner + 1]] for corner in range(1, faces.shape[1] - 1)]
+    return np.stack(fan, axis=1).reshape(-1, 3)
+
+
+def _face_materials(mesh: SkinnedMesh, count: int) -> IntArray:
+    if mesh.face_materials is None:
+        return np.zeros(count, dtype=np.int64)
+    return np.repeat(np.asarray(mesh.face_materials, dtype=np.int64), count // len(mesh.faces))
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Triangles that have no vertex in common with others.
+
+    Attributes
+    ----------
+    triangles : ndarray of int, shape (T, 3)
+    is_sewn : bool
+        True if it is sewn to others, or to itself: it has vertices that lie where others do, along a seam of UVs or a
+        hard edge. Where one side of a seam lost a vertex that the other keeps, there would be a crack.
+    """
+
+    triangles: IntArray
+    is_sewn: bool
+
+
+def _parts(mesh: SkinnedMesh, vertices_cm: AnyFloatArray, triangles: IntArray, materials: IntArray) -> list[_Part]:
+    """Connected patches of triangles: those of one material that are sewn, and those that are not, as a part each.
+
+    What alpha cuts out is in none: cards of hair lie so near the head that it would come through.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(vertices_cm).query_pairs(_TOUCHING_CM, output_type="ndarray")
+    starts, ends = triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel()
+    count = len(vertices_cm)
+    links = coo_array((np.ones(len(starts)), (starts, ends)), shape=(count, count))
+    patch_of_vertex = connected_components(links, directed=False)[1]
+    patch = patch_of_vertex[triangles[:, 0]]
+    first = np.unique(patch, return_index=True, return_inverse=True)[1:]
+    sewn = np.isin(patch, patch_of_vertex[pairs.ravel()])
+    key = 2 * materials[first[0]][first[1]] + sewn
+    opaque = [material.alpha_mode == "opaque" for material in mesh.materials]
+    return [_Part(triangles[key == value], bool(value % 2)) for value in np.unique(key) if opaque[value // 2]]
+
+
+def _collapsed(vertices_cm: AnyFloatArray, triangles: IntArray, target_count: int, is_sewn: bool) -> IntArray:
+    """The vertex that each vertex becomes: of those that became one, the nearest to the best place."""
+    from fast_simplification import simplify
+
+    with _ONE_AT_A_TIME:
+        best, _, collapses = simplify(
+            vertices_cm,
+            triangles.astype(np.int32),
+            target_count=target_count,
+            agg=_AGGRESSIVENESS,
+            return_collapses=True,
+            preserve_border=is_sewn,
+        )
+    into = np.arange(len(vertices_cm))
+    for kept, gone in np.asarray(collapses, dtype=np.int64)[::-1].tolist():
+        into[gone] = into[kept]
+    return _nearest_members(vertices_cm, into, triangles, np.asarray(best, dtype=np.float64))
+
+
+def _nearest_members(vertices_cm: AnyFloatArray, into: IntArray, triangles: IntArray, best_cm: FloatArray) -> IntArray:
+    corners = into[triangles]
+    used = np.unique(corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)])
+    if len(used) != len(best_cm):
+        return into
+    place_cm = vertices_cm.copy()
+    place_cm[used] = best_cm
+    distance_cm = np.linalg.norm(vertices_cm - place_cm[into], axis=1)
+    order = np.lexsort((distance_cm, into))
+    groups, first = np.unique(into[order], return_index=True)
+    member = np.arange(len(vertices_cm))
+    member[groups] = order[first]
+    return member[into]
+
+
+def _level(mesh: SkinnedMesh, number: int, triangles: IntArray, materials: IntArray) -> SkinnedMesh:
+    """Mesh of some triangles, with the vertices and materials that they use."""
+    vertices = np.unique(triangles)
+    row = np.full(len(mesh.vertices_cm), -1)
+    row[vertices] = np.arange(len(vertices))
+    used = np.unique(materials)
+    return replace(
+        mesh,
+        name=f"{mesh.name}_LOD{number}",
+        vertices_cm=mesh.vertices_cm[vertices],
+        faces=row[triangles],
+        normals=mesh.normals[vertices],
+        uvs=None if mesh.uvs is None else mesh.uvs[vertices],
+        materials=tuple(mesh.materials[index] for index in used),
+        face_materials=np.searchsorted(used, materials),
+        joint_indices=mesh.joint_indices[vertices],
+        weights=mesh.weights[vertices],
+        morphs=_morphs(mesh.morphs, row),
+    )
+
+
+def _morphs(morphs: Sequence[MorphTarget], row: AnyIntArray) -> tuple[MorphTarget, ...]:
+    """Morphs of the vertices that are left; all of them, so that every level has the same."""
+    found = []
+    for morph in morphs:
+        rows = row[morph.vertex_indices]
+        kept = rows >= 0
+        normals = None if morph.normal_deltas is None else morph.normal_deltas[kept]
+        found.append(MorphTarget(morph.name, rows[kept], morph.position_deltas_cm[kept], normals))
+    return tuple(found)

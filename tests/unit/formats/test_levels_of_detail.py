@@ -1,0 +1,184 @@
+"""Lower levels of detail: a mesh's own vertices with all that belongs to them, without cracks, in every format."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from pygltflib import GLTF2
+from scipy.spatial import cKDTree
+
+from app.formats.fbx.foreign import read_foreign_fbx
+from app.formats.fbx.read import read_scene
+from app.formats.fbx.write import write_scene
+from app.formats.gltf.write import write_glb
+from app.formats.levels_of_detail import MOST_LEVELS, TRIANGLE_SHARES, lower_levels, with_levels
+from app.formats.scene import Material, MorphTarget, Scene, SkinnedMesh
+from app.formats.usd import LEVELS, write_usd
+from app.formats.usd_package import usd_installed
+from tests.support import readers
+from tests.unit.formats import scenes
+
+COLUMNS, ROWS = 48, 24
+RADIUS_CM = 10.0
+
+
+@pytest.fixture(scope="module")
+def globe() -> SkinnedMesh:
+    """A ball whose UVs have a seam from pole to pole, with a dent as morph target and two materials."""
+    turn, height = np.meshgrid(np.linspace(0, 1, COLUMNS + 1), np.linspace(0, 1, ROWS + 1), indexing="ij")
+    longitude, latitude = 2 * np.pi * turn.ravel(), np.pi * (height.ravel() - 0.5)
+    around = np.where(turn.ravel() == 1, 0.0, longitude)
+    normals = np.stack([np.cos(latitude) * np.sin(around), np.sin(latitude), np.cos(latitude) * np.cos(around)], axis=1)
+    corner = np.arange((COLUMNS + 1) * (ROWS + 1)).reshape(COLUMNS + 1, ROWS + 1)
+    first, right, up, both = corner[:-1, :-1], corner[1:, :-1], corner[:-1, 1:], corner[1:, 1:]
+    faces = np.concatenate([np.stack(three, -1).reshape(-1, 3) for three in ((first, right, both), (first, both, up))])
+    low = height.ravel()[faces].max(axis=1) <= 0.5
+    dented = np.flatnonzero(normals[:, 2] > 0.7)
+    count = len(normals)
+    return SkinnedMesh(
+        name="globe",
+        vertices_cm=RADIUS_CM * normals,
+        faces=faces,
+        normals=normals,
+        uvs=np.stack([turn.ravel(), height.ravel()], axis=1),
+        materials=(Material("north", (1.0, 0.0, 0.0, 1.0)), Material("south", (0.0, 0.0, 1.0, 1.0))),
+        face_materials=low.astype(np.int64),
+        joint_indices=np.tile([0, 1], (count, 1)),
+        weights=np.stack([height.ravel(), 1 - height.ravel()], axis=1),
+        world_from_bone_bind=np.tile(np.eye(4), (len(scenes.BONES), 1, 1)),
+        morphs=(MorphTarget("dent", dented, -2.0 * normals[dented], -normals[dented]),),
+    )
+
+
+def _closed(mesh: SkinnedMesh) -> trimesh.Trimesh:
+    """The surface with vertices that lie together made one."""
+    result = trimesh.Trimesh(mesh.vertices_cm, mesh.faces, process=False)
+    result.merge_vertices(merge_tex=True, merge_norm=True)
+    result.update_faces(result.nondegenerate_faces())
+    return result
+
+
+def test_levels_have_their_shares_of_triangles_and_no_cracks(globe: SkinnedMesh) -> None:
+    whole = _closed(globe)
+    assert whole.is_watertight
+    for level, share in zip(lower_levels(globe, MOST_LEVELS - 1), TRIANGLE_SHARES, strict=True):
+        assert 0.8 * share < len(level.faces) / len(globe.faces) <= share + 0.01
+        assert _closed(level).is_watertight
+        assert _closed(level).volume == pytest.approx(whole.volume, rel=0.1)
+
+
+def test_a_vertex_keeps_all_that_belongs_to_it(globe: SkinnedMesh) -> None:
+    every = np.concatenate([globe.vertices_cm, globe.normals, globe.uvs, globe.weights], axis=1)
+    dents = np.zeros_like(globe.vertices_cm)
+    dents[globe.morphs[0].vertex_indices] = globe.morphs[0].position_deltas_cm
+    for level in lower_levels(globe, MOST_LEVELS - 1):
+        own = np.concatenate([level.vertices_cm, level.normals, level.uvs, level.weights], axis=1)
+        far, vertex = cKDTree(every).query(own)
+        assert far.max() == 0
+        left = np.zeros_like(level.vertices_cm)
+        left[level.morphs[0].vertex_indices] = level.morphs[0].position_deltas_cm
+        assert (left == dents[vertex]).all()
+        assert len(level.morphs[0].vertex_indices) > 0
+
+
+def test_no_triangle_reaches_over_a_seam_or_into_another_material(globe: SkinnedMesh) -> None:
+    for level in lower_levels(globe, MOST_LEVELS - 1):
+        assert level.uvs is not None
+        assert level.face_materials is not None
+        spans = np.ptp(level.uvs[level.faces], axis=1)
+        # Near the poles a triangle may be as wide as it likes: all longitudes meet there.
+        away = np.abs(level.uvs[level.faces][:, :, 1] - 0.5).max(axis=1) < 0.4
+        assert spans[away, 0].max() < 0.3
+        middle = level.vertices_cm[level.faces].mean(axis=1)[:, 1]
+        south = np.array([material.name == "south" for material in level.materials])[level.face_materials]
+        assert (middle[south] < 1.0).all()
+        assert (middle[~south] > -1.0).all()
+
+
+def test_polygons_become_triangles_of_their_material(globe: SkinnedMesh) -> None:
+    half = len(globe.faces) // 2
+    quads = np.concatenate([globe.faces[:half], globe.faces[half:, 2:]], axis=1)
+    assert globe.face_materials is not None
+    level = lower_levels(replace(globe, faces=quads, face_materials=globe.face_materials[:half]), 1)[0]
+    assert level.faces.shape[1] == 3
+    assert _closed(level).is_watertight
+
+
+def test_a_mesh_of_few_triangles_has_no_lower_levels(globe: SkinnedMesh) -> None:
+    few = replace(globe, faces=globe.faces[:60], face_materials=None, materials=globe.materials[:1])
+    assert lower_levels(few, 2) == ()
+
+
+@pytest.fixture(scope="module")
+def scene(globe: SkinnedMesh) -> Scene:
+    """A moving figure with a globe of three levels, and a mesh without any."""
+    made = scenes.character(Fraction(30), frames=4)
+    binds = made.meshes[0].world_from_bone_bind
+    small = replace(made.meshes[0], name="small", faces=made.meshes[0].faces[:40], face_materials=None)
+    both = (replace(small, materials=small.materials[:1], morphs=()), replace(globe, world_from_bone_bind=binds))
+    clip = made.clip
+    assert clip is not None
+    dent = {"dent": np.linspace(0, 1, clip.frames)}
+    return with_levels(replace(made, meshes=both, clip=replace(clip, morph_weights=dent)), MOST_LEVELS)
+
+
+def test_fbx_keeps_levels_and_ufbx_finds_them(scene: Scene, tmp_path: Path) -> None:
+    write_scene(tmp_path / "levels.fbx", scene)
+    read = read_scene(tmp_path / "levels.fbx")
+    assert [mesh.name for mesh in read.meshes] == ["small", "globe"]
+    for written, found in zip(scene.meshes[1].levels, read.meshes[1].levels, strict=True):
+        assert written.name == found.name
+        assert (written.vertices_cm == found.vertices_cm).all()
+        assert (written.faces == found.faces).all()
+        assert [morph.name for morph in found.morphs] == ["dent"]
+    content = read_foreign_fbx(tmp_path / "levels.fbx")
+    (group,) = [index for index, node in enumerate(content.nodes) if node.kind == "LOD_GROUP"]
+    assert [node.name for node in content.nodes if node.parent == group] == ["globe", "globe_LOD1", "globe_LOD2"]
+    counts = {mesh.name: len(mesh.faces) for mesh in content.meshes}
+    assert all(counts[mesh.name] == len(mesh.faces) for mesh in (scene.meshes[1], *scene.meshes[1].levels))
+
+
+@pytest.mark.parametrize("reader", ["fbxsdk", "blender"])
+def test_other_programs_read_the_same_motion(scene: Scene, tmp_path: Path, reader: str) -> None:
+    if not readers.installed(reader):
+        pytest.skip(f"{reader} is not installed")
+    write_scene(tmp_path / "levels.fbx", scene)
+    readers.judge(tmp_path / "levels.fbx", scenes.expected(scene), [reader])
+
+
+def test_glb_names_levels_that_other_readers_pass_over(scene: Scene, tmp_path: Path) -> None:
+    write_glb(tmp_path / "levels.glb", scene)
+    found = json.loads(GLTF2.load(str(tmp_path / "levels.glb")).gltf_to_json())
+    nodes = found["nodes"]
+    (node,) = [one for one in nodes if "MSFT_lod" in one.get("extensions", {})]
+    ids = node["extensions"]["MSFT_lod"]["ids"]
+    assert [nodes[one]["name"] for one in ids] == ["globe_LOD1", "globe_LOD2"]
+    assert not set(ids) & set(found["scenes"][0]["nodes"])
+    moved = {channel["target"]["node"] for channel in found["animations"][0]["channels"]}
+    assert set(ids) <= moved
+
+
+@pytest.mark.skipif(not usd_installed(), reason="usd-core is not installed")
+def test_usd_has_a_variant_of_each_level(scene: Scene, tmp_path: Path) -> None:
+    from pxr import Usd, UsdGeom, UsdSkel
+
+    write_usd(tmp_path / "levels.usdc", scene)
+    stage = Usd.Stage.Open(str(tmp_path / "levels.usdc"))
+    root = stage.GetDefaultPrim()
+    variants = root.GetVariantSets().GetVariantSet(LEVELS)
+    assert variants.GetVariantSelection() == "LOD0"
+    counts = []
+    for name in sorted(variants.GetVariantNames()):
+        variants.SetVariantSelection(name)
+        meshes = [prim for prim in root.GetChildren() if prim.IsA(UsdGeom.Mesh)]
+        assert sorted(mesh.GetName() for mesh in meshes) == ["globe", "small"]
+        (globe,) = [mesh for mesh in meshes if mesh.GetName() == "globe"]
+        counts.append(len(UsdGeom.Mesh(globe).GetFaceVertexCountsAttr().Get()))
+        assert UsdSkel.BindingAPI(globe).GetBlendShapesAttr().Get() == ["dent"]
+    assert counts == [len(mesh.faces) for mesh in (scene.meshes[1], *scene.meshes[1].levels)]

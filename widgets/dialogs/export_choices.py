@@ -1,0 +1,46 @@
+"""Lists of the export dialog to choose one entry from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.formats.images import TEXTURE_SIZES, TextureSize
+from app.formats.levels_of_detail import LEVEL_CHOICES, LevelChoice
+from metadata.load import load_bone_names
+from widgets.common.controls import Retranslated, named, said
+from widgets.common.plain import ComboBox
+
+
+def bone_name_profiles(dialog: Retranslated) -> ComboBox:
+    """A choice of the tables of bone names by their ids, after an entry for the skeleton's own."""
+    box = named(ComboBox(), "export_bvh_names")
+    # As wide as there is room, not as the longest title.
+    box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    box.addItem("", "")
+    for profile, table in load_bone_names().items():
+        box.addItem(table.title, profile)
+    return dialog.texted(box, items="export_dialog.same_as_skeleton")
+
+
+def texture_sizes(dialog: Retranslated, chosen: TextureSize) -> ComboBox:
+    """A choice of `TEXTURE_SIZES`, in their order."""
+    box = dialog.texted(named(ComboBox(), "export_textures"), tip="export_dialog.textures_tip")
+    dialog.texted(box, options={str(px): _size_text(px) for px in TEXTURE_SIZES})
+    box.setCurrentIndex(TEXTURE_SIZES.index(chosen))
+    return box
+
+
+def levels_of_detail(dialog: Retranslated, chosen: LevelChoice) -> ComboBox:
+    """A choice of `LEVEL_CHOICES`, in their order."""
+    box = dialog.texted(named(ComboBox(), "export_levels"), tip="export_dialog.levels_tip")
+    dialog.texted(box, options={str(count): _level_text(count) for count in LEVEL_CHOICES})
+    box.setCurrentIndex(LEVEL_CHOICES.index(chosen))
+    return box
+
+
+def _size_text(px: int) -> Callable[[], str]:
+    return said("export_dialog.texture_size", px=str(px)) if px else said("export_dialog.no_textures")
+
+
+def _level_text(count: int) -> Callable[[], str]:
+    return said("export_dialog.levels", count=str(count)) if count else said("export_dialog.usual_levels")
