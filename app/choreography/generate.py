@@ -88,9 +88,10 @@ class _Plan:
 
 
 class _Motion(NamedTuple):
-    """Stitched motion on its stage, when its feet stand in the capture, where its seams are, and how fast it goes."""
+    """Stitched motion, moved to be on its stage; when its feet stand in the capture, its seams, how fast it goes."""
 
     clip: MotionClip
+    moved_m: FloatArray
     contacts: BoolArray
     seams: tuple[int, ...]
     speeds: FloatArray
@@ -213,12 +214,12 @@ class Choreographer:
         count = max(1, math.ceil((end_s - first_s) * float(fps)))
         if not plan.steps:
             return Dance(self._stitcher.still(count, body, fps), first_s, (), np.zeros(count), (), ())
-        clip, contacts, seams, speeds = self._motion(plan, body, fps, first_s + np.arange(count) / float(fps))
+        clip, moved_m, contacts, seams, speeds = self._motion(plan, body, fps, first_s + np.arange(count) / float(fps))
         clip = _sized(clip, manner.size)
         if manner.mirrored:
-            clip, contacts = clip.mirrored(), contacts[:, ::-1]
+            clip, moved_m, contacts = clip.mirrored(), moved_m * (-1.0, 1.0, 1.0), contacts[:, ::-1]
         clip = out_of_body(without_haste(clip, self._fastest_rad_s))
-        falls = self._on_beats(clip, stands(clip, contacts), first_s, grid_of(rhythm))
+        falls = self._on_beats(clip, stands(clip, contacts, moved_m), first_s, grid_of(rhythm))
         clip = planted(clip, falls.standing, manner.weight, falls.shown)
         clip = without_twitches(clip, falls.standing, self._usual_accelerations(fps))
         return Dance(clip, first_s, plan.steps, speeds, seams, falls.standing)
@@ -324,7 +325,7 @@ class Choreographer:
         """A plan in motion at `DRAFT_FPS`, feet on the beats, and when they would come down by the plan alone and do
         come down."""
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
-        standing = stands(draft.clip, draft.contacts)
+        standing = stands(draft.clip, draft.contacts, draft.moved_m)
         falls = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
         frames = sorted(stand.start for stand in standing if stand.start)
         down = sorted(stand.start for stand in falls.standing if stand.start)
@@ -369,7 +370,8 @@ class Choreographer:
         source_s = self._hits_s[segments[which]] + along - plan.hits_s[which]
         frames = Frames(segments, which, source_s, speeds)
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
-        return _Motion(unbroken(replace(clip, hips_m=on_stage(clip.hips_m, float(fps)))), contacts, seams, speeds)
+        hips_m = on_stage(clip.hips_m, float(fps))
+        return _Motion(unbroken(replace(clip, hips_m=hips_m)), hips_m - clip.hips_m, contacts, seams, speeds)
 
 
 def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:

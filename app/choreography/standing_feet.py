@@ -61,7 +61,7 @@ class FootPlant:
     place_m: tuple[float, float, float]
 
 
-def stands(clip: MotionClip, contacts: BoolArray) -> tuple[FootPlant, ...]:
+def stands(clip: MotionClip, contacts: BoolArray, moved_m: FloatArray | None = None) -> tuple[FootPlant, ...]:
     """Return where feet stand.
 
     Parameters
@@ -69,14 +69,18 @@ def stands(clip: MotionClip, contacts: BoolArray) -> tuple[FootPlant, ...]:
     contacts : (F, 2) bool
         Of the left and the right foot, as captured. A foot that the motion carries away while it should stand, by a
         join or a turn, is taken to step meanwhile.
+    moved_m : (F, 3) float64, optional
+        How far the whole body was moved in each frame to keep near its place: steps get shorter by that, and no foot
+        is carried away.
     """
     fps, tips = float(clip.fps), tips_m(clip)
+    unmoved = tips if moved_m is None else tips - moved_m[:, None]
     found = []
     for foot in range(2):
         on_floor_m = _tip_height_m(clip, foot)
         low = tips[:, foot, 1] < on_floor_m + REACHED_M
         for start, stop in _spans(contacts[:, foot] & low, fps):
-            for first, last in _still(tips[start:stop, foot], fps):
+            for first, last in _still(unmoved[start:stop, foot], fps):
                 middle = _middle(tips[start + first : start + last, foot])
                 place = (float(middle[0]), on_floor_m, float(middle[2]))
                 found.append(FootPlant(foot, start + first, start + last, place))

@@ -48,6 +48,17 @@ def test_a_foot_that_comes_down_where_it_was_goes_on_standing() -> None:
     assert np.ptp(tips[..., [0, 2]], axis=0).max() < 1e-6
 
 
+def test_a_foot_of_a_body_that_is_kept_near_its_place_goes_on_standing() -> None:
+    clip, contacts = still(120), np.ones((120, 2), bool)
+    moved = np.linspace(0.5, -0.5, 120)[:, None] * np.array((0.0, 0.0, 1.0))
+    kept = replace(clip, hips_m=clip.hips_m + moved)
+    assert len(stands(kept, contacts)) > 2
+    standing = stands(kept, contacts, moved)
+    assert [(stand.foot, stand.start, stand.stop) for stand in standing] == [(0, 0, 120), (1, 0, 120)]
+    # Half of the shortened way is before the foot, and half behind it.
+    assert standing[0].place_m == pytest.approx(tips_m(clip)[0, 0])
+
+
 def test_a_knee_that_is_a_little_more_than_straight_bends_forwards() -> None:
     clip = still(60)
     turns = clip.rotations.copy()
