@@ -1,5 +1,5 @@
-"""The command line: parses, calls the rooms below, prints. Every sub-command is a module of this folder, which is
-loaded only when that command is asked for (`app.cli.commands`).
+"""The command line: parses arguments and runs sub-commands. Each sub-command is a module of this folder, loaded only
+when it is used (`app.cli.commands`).
 
 Exit status: see `app.cli.status`.
 """
@@ -59,7 +59,7 @@ EXAMPLES: Final = """\
 
 
 def parser() -> CommandParser:
-    """The whole command line, in the language that is spoken."""
+    """Return the parser of the whole command line in the current language."""
     return _parser(spoken().language)
 
 
@@ -119,17 +119,17 @@ def _run(arguments: Sequence[str]) -> int:
 
 
 def _joined(arguments: Sequence[str]) -> list[str]:
-    """The arguments, with a command of two words as one."""
+    """Return the arguments with a command of two words joined to one."""
     first = " ".join(arguments[:2])
     return [first, *arguments[2:]] if first in TWO_WORDS else list(arguments)
 
 
 _OTHERWISE_PLACED: Final = frozenset({"file", "folder", "host"})
-"""Arguments of messages that say themselves what they are about."""
+"""Message arguments that name the file or place of an error themselves."""
 
 
 def _with_file(error: AppError, parsed: argparse.Namespace) -> str:
-    """Error with its file, even where the code that raised it knows no files."""
+    """Return an error's sentence preceded by the input file, if the sentence does not name a file."""
     sentence = error_sentence(error)
     if "file" not in parsed or not _OTHERWISE_PLACED.isdisjoint(error.message.arguments):
         return sentence
@@ -142,7 +142,9 @@ def _fail(sentence: str, status: int) -> int:
 
 
 def _speak_utf8() -> None:
-    """Pipes and files get UTF-8 on every system, a terminal keeps its encoding; what neither has is escaped."""
+    """Write UTF-8 to pipes and files on every system, and the terminal's own encoding to a terminal; escape characters
+    that it lacks.
+    """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="backslashreplace")

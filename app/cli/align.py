@@ -1,4 +1,4 @@
-"""``suisou align``: the piece at the tempo of a recording of it."""
+"""``suisou align``: gives a piece the tempo of a recording."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _seconds = bounded_number(0.0, LONGEST_S, "quantity.seconds", float)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_file_options(command)
     command.add_argument("recording", type=Path, metavar="RECORDING")
     command.add_argument("--from", dest="from_s", type=_seconds, metavar="S")
@@ -38,13 +38,13 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def align(arguments: argparse.Namespace) -> None:
-    """Find the beats, write the piece, and say what it is like.
+    """Find the beats of the recording, write the piece with its tempo, and print a report.
 
     Raises
     ------
     AppError
-        Those of reading and writing and of `app.audio.followed_recording`; ``align.kind``, ``align.onto_itself``,
-        ``align.nothing_between``, ``align.no_such_player``.
+        The output is of an unsupported kind or is the input itself, a player is unknown, the given range is empty, or
+        reading, writing or following the recording fails.
     """
     from app.audio.followed_recording import take_over
     from app.project.midi_out import export_midi
@@ -76,8 +76,9 @@ def _same(one: Path, other: Path) -> bool:
 
 
 def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
-    """Follow the recording, and return the result in seconds of the whole recording even if only a part of it was
-    requested."""
+    """Follow the recording, and return the result in seconds of the whole recording even if only a part was
+    requested.
+    """
     from app.audio.decode import decode
     from app.audio.followed_recording import FollowOptions, listen
     from app.audio.track import RATE_HZ
@@ -108,7 +109,7 @@ def _follow(project: Project, arguments: argparse.Namespace) -> Followed:
 
 
 def _stem(project: Project, given: str) -> tuple[str, str]:
-    """Player id and path of ``PLAYER=FILE``; a player by name, or by number from 1 on."""
+    """Return the player id and path of ``PLAYER=FILE``; a player is given by name, or by number from 1 on."""
     name, _, path = given.partition("=")
     for number, player in enumerate(project.players, 1):
         if name.casefold() in (player.name.casefold(), player.id.casefold(), str(number)):
@@ -117,7 +118,7 @@ def _stem(project: Project, given: str) -> tuple[str, str]:
 
 
 def _report(project: Project, following: Following, target: Path) -> None:
-    """Print what was written, doubtful bars, and passages that only one of the two has."""
+    """Print the written file, uncertain bars, and passages that only the piece or only the recording has."""
     from app.score.beat_following import bars_named
 
     changes = project.score.tempo_map.bpm

@@ -1,4 +1,4 @@
-"""Bars on the command line: which frames of a piece are requested."""
+"""Options of the command line that select bars of a piece."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ if TYPE_CHECKING:
 
 
 def add_bar_options(command: argparse.ArgumentParser) -> None:
-    """Declare first and last bar."""
+    """Declare the options for the first and last bar."""
     command.add_argument("--from-bar", type=whole_number, metavar="N")
     command.add_argument("--to-bar", type=whole_number, metavar="N")
 
 
 def add_lead_in_option(command: argparse.ArgumentParser) -> None:
-    """Declare the beats before the first bar."""
+    """Declare the option for the number of beats before the first bar."""
     command.add_argument("--lead-in", type=beats, metavar="BEATS")
 
 
 def requested_bars(performance: Performance, arguments: argparse.Namespace) -> tuple[int, int] | None:
-    """First and last bar; None for the whole piece.
+    """Return the first and last requested bar; None for the whole piece.
 
     Raises
     ------
     UsageError
-        ``bars.no_bar``: the piece does not have one of them; ``bars.order``: they are in the wrong order.
+        The piece lacks one of the bars, or the last is before the first.
     """
     if arguments.from_bar is None and arguments.to_bar is None:
         return None
@@ -49,12 +49,12 @@ def requested_bars(performance: Performance, arguments: argparse.Namespace) -> t
 
 
 def requested_span(performance: Performance, arguments: argparse.Namespace, fps: Fraction) -> FrameSpan:
-    """The frames of the bars with the lead-in before them, or of everything.
+    """Return the frames of the requested bars including the lead-in, or all frames.
 
     Raises
     ------
     UsageError
-        As `requested_bars`; ``bars.lead_in``: there is no bar to lead into.
+        As `requested_bars`, or a lead-in is requested without a first bar.
     """
     from app.performance.span import bars_span
 

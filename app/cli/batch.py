@@ -1,6 +1,7 @@
-"""Many pieces exported at once: each by a process of its own, so that what is wrong with one stops no other.
+"""Export of many pieces, each by a process of its own, so that an error in one does not stop the others.
 
-What was done is noted in ``exported.json`` in the folder of the exports: where a run was stopped, the next one goes on.
+Finished pieces are listed in ``exported.json`` in the output folder, so that the next run continues after an
+interrupted one.
 """
 
 from __future__ import annotations
@@ -38,12 +39,12 @@ from app.score.suffixes import MUSIC
 
 NOTES: Final = "exported.json"
 _STOP_S: Final = 10.0
-"""Time for a process to remove its unfinished files."""
+"""Time in seconds for a stopped process to remove its unfinished files."""
 _MOST_BYTES: Final = 64 * 2**20
 _START: Final = 4096
-"""Bytes in which a score says that it is one."""
+"""Number of bytes at the beginning of a file in which a score's root element is sought."""
 _DASK_VARIABLES: Final = ("MALLOC_TRIM_THRESHOLD_",)
-"""Environment variables that Dask sets for its workers: with them an export spends seconds on returning memory."""
+"""Environment variables set by Dask for its workers that slow an export down by seconds, by returning memory."""
 
 
 class BatchOutcome(msgspec.Struct, frozen=True):
@@ -52,15 +53,15 @@ class BatchOutcome(msgspec.Struct, frozen=True):
     Attributes
     ----------
     status : int
-        The exit status of its export.
+        Exit status of the export.
     reason : str
-        What is wrong; empty where nothing is.
+        Error or warning; empty if there is none.
     players, excluded, warnings : int
-        How many were written, were not, and lines to look at.
+        Number of players written, number of players left out, number of warnings.
     seconds : float
-        Of motion.
+        Length of the motion in seconds.
     incomplete : str
-        What is missing of the piece's file, which was exported as far as it goes; empty where nothing is.
+        Description of the missing part of a damaged file that was exported as far as possible; empty otherwise.
     """
 
     status: int
@@ -73,7 +74,7 @@ class BatchOutcome(msgspec.Struct, frozen=True):
 
     @property
     def done(self) -> bool:
-        """True if the files are there."""
+        """True if files were written."""
         return self.status in (DONE, PARTIAL)
 
     @property
@@ -90,7 +91,7 @@ class _Note(msgspec.Struct, frozen=True):
 
 
 class _Reported(msgspec.Struct):
-    """Fields of a report that a batch reads."""
+    """Fields of an export's report that the batch reads."""
 
     players: list[msgspec.Raw]
     left_out: list[msgspec.Raw]
@@ -102,19 +103,19 @@ class _Reported(msgspec.Struct):
 
 
 def export_folder(arguments: argparse.Namespace) -> int:
-    """Export every piece in a folder and the folders in it; print a table, and return the exit status.
+    """Export every piece in a folder and its subfolders, print a table, and return the exit status.
 
     Parameters
     ----------
     arguments : Namespace
-        Of the command ``export``, with ``given``, the command line.
+        Arguments of the command ``export``, with ``given``, the command line.
 
     Raises
     ------
     FileError
-        ``batch.no_pieces``; the notes cannot be read or written.
+        There are no pieces, or the list of finished pieces cannot be read or written.
     UsageError
-        ``batch.unreal``, ``dask.missing``, ``dask.unreachable``.
+        An option does not fit a folder, or Dask or its scheduler is not available.
     """
     if arguments.to is None:
         raise UsageError("batch.unreal")
@@ -164,7 +165,7 @@ def export_folder(arguments: argparse.Namespace) -> int:
 
 
 class _Results:
-    """Results of the pieces of a run, noted in a file as soon as a piece is exported."""
+    """Results of a run, stored in a file after each piece."""
 
     def __init__(
         self, file: Path, digests: Mapping[str, str], notes: dict[str, _Note], known: Mapping[str, BatchOutcome]
@@ -173,7 +174,7 @@ class _Results:
         self.outcomes = dict(known)
 
     def add(self, piece: str, future: Future[BatchOutcome]) -> None:
-        """Keep the result of a piece."""
+        """Store the result of a piece."""
         outcome = self.outcomes[piece] = _outcome(future)
         if outcome.done:
             self._notes[piece] = _Note(self._digests[piece], outcome)
@@ -181,8 +182,7 @@ class _Results:
 
 
 def folders_of(source: Path) -> dict[str, str]:
-    """The pieces in a folder and the folders in it, and the folder that each is exported to, in their order; both as
-    paths with slashes."""
+    """Return the pieces in a folder and its subfolders with their output folders, both as paths with slashes."""
     found = sorted(
         path.relative_to(source)
         for path in source.rglob("*")
@@ -197,7 +197,7 @@ def folders_of(source: Path) -> dict[str, str]:
 
 
 def _is_music(path: Path) -> bool:
-    """Return whether a file holds what its name says: much is called ``.xml`` that is no score."""
+    """Return whether a file's content agrees with its suffix, since many ``.xml`` files are no scores."""
     if path.suffix.casefold() != ".xml":
         return True
     try:
@@ -213,14 +213,14 @@ def _hidden(path: Path) -> bool:
 
 
 def export_piece(given: Sequence[str], piece: str, folder: str) -> BatchOutcome:
-    """Export a piece by a process of its own.
+    """Export a piece in a process of its own.
 
     Parameters
     ----------
     given : sequence of str
-        The command line that asks for a folder of pieces.
+        Command line of the whole batch.
     piece, folder : str
-        The file, and where to.
+        File of the piece, and its output folder.
     """
     command = own_process("app", *given, "--piece", piece, "--to", folder, "--jobs", "1")
     for variable in _DASK_VARIABLES:
@@ -244,14 +244,14 @@ def export_piece(given: Sequence[str], piece: str, folder: str) -> BatchOutcome:
 
 
 class _Children:
-    """The processes that export pieces now."""
+    """Running processes that export pieces."""
 
     _running: Final[set[subprocess.Popen[bytes]]] = set()
 
     @classmethod
     @contextmanager
     def started(cls, command: dict[str, Any]) -> Iterator[subprocess.Popen[bytes]]:
-        """A process that is known until the block is done."""
+        """Start a process that `end` can stop until the block ends."""
         child = subprocess.Popen(stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **command)
         cls._running.add(child)
         try:
@@ -261,7 +261,7 @@ class _Children:
 
     @classmethod
     def end(cls) -> None:
-        """Stop all processes, which remove what they have not finished."""
+        """Stop all processes, which then remove their unfinished files."""
         for child in list(cls._running):
             child.terminate()
         end_s = time.monotonic() + _STOP_S
@@ -274,7 +274,9 @@ class _Children:
 
 @contextmanager
 def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
-    """Executor for `export_piece`: threads here, each waiting for a process, or the machines of a Dask scheduler."""
+    """Yield an executor for `export_piece`: local threads that each wait for a process, or the workers of a Dask
+    scheduler.
+    """
     if scheduler is None:
         threads = ThreadPoolExecutor(jobs or core_count())
         try:
@@ -290,7 +292,7 @@ def _executor(scheduler: str | None, jobs: int | None) -> Iterator[Executor]:
 
 
 def _outcome(future: Future[BatchOutcome]) -> BatchOutcome:
-    """Result of a piece, also where its machine was lost."""
+    """Return the result of a piece, an error if its machine was lost."""
     try:
         return future.result()
     except Exception as error:  # noqa: BLE001 - a scheduler's errors have no common base; one piece stops no other
@@ -325,7 +327,7 @@ def _write_notes(file: Path, notes: dict[str, _Note]) -> None:
 def _table(
     pieces: dict[str, str], outcomes: dict[str, BatchOutcome], known: dict[str, BatchOutcome], stopped: bool
 ) -> list[str]:
-    """A line for each piece, and how many there are of each kind."""
+    """Return a line of text for each piece, and the number of each kind of result."""
     rows: list[tuple[str, ...]] = [heads("batch.heads")]
     for piece in pieces:
         outcome = outcomes.get(piece)

@@ -1,4 +1,4 @@
-"""Digests of everything that a folder's exports are made from: what changed in it is exported again."""
+"""Digests of all inputs of a batch export, so that only pieces with changed inputs are exported again."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from metadata.library import FOLDERS
 
 OWN_FOLDERS: Final[tuple[UserFolder[Any, Any], ...]] = (INSTRUMENTS, CHARACTERS, *FOLDERS)
 _ROOMS: Final = ("app", "instrument_maps", "metadata", "resources")
-"""Packages that decide what an export holds."""
+"""Packages whose content influences an export."""
 _NOT_INSTALLED: Final = frozenset({"__pycache__", "build"})
-"""Folders that a checkout has and an installation does not."""
+"""Folders that exist in a checkout but not in an installation."""
 _ELSEWHERE: Final = frozenset(
     {
         "file",
@@ -44,12 +44,12 @@ _ELSEWHERE: Final = frozenset(
         "pitches",
     }
 )
-"""Arguments that say where and how an export is made, not what it holds."""
+"""Arguments that do not influence the content of an export."""
 
 
 @cache
 def program_digest() -> str:
-    """Digest of this program: version, code, tables, models and sounds, on every machine the same."""
+    """Return a digest of the program (version, code, tables, models and sounds), equal on all machines."""
     digest = hashlib.sha256(program_version().encode())
     for room in _ROOMS:
         folder = Path(str(files(room)))
@@ -62,7 +62,7 @@ def program_digest() -> str:
 
 
 def own_digests() -> dict[str, str]:
-    """Digest of the user's own tables, models and characters, by kind (the name of their folder)."""
+    """Return digests of the user's own tables, models and characters by the name of their folder."""
     found = {}
     for kind in OWN_FOLDERS:
         digest = hashlib.sha256()
@@ -75,14 +75,14 @@ def own_digests() -> dict[str, str]:
 
 
 def piece_digest(piece: Path, arguments: argparse.Namespace, own: dict[str, str]) -> str:
-    """Digest of everything that the exported files of a piece depend on.
+    """Return a digest of everything that a piece's exported files depend on.
 
     Parameters
     ----------
     arguments : Namespace
-        Of the command ``export``; what only says where and how the work is done is left out.
+        Arguments of the command ``export``; those about place and speed are ignored.
     own : dict of str to str
-        `own_digests`.
+        Result of `own_digests`.
     """
     options = {name: repr(value) for name, value in sorted(vars(arguments).items()) if name not in _ELSEWHERE}
     digest = hashlib.sha256(json.dumps([program_digest(), options, own]).encode())
@@ -94,7 +94,7 @@ def piece_digest(piece: Path, arguments: argparse.Namespace, own: dict[str, str]
 
 
 def _named_files(piece: Path) -> list[Path]:
-    """The files that a project names and that its export reads: its recording and its choreographies."""
+    """Return the files that a project refers to and that its export reads: recording and choreographies."""
     if not is_project_file(piece):
         return []
     try:
@@ -117,14 +117,14 @@ def _named(project: Project) -> Iterable[str]:
 
 
 def _add_files(digest: Any, folder: Path, paths: Iterable[Path]) -> None:
-    """Add the names and the contents of the files in a folder, in the order of their names."""
+    """Add the names and contents of a folder's files to a digest, ordered by name."""
     for path in sorted(path for path in paths if os.path.isfile(path)):
         digest.update(os.fsencode(f"{path.relative_to(folder).as_posix()}\0"))
         _add(digest, path)
 
 
 def _add(digest: Any, path: Path) -> None:
-    """Add the content of a file, or that it cannot be read."""
+    """Add the content of a file to a digest, or a mark if it cannot be read."""
     try:
         with open_file(path) as stream:
             digest.update(hashlib.file_digest(stream, "sha256").digest())

@@ -1,4 +1,6 @@
-"""``suisou characters``: list the characters, check whether a file's figure can play, add one, make a person."""
+"""``suisou characters``: lists the characters, checks whether a file's figure can play, adds a character, makes a
+person.
+"""
 
 from __future__ import annotations
 
@@ -31,11 +33,11 @@ _percent = bounded_number(0.0, 100.0, "quantity.percent", float)
 
 
 class CannotPlayError(AppError):
-    """A checked figure cannot play; why has been printed."""
+    """A checked figure cannot play; the reasons have been printed."""
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_characters)
     actions = add_actions(command)
@@ -108,19 +110,19 @@ def list_characters(arguments: argparse.Namespace) -> None:
 
 
 def _title(id: str, entry: CharacterEntry | None, speech: Speech) -> str:
-    """Name of a character; empty of one that has none but its id."""
+    """Return the title of a character; empty if it has only an id."""
     if id in bundled_people():
         return speech.name(bundled_person(id).name)
     return entry.title if entry is not None else ""
 
 
 def check_character(arguments: argparse.Namespace) -> None:
-    """Print what of a figure is what.
+    """Print the joints and shapes that were recognised in a figure.
 
     Raises
     ------
     CannotPlayError
-        It cannot play.
+        The figure cannot play.
     """
     joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
     speech = ENGLISH if arguments.json else spoken()
@@ -151,7 +153,7 @@ def add_character(arguments: argparse.Namespace) -> None:
 
 
 def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collection[str], Message | None]:
-    """The meshes that are not shown, with the props in the hands, and the note about these."""
+    """Return the names of the hidden meshes including props in the hands, and a note about these props."""
     from app.rig.characters.props import props_in_hands
 
     props = [name for name in props_in_hands(reading.figure, reading.joints.bones) if name not in hidden]
@@ -161,7 +163,7 @@ def _left_out(reading: CharacterFigure, hidden: Collection[str]) -> tuple[Collec
 
 
 def make_person(arguments: argparse.Namespace) -> None:
-    """Make a person like one of ours, and print its id. Raises FileError, UsageError."""
+    """Make a person from a bundled one, and print its id. Raises FileError, UsageError."""
     from app.rig.characters.character_library import add_person
 
     if arguments.like not in bundled_people():
@@ -175,7 +177,7 @@ def make_person(arguments: argparse.Namespace) -> None:
 
 
 def joints_of(texts: list[str]) -> dict[str, str]:
-    """Corrections of joints. Raises UsageError."""
+    """Return the corrections of joints from texts ``JOINT=NAME``. Raises UsageError."""
     found = {}
     for given in texts:
         joint, equals, bone = given.partition("=")
@@ -186,7 +188,7 @@ def joints_of(texts: list[str]) -> dict[str, str]:
 
 
 def morphs_of(texts: list[str]) -> dict[str, dict[str, float]]:
-    """Corrections of the face. Raises UsageError."""
+    """Return the corrections of face shapes from typed texts. Raises UsageError."""
     found: dict[str, dict[str, float]] = {}
     for given in texts:
         shape, equals, parts = given.partition("=")
@@ -212,8 +214,9 @@ def checked(
     *,
     keep_props: bool = False,
 ) -> dict[str, Any]:
-    """Mapping of a file's figure, as JSON, with notes in the words of ``speech``. Raises FileError where there is no
-    figure in it."""
+    """Return the mapping of a file's figure as JSON, with notes in the language of ``speech``. Raises FileError if
+    there is no figure.
+    """
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.load_character import read_character
@@ -250,7 +253,7 @@ def checked(
 
 
 def as_text(found: Mapping[str, Any]) -> list[str]:
-    """Findings as text."""
+    """Return the findings about a figure as lines of text."""
     doubtful = set(found["doubtful_joints"])
     ways = {"": "characters.by_shape", "vrm0": "characters.by_vrm0", "vrm1": "characters.by_vrm1"}
     counts = {key: found[key] for key in ("kind", "bones", "height_m")}

@@ -1,4 +1,4 @@
-"""The machines of a Dask scheduler, checked before any work is given to them."""
+"""The workers of a Dask scheduler, checked before work is sent to them."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ if TYPE_CHECKING:
     from distributed import Client
 
 REACH_S: Final = 3.0
-"""The longest that is waited for a computer to answer at all."""
+"""Longest wait in seconds for any response of a computer."""
 CONNECT_S: Final = 6.0
-"""The longest that scheduler and workers are waited for, each."""
+"""Longest wait in seconds for the scheduler and for its workers, each."""
 _BY_TCP: Final = ("tcp", "tls")
 
 
 @contextmanager
 def cluster_executor(address: str) -> Iterator[Executor]:
-    """An executor on the workers of a scheduler, all of which have this program and the user's own files.
+    """Yield an executor on a scheduler's workers, all of which have the same program and user files.
 
     Raises
     ------
     UsageError
-        See the module.
+        The scheduler cannot be reached, or its workers differ.
     """
     try:
         from distributed import Client
@@ -47,8 +47,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
 
 
 def _reach(address: str) -> None:
-    """Raise ``dask.unreachable`` where nothing listens at a TCP address: a client would go on trying, and take as long
-    again to give up."""
+    """Raise UsageError if nothing listens at a TCP address, since a client would keep trying for long."""
     try:
         place = urlsplit(address)
         if place.scheme in _BY_TCP and place.hostname and place.port:
@@ -74,14 +73,14 @@ def _check_workers(client: Client, address: str) -> None:
 
 
 def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None:
-    """Raise UsageError where a worker would export something else than this machine.
+    """Raise UsageError if a worker's export would differ from this machine's.
 
     Parameters
     ----------
     worker : str
         Address of the worker.
     answer : mapping or exception
-        The answer of `probe`, or what happened instead.
+        Result of `probe`, or the error that occurred instead.
     """
     if not isinstance(answer, Mapping) or "program" not in answer:
         raise UsageError("dask.no_program", worker=worker)
@@ -94,12 +93,14 @@ def check_worker(worker: str, answer: Mapping[str, Any] | BaseException) -> None
 
 
 def machine_facts() -> dict[str, Any]:
-    """Return what a worker says of the machine that it runs on: its program and the user's own files there."""
+    """Return the facts that a worker reports about its machine: digests of its program and user files."""
     return {"version": program_version(), "program": program_digest(), "own": own_digests()}
 
 
 def probe() -> Callable[[], dict[str, Any]]:
-    """Return a function that is sent by value, since a worker may not have this module; it answers `machine_facts`."""
+    """Return a function that is sent to a worker by value, since the worker may lack this module, and that returns
+    `machine_facts`.
+    """
 
     def facts() -> dict[str, Any]:
         try:

@@ -1,7 +1,6 @@
-"""The sub-commands: what each is called and does. Its module is loaded when its arguments are read.
+"""The list of sub-commands with their help. The module of a sub-command is loaded when its arguments are read.
 
-What the help says of sub-commands and their options stands in tables beside the modules (``help.toml``), the words of
-argparse itself in ``argparse.toml``.
+Help texts are in tables beside the modules (``help.toml``), the words of argparse in ``argparse.toml``.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ _OWN: Final = (
     *("edit", "inspect", "export", "film", "midi", "align"),
     *("instruments", "metadata", "characters", "ports", "record", "stream"),
 )
-"""Names, each of a module of this folder."""
+"""Names of sub-commands, each with a module of this folder."""
 
 
 def _all_commands() -> dict[str, SubCommand]:
@@ -51,11 +50,11 @@ def _all_commands() -> dict[str, SubCommand]:
 
 _COMMANDS: Final = _all_commands()
 TWO_WORDS: Final = frozenset(name for name in _COMMANDS if " " in name)
-"""A piece with such a name is written "./results"."""
+"""Sub-commands of two words; a piece with such a name is typed as "./results"."""
 
 SHARED: Final = "shared"
 SUMMARY: Final = "summary"
-"""The line of a sub-command in the list of all."""
+"""Key of a sub-command's line in the list of all sub-commands."""
 DESCRIPTION: Final = "description"
 
 Declare = Callable[[argparse.ArgumentParser], None]
@@ -63,7 +62,7 @@ Actions: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 
 class _HelpFormatter(argparse.HelpFormatter):
-    """Breaks lines by the columns that their characters take."""
+    """Breaks lines by the width of characters in columns."""
 
     def _split_lines(self, text: str, width: int) -> list[str]:
         return super()._split_lines(text, width) if text.isascii() else wrapped(text, width)
@@ -80,28 +79,30 @@ class _HelpFormatter(argparse.HelpFormatter):
         groups: Iterable[argparse._MutuallyExclusiveGroup],
         prefix: str | None,
     ) -> str:
-        """Format the usage with as many signs before it as its first word takes columns, since argparse counts them."""
+        """Format the usage with a placeholder as wide as its first word, since argparse counts characters and not
+        columns.
+        """
         words = argparse_words().get(_USAGE, _USAGE) if prefix is None else prefix
         place = "\1" * width(words)
         return super()._format_usage(usage, actions, groups, place).replace(place, words, 1)
 
 
 class TopFormatter(_HelpFormatter):
-    """Leaves the lines of the description and of the examples as they are."""
+    """Keeps the line breaks of description and examples."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "".join(indent + line for line in text.splitlines(keepends=True))
 
 
 class CommandParser(argparse.ArgumentParser):
-    """Quotes the arguments that it refuses, names of files among them, as everything else is printed.
+    """Parser that prints refused arguments and file names safely quoted.
 
     Parameters
     ----------
     declare : callable, optional
-        Adds arguments and description; called when they are needed first.
+        Function that adds arguments and description when they are first needed.
     options
-        Of `argparse`.
+        Options of `argparse`.
     """
 
     def __init__(self, *, declare: Declare | None = None, **options: Any) -> None:
@@ -109,7 +110,7 @@ class CommandParser(argparse.ArgumentParser):
         self._declare = declare
 
     def complete(self) -> None:
-        """Have all arguments."""
+        """Add all arguments."""
         if self._declare is not None:
             declare, self._declare = self._declare, None
             declare(self)
@@ -131,8 +132,9 @@ _USAGE: Final = "usage: "
 
 @cache
 def help_texts() -> dict[str, dict[str, dict[str, str]]]:
-    """Read the tables: texts by language, of the summary, description and options of each sub-command; those of several
-    under `SHARED`."""
+    """Return the help texts by language: summary, description and options of each sub-command; shared ones under
+    `SHARED`.
+    """
     paths = (_FOLDER / "help.toml", *sorted(_FOLDER.glob("*/help.toml")))
     return {name: texts for path in paths for name, texts in tomllib.loads(path.read_text("utf-8")).items()}
 
@@ -144,14 +146,13 @@ def _words_of(language: str) -> dict[str, str]:
 
 
 def argparse_words() -> dict[str, str]:
-    """Words of argparse by their English, in the language that is spoken."""
+    """Return translations of argparse's English words in the current language."""
     return _words_of(spoken().language)
 
 
 @contextmanager
 def worded_argparse() -> Iterator[None]:
-    """Let argparse say its own words in the language that is spoken. It asks gettext, whose catalogues are of the
-    system's locale and have no Japanese of it."""
+    """Make argparse use the current language, since gettext follows the system's locale and has no Japanese for it."""
     module: Any = argparse
     words, before = argparse_words(), (module._, module.ngettext)
     module._ = lambda english: words.get(english, english)
@@ -163,12 +164,12 @@ def worded_argparse() -> Iterator[None]:
 
 
 def fill_help(action: argparse.Action, **values: object) -> None:
-    """Give the help of an option what its text in the table has in ``%(name)s``."""
+    """Fill placeholders ``%(name)s`` in the help text of an option."""
     vars(action).update(values)
 
 
 def explain(command: argparse.ArgumentParser) -> None:
-    """Give a sub-command, its options and its own sub-commands their texts."""
+    """Set the help texts of a sub-command, its options and its own sub-commands."""
     name, language = command.prog.partition(" ")[2], spoken().language
     texts = help_texts()[SHARED] | help_texts().get(name, {})
     if DESCRIPTION in texts:
@@ -185,12 +186,12 @@ def explain(command: argparse.ArgumentParser) -> None:
 
 
 def summary(name: str) -> str:
-    """The line of a sub-command in the list of all."""
+    """Return a sub-command's line in the list of all sub-commands."""
     return help_texts()[name][SUMMARY][spoken().language]
 
 
 def add_commands(top: argparse.ArgumentParser) -> None:
-    """Declare all sub-commands by name and summary."""
+    """Declare all sub-commands with name and summary."""
     commands = top.add_subparsers(
         title=said("cli.commands"), dest="command", metavar="COMMAND", parser_class=CommandParser
     )
@@ -199,18 +200,18 @@ def add_commands(top: argparse.ArgumentParser) -> None:
 
 
 def add_actions(command: argparse.ArgumentParser, required: bool = False) -> Actions:
-    """Declare that a sub-command has sub-commands of its own, whose summaries stand in the table."""
+    """Declare that a sub-command has sub-commands of its own, whose summaries are in the table."""
     return command.add_subparsers(title=said("cli.actions"), metavar="ACTION", required=required)
 
 
 def add_language_option(command: argparse.ArgumentParser) -> None:
-    """Declare the language, unless a command has declared it with a meaning of its own."""
+    """Declare the option for the language, unless the command has its own."""
     if LANGUAGE not in command._option_string_actions:
         command.add_argument(LANGUAGE, choices=tuple(LANGUAGES), default="")
 
 
 def add_pitch_options(command: argparse.ArgumentParser, of_players: bool = True) -> None:
-    """Declare how pitches are named; ``of_players`` if they are those of players, whose parts may be transposed."""
+    """Declare the options for names of pitches; ``of_players`` adds the one for transposing instruments."""
     command.add_argument(PITCH_NAMES, choices=PITCH_NAME_CHOICES, default=PITCH_NAME_CHOICES[0])
     command.add_argument(MIDDLE_C, choices=tuple(MIDDLE_C_OCTAVES), default="C4")
     if of_players:
@@ -231,7 +232,7 @@ def _add_arguments(name: str, command: argparse.ArgumentParser) -> None:
 
 
 def _add_language_options(command: argparse.ArgumentParser) -> None:
-    """Declare the language of a sub-command, or of its own sub-commands too."""
+    """Declare the option for the language of a sub-command and its own sub-commands."""
     add_language_option(command)
     for action in command._actions:
         if isinstance(action, argparse._SubParsersAction):

@@ -1,4 +1,4 @@
-"""Check for a display, made before Qt is imported, which would end the process. Imports nothing of Qt."""
+"""Check for a display before Qt is imported, which would end the process. Does not import Qt."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _DISPLAY = re.compile(r"^(?:(?P<host>[^:/]*)(?:/\w+)?|(?P<path>/.*)):(?P<number>
 
 
 def virtual(command: str) -> str:
-    """Advice for drawing to a file without a display."""
+    """Return advice on drawing to a file without a display."""
     return said("cli.virtual_display", command=command)
 
 
@@ -32,12 +32,12 @@ def why_no_display(
     what: str = "",
     instead: str = "",
 ) -> str | None:
-    """Reason why the editor cannot be shown, or a film not drawn, as a sentence for the command line; None if it can.
+    """Return the reason why the editor or a film cannot be drawn, as a sentence for the command line; None if it can.
 
     Parameters
     ----------
     what, instead : str
-        What needs a display, and what can be done without one; by default the editor and other commands.
+        Name of the task that needs a display, and an alternative without one; by default the editor and other commands.
     """
     if not platform.startswith("linux") or environment.get("QT_QPA_PLATFORM", "").partition(":")[0] in WITHOUT:
         return None
@@ -52,7 +52,7 @@ def why_no_display(
 
 
 def example_hint() -> str:
-    """Command to type to see something on the disk, where the editor cannot show its example."""
+    """Return a command that exports the example to files, for systems on which the editor cannot open."""
     with as_file(files("resources") / "examples" / "quartet.mid") as path:
         command = f"suisou export {shlex.quote(str(path.absolute()))} --to out"
     return said("cli.example_hint", command=command)

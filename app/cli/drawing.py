@@ -1,4 +1,4 @@
-"""Shared options of commands that draw players: view, output file, and cancelling."""
+"""Shared options of commands that draw players: view, output file and cancelling."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _OF_PLAYERS: Final = ("hands", "mouth")
 
 
 def kept_camera(project: Project, name: str) -> CameraBookmark:
-    """The bookmark of a name, ignoring case. Raises UsageError (``camera.unknown``)."""
+    """Return the camera bookmark of a name, ignoring case. Raises UsageError if there is none."""
     found = next((camera for camera in project.cameras if camera.name.casefold() == name.casefold()), None)
     if found is None:
         known = ", ".join(camera.name for camera in project.cameras) or "-"
@@ -35,7 +35,9 @@ def kept_camera(project: Project, name: str) -> CameraBookmark:
 
 
 def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, tuple[str, ...]]:
-    """The view, and ids of whom it is about. Raises UsageError (``player.unknown``, ``picture.dancer_view``)."""
+    """Return the view, and the ids of the players in it. Raises UsageError for an unknown player or an instrument view
+    of a dancer.
+    """
     everyone = project.performers
     view: View = arguments.view or ("front" if arguments.players else "ensemble")
     if not arguments.players and view == "ensemble":
@@ -48,7 +50,7 @@ def parsed_view(arguments: argparse.Namespace, project: Project) -> tuple[View, 
 
 
 def require_writable(path: Path, folder: Path) -> None:
-    """Raise FileError (``file.cannot_write``) where a folder cannot take a file or folder."""
+    """Raise FileError if a folder does not exist or cannot be written to."""
     if not os.path.isdir(folder):
         raise FileError("file.cannot_write", file=str(path), reason=f"{shown(folder)} is not a folder")
     if not os.access(folder, os.W_OK):
@@ -56,13 +58,15 @@ def require_writable(path: Path, folder: Path) -> None:
 
 
 def nearest(path: Path) -> Path:
-    """Existing beginning of a path."""
+    """Return the longest existing beginning of a path."""
     return next((place for place in (path, *path.parents) if os.path.exists(place)), path)
 
 
 @contextmanager
 def stoppable() -> Iterator[StopRequested]:
-    """Return whether Ctrl-C or a request to end (SIGTERM) came: an exception of it would get lost in what Qt calls."""
+    """Yield a function that returns whether Ctrl-C or a request to end (SIGTERM) was received, since an exception would
+    be lost in Qt's calls.
+    """
     stopped = threading.Event()
 
     def stop(number: int, frame: FrameType | None) -> None:

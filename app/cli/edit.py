@@ -1,4 +1,4 @@
-"""``suisou edit``: the editor's command line. It is read here; the editor itself is started by `app.__main__`."""
+"""``suisou edit``: options of the editor, which is started by `app.__main__`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LEAST_PX, MOST_PX = (960, 600), (7680, 4320)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.add_argument("file", type=Path, nargs="?", metavar="FILE")
     command.add_argument("--screenshot", type=Path, metavar="OUT.png")
     command.add_argument("--time", dest="time_s", type=seconds, default=0.0, metavar="S")

@@ -1,4 +1,4 @@
-"""``suisou export``: a MIDI file or a project to animation files of its players."""
+"""``suisou export``: exports a MIDI file or a project as animation files of its players."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ if TYPE_CHECKING:
     from app.export.target import SkeletonChoice
 
 MOST_NAMED: Final = 3
-"""Files that are named where there are more."""
+"""Greatest number of files that are named in a message about several files."""
 SKELETONS: Final[tuple[SkeletonChoice, ...]] = ("own", "ue5", "suisou")
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_source_options(command)
     add_title_option(command)
     place = command.add_mutually_exclusive_group(required=True)
@@ -76,7 +76,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
-    """Add the options for the skeletons."""
+    """Declare the options for skeletons."""
     command.add_argument("--skeleton", choices=SKELETONS)
     add_rig_options(command)
     command.add_argument("--check-skeleton", type=Path, metavar="ASSET")
@@ -86,7 +86,7 @@ def _add_skeleton_options(command: argparse.ArgumentParser) -> None:
 
 
 def _add_content_options(command: argparse.ArgumentParser) -> None:
-    """Add the options for further files, and for reducing keys."""
+    """Declare the options for additional files, and for reducing animation keys."""
     command.add_argument("--sound", action="store_true")
     stage = command.add_argument("--stage", action="store_true")
     fill_help(stage, formats=names_where(lambda kind: kind.stage))
@@ -105,7 +105,7 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
 
 
 def add_rig_options(command: argparse.ArgumentParser) -> None:
-    """Add the options for attaching instruments, and for additions to the skeletons."""
+    """Declare the options for attaching instruments, and for additions to the skeletons."""
     command.add_argument("--instrument", choices=ATTACHMENTS, default=DEFAULT_RIG.instrument)
     command.add_argument("--root-bone", choices=ROOT_BONES, default=DEFAULT_RIG.root_bone)
     command.add_argument("--rest-pose", choices=REST_POSES, default=DEFAULT_RIG.rest_pose)
@@ -114,7 +114,7 @@ def add_rig_options(command: argparse.ArgumentParser) -> None:
 
 
 def texture_size_text(px: int) -> str:
-    """A size of textures as typed: pixels, or ``off``."""
+    """Return a size of textures as typed: pixels or ``off``."""
     return str(px) if px else "off"
 
 
@@ -123,31 +123,31 @@ level_count = bounded_number(1, MOST_LEVELS, "quantity.levels_of_detail", int)
 
 
 def file_formats(text: str) -> list[Format]:
-    """Formats from ``fbx`` or ``fbx,glb``.
+    """Return the formats of a text such as ``fbx`` or ``fbx,glb``.
 
     Raises
     ------
     argparse.ArgumentTypeError
-        Nothing, or something that is no format.
+        The text is empty or contains an unknown format.
     """
     names = _names(text, FILE_FORMATS, "cli.no_format")
     return [name for name in FILE_FORMATS if name in names]
 
 
 def face_parts(text: str) -> tuple[FacePart, ...]:
-    """Parts of a face from ``brows`` or ``brows,eyes``.
+    """Return the parts of a face of a text such as ``brows`` or ``brows,eyes``.
 
     Raises
     ------
     argparse.ArgumentTypeError
-        Nothing, or something that is no part.
+        The text is empty or contains an unknown part.
     """
     names = _names(text, FACE_PARTS, "cli.no_face_part")
     return tuple(part for part in FACE_PARTS if part in names)
 
 
 def _names(text: str, possible: Collection[str], refusal: str) -> list[str]:
-    """Return the names between commas, refused by the message ``refusal`` where one is not possible."""
+    """Return the names between commas; refuse an impossible one with the message ``refusal``."""
     names = [name.strip().casefold() for name in text.split(",")]
     unknown = [name for name in names if name not in possible]
     if unknown:
@@ -157,7 +157,7 @@ def _names(text: str, possible: Collection[str], refusal: str) -> list[str]:
 
 
 def export(arguments: argparse.Namespace) -> int:
-    """Write the files, print what they hold and name the excluded players; the exit status."""
+    """Write the files, print their contents and the excluded players, and return the exit status."""
     if arguments.piece is not None:
         arguments.file = arguments.piece
     elif os.path.isdir(arguments.file):
@@ -201,17 +201,17 @@ def export(arguments: argparse.Namespace) -> int:
 
 
 def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
-    """Say which files an export will replace or remove, and what they have otherwise, before anything is written.
+    """Print the files that an export will replace or remove and their differing content, before anything is written.
 
     Parameters
     ----------
     unreal : path or None
-        An Unreal project, by its file or folder; None: the export goes into the request's folder.
+        File or folder of an Unreal project; None if the export goes into the request's folder.
 
     Raises
     ------
     FileError
-        Files of another program are in the way in the Unreal project.
+        The Unreal project contains files of another program under the same names.
     """
     performance, source, bars = request.performance, request.source, request.bars
     ids = (*(one.id for one in request.players), *(one.id for one in request.dancers))
@@ -240,7 +240,7 @@ def _request(
     folder: Path,
     skeleton: SkeletonChoice,
 ) -> ExportRequest:
-    """Request of the export, once it is known how the instruments are held."""
+    """Return the export request with the chosen way of attaching instruments."""
     project = performance.project
     names = [*(player.name for player in project.players), *(dancer.name for dancer in project.dancers)]
     chosen = select_players(arguments.players, names)
@@ -278,7 +278,7 @@ def _request(
 
 
 def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
-    """The requested formats; raises `UsageError` where none of them can do something else that was requested."""
+    """Return the requested formats. Raises `UsageError` if none of them supports another requested option."""
     if arguments.unreal is not None and arguments.formats:
         raise UsageError("unreal.formats")
     formats: frozenset[Format] = frozenset(arguments.formats or USUAL_FORMATS)

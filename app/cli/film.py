@@ -1,4 +1,4 @@
-"""``suisou film``: what the viewport shows, as a film, as pictures or as a contact sheet, without a window."""
+"""``suisou film``: draws the viewport as a film, as pictures or as a contact sheet, without a window."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ _columns = bounded_number(1, MOST_COLUMNS, "quantity.columns", int)
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_source_options(command)
     place = command.add_mutually_exclusive_group(required=True)
     place.add_argument("--to", type=Path, metavar="OUT")
@@ -83,16 +83,16 @@ def _size_text(size: tuple[int, int]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Film:
-    """Settings of a film: its contents and its file.
+    """Settings of a film: contents and output file.
 
     Attributes
     ----------
     kind : str
         ``sheet``, ``mp4`` or ``folder``.
     player_ids : tuple of str
-        Those the view is about; empty: everyone.
+        Players that the view is about; empty for all.
     columns : int
-        Of a sheet.
+        Number of columns of a contact sheet.
     """
 
     arguments: argparse.Namespace
@@ -106,23 +106,23 @@ class _Film:
 
     @property
     def path(self) -> Path:
-        """The file or folder."""
+        """The output file or folder."""
         path: Path = self.arguments.sheet or self.arguments.to
         return path
 
     @property
     def step_s(self) -> float:
-        """Time from one frame to the next."""
+        """Time between frames in seconds."""
         return float(1 / self.span.fps)
 
     @property
     def times_s(self) -> list[float]:
-        """Return when the frames are."""
+        """Return the times of the frames in seconds."""
         return [self.span.first_frame_s + index * self.step_s for index in range(self.span.count)]
 
 
 def film(arguments: argparse.Namespace) -> int:
-    """Draw and write, and name the excluded players; the exit status."""
+    """Draw and write the film, print the excluded players, and return the exit status."""
     from app.export.tree import clean_up
     from app.performance.ensemble import Performance
 
@@ -157,7 +157,7 @@ def film(arguments: argparse.Namespace) -> int:
 
 
 def _draw(film: _Film, stop_requested: StopRequested) -> int:
-    """Draw every frame and write it."""
+    """Draw and write every frame."""
     # All of Qt.
     from app.performance.cast import require_players
     from widgets.viewport.offscreen import offscreen
@@ -189,7 +189,7 @@ def _draw(film: _Film, stop_requested: StopRequested) -> int:
 
 
 def _kind(arguments: argparse.Namespace) -> Kind:
-    """Kind of output. Raises UsageError (``picture.sheet_ending``, ``picture.film_ending``)."""
+    """Return the kind of output. Raises UsageError for an unsuitable suffix."""
     if arguments.sheet is not None:
         if arguments.sheet.suffix.lower() != ".png":
             raise UsageError("picture.sheet_ending", file=str(arguments.sheet))
@@ -205,7 +205,7 @@ def _kind(arguments: argparse.Namespace) -> Kind:
 
 
 def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
-    """Raise UsageError (``picture.film_option``, ``picture.odd_size``) for what means nothing to this kind of film."""
+    """Raise UsageError for options that do not fit this kind of film, or sizes of odd pixels."""
     sheet_only = {"--every": arguments.every, "--columns": arguments.columns}
     for option, value in sheet_only.items():
         if value is not None and kind != "sheet":
@@ -219,12 +219,13 @@ def _check_options(arguments: argparse.Namespace, kind: Kind) -> None:
 
 
 def shown_span(performance: Performance, arguments: argparse.Namespace, kind: Kind) -> FrameSpan:
-    """The frames of a film, or the pictures of a sheet: the first is where the bars begin, however far apart they are.
+    """Return the frames of a film or the pictures of a sheet. The first is at the start of the bars, whatever the
+    distance between pictures.
 
     Raises
     ------
     UsageError
-        As `app.cli.bars.requested_bars`; ``bars.lead_in``: there is no bar to lead into.
+        As `app.cli.bars.requested_bars`, or a lead-in is requested without a first bar.
     """
     fps = performance.project.fps
     if kind != "sheet":
@@ -241,8 +242,9 @@ def _columns_of_sheet(arguments: argparse.Namespace, span: FrameSpan) -> int:
 
 
 def _check_target(film: _Film) -> None:
-    """Raise what is wrong with the file or folder, long before anything is drawn: UsageError
-    (``picture.sheet_too_large``), FileError (``picture.other_frames``, ``file.cannot_write``)."""
+    """Raise UsageError or FileError before drawing if the sheet is too large, or the file or folder cannot be written
+    or holds other frames.
+    """
     from app.export.pictures import MOST_SHEET_PX, require_no_other_frames, sheet_size
 
     if film.kind == "folder":
@@ -258,7 +260,7 @@ def _check_target(film: _Film) -> None:
 
 
 def _require_folder(path: Path) -> None:
-    """Raise FileError (``file.cannot_write``) where no file can be put into its folder: long before it is drawn."""
+    """Raise FileError before drawing if a file cannot be written at a path."""
     if os.path.isdir(path):
         raise FileError("file.cannot_write", file=str(path), reason="it is a folder")
     require_writable(path, path.parent)
@@ -310,7 +312,7 @@ _WRITERS: Final = {"mp4": _mp4, "folder": _frames, "sheet": _sheet}
 
 
 def caption_texts(performance: Performance, times_s: Sequence[float], language: str) -> list[tuple[str, str]]:
-    """For each time itself and its frame in an export at the project's frame rate, then its position."""
+    """Return the time, frame number (of an export at the project's frame rate) and score position of each moment."""
     metres, fps = performance.project.score.metre_map, float(performance.project.fps)
     found = []
     for time_s in times_s:

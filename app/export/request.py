@@ -152,22 +152,22 @@ class CastDancing:
 
     @property
     def character(self) -> Character:
-        """Skeleton of the character's files."""
+        """The dancer's body, dressed."""
         return dressed_character(self.dancer)
 
     @property
     def target(self) -> TargetSkeleton:
-        """Skeleton of the character's files in a format."""
+        """Skeleton of the character's files."""
         return self.checked.target
 
     def target_in(self, kind: FileFormat) -> TargetSkeleton:
-        """Cast of an export: the exported performers, and the excluded ones with reasons."""
+        """Skeleton of the character's files in a format."""
         return humanoid_target(self.character, self.target.place) if kind.humanoid else self.target
 
 
 @dataclass(frozen=True, eq=False)
 class ExportCast:
-    """Ids of the exported players and dancers."""
+    """Cast of an export: the exported performers, and the excluded ones with reasons."""
 
     musicians: tuple[CastMusician, ...]
     dancers: tuple[CastDancing, ...]
@@ -175,23 +175,23 @@ class ExportCast:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """Return the performers of a request that can be exported, without writing anything."""
+        """Return the ids of the exported players and dancers."""
         return (*(one.player.id for one in self.musicians), *(one.dancer.id for one in self.dancers))
 
 
 def cast_of(
     request: ExportRequest, wording: Callable[[Message], str], stop_requested: StopRequested = lambda: False
 ) -> ExportCast:
-    """Return who of a request can be exported. Nothing is written.
+    """Return the performers of a request that can be exported, without writing anything.
 
     Raises
     ------
     FileError
-        ``export.no_players``; ``export.too_long``; ``player.all_left_out``; what `read_figure` says of the asset.
+        There is no player, the span is too long, all players are excluded, or the asset cannot be read.
     UsageError
-        ``usd.missing``; ``attachment.formats``.
+        The library for USD is missing, or no format supports the attachment.
     Cancelled
-        ``stop_requested`` said so.
+        ``stop_requested`` returned true.
     """
     if request.span.count > MOST_FRAMES:
         raise FileError("export.too_long", file=request.source, frames=request.span.count, most=MOST_FRAMES)

@@ -29,10 +29,10 @@ from metadata.load import load_body
 from metadata.model import Body
 
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
-"""More than there are instruments: in an orchestra with one more than these, each would be read again at every edit."""
+"""Cache of instrument models, larger than the number of instruments, so that no model is read again at every edit."""
 _HOLDS: IdentityCache[GripPose] = IdentityCache(256)
 _HELD: set[tuple[str, int, str, int]] = set()
-"""Pairs of character and instrument, by id and revision, whose holds were asked for."""
+"""Pairs of character and instrument, by id and revision, whose grips are computed."""
 _SUITED: IdentityCache[FittedInstrument] = IdentityCache(256)
 
 
@@ -42,15 +42,12 @@ def character_of(player: Player) -> Character:
 
 
 def dressed_character(performer: Player | Dancer) -> Character:
-    """The player's body, with motion scaled by the length of its legs.
-
-    Raises UsageError where there is none of its id.
-    """
+    """Return a player's or dancer's character in the chosen outfit. Raises UsageError for an unknown id."""
     return character_in(performer.character_id, performer.outfit)
 
 
 def body_of(player: Player) -> Body:
-    """The model of an instrument map at its size; cached. Raises MapError or FileError."""
+    """Return the player's body, with motion scaled by the length of its legs."""
     return _body(round(leg_size(character_of(player).skeleton), 3))
 
 
@@ -60,7 +57,7 @@ def _body(size: float) -> Body:
 
 
 def model_of(instrument: InstrumentMap) -> InstrumentModel:
-    """The instrument fitted to a player's body (size and contacts); cached for each pair."""
+    """Return the model of an instrument map at its size; cached. Raises MapError or FileError."""
     return _MODELS.step(_loaded, instrument)
 
 
@@ -69,7 +66,7 @@ def _loaded(instrument: InstrumentMap) -> InstrumentModel:
 
 
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
-    """Grip of a player's body on a fitted instrument; cached for each pair."""
+    """Return the instrument fitted to a player's body (size and contacts); cached for each pair."""
     if player.character_id in our_characters():
         # Ours are adult and complete: plans are made before any character is loaded.
         return FittedInstrument(instrument, ())
@@ -84,10 +81,9 @@ def _suited(character: Character, instrument: InstrumentMap, body: Body) -> Fitt
 
 
 def hold_of(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> GripPose:
-    """Return position (3,) and rotation (4,) of an unused instrument in the player's frame while the musician plays
-    another. None as long as the grip is not computed.
+    """Return the grip of a player's body on a fitted instrument; cached for each pair.
 
-    Map of the instrument library.
+    Map of the fitted instrument, as returned by `suited_to`.
     """
     return _HOLDS.helped(_hold, progress, character_of(player), model_of(instrument), instrument, body_of(player))
 
@@ -106,15 +102,15 @@ def _hold(
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:
-    """Convert failures with a user's own character or instrument, whose shape may be unusable, into problems of the
-    player. For bundled ones the exception is raised, since it is a bug.
+    """Return position (3,) and rotation (4,) of an unused instrument in the player's frame while the musician plays
+    another. None as long as the grip is not computed.
 
     Parameters
     ----------
     instrument : InstrumentMap
-        The grip could not be computed.
+        Map of the instrument library.
     number : int
-        Which of the musician's instruments it is, from 0.
+        Index of the instrument among the musician's instruments, from 0.
     """
     if not is_held(player, instrument):
         return None
@@ -126,12 +122,13 @@ def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[Flo
 
 @contextlib.contextmanager
 def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[None]:
-    """Return whether the grip of a player on a library instrument is available without computing it.
+    """Convert failures with a user's own character or instrument, whose shape may be unusable, into problems of the
+    player. For bundled ones the exception is raised, since it is a bug.
 
     Raises
     ------
     MapError
-        ``character.hold_failed``.
+        The grip could not be computed.
     """
     try:
         yield
@@ -144,15 +141,15 @@ def _worked_out(character: Character, instrument: InstrumentMap) -> Iterator[Non
 
 
 def is_held(player: Player, instrument: InstrumentMap) -> bool:
-    """Compute the grip of a player on a library instrument, so that `is_held` is true afterwards."""
+    """Return whether the grip of a player on a library instrument is available without computing it."""
     ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
     return (ours and _is_stored(player.character_id, instrument.id)) or _pair(player, instrument) in _HELD
 
 
 def hold_now(player: Player, instrument: InstrumentMap, progress: Progress = no_progress) -> None:
-    """Find out how a player holds an instrument of the library, so that it is held from now on (`is_held`).
+    """Compute the grip of a player on a library instrument, so that `is_held` is true afterwards.
 
-    What is wrong with a character or a model is reported where they are asked for.
+    Faults of a character or model are ignored here, since they are reported when these are used.
     """
     with contextlib.suppress(UsageError, FileError, MapError):
         hold_of(player, suited_to(player, instrument).instrument, progress)

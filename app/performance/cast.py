@@ -70,17 +70,17 @@ class Performer:
 
     @cached_property
     def dressed(self) -> Character:
-        """Make something for every player or dancer; one that raises an `AppError` is excluded with its message."""
+        """Return the player's character in the chosen outfit."""
         return dressed_character(self.player)
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRequested = lambda: False) -> Attempt[T]:
-    """Collect all inputs of a player's motion; computing the grip may take seconds.
+    """Make something for every player or dancer; one that raises an `AppError` is excluded with its message.
 
     Raises
     ------
     Cancelled
-        The instrument or character is missing or damaged.
+        ``stop_requested`` returned true.
     """
     made, left_out = dict[str, T](), list[LeftOut]()
     for player in players:
@@ -95,7 +95,7 @@ def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRe
 
 
 def performer_of(performance: Performance, player: Player) -> Performer:
-    """Run `performer_of` for each player.
+    """Collect all inputs of a player's motion; computing the grip may take seconds.
 
     Raises
     ------
@@ -118,18 +118,18 @@ def performer_of(performance: Performance, player: Player) -> Performer:
 def performers_of(
     performance: Performance, players: Iterable[Player], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Performer]:
-    """Run `app.performance.dances.dancing_of` for each dancer."""
+    """Run `performer_of` for each player."""
     return attempt(players, lambda player: performer_of(performance, player), stop_requested)
 
 
 def dancings_of(
     performance: Performance, dancers: Iterable[Dancer], stop_requested: StopRequested = lambda: False
 ) -> Attempt[Dancing]:
-    """Raise FileError if all players were excluded."""
+    """Run `app.performance.dances.dancing_of` for each dancer."""
     return attempt(dancers, lambda dancer: dancing_of(performance, dancer), stop_requested)
 
 
 def require_players(left_out: Sequence[LeftOut], file: str, wording: Wording) -> None:
-    """Raise ``player.all_left_out``: no player is left."""
+    """Raise FileError if all players were excluded."""
     reasons = "; ".join(f"{one.player.name}: {wording(one.reason)}" for one in left_out)
     raise FileError("player.all_left_out", file=file, reasons=reasons)

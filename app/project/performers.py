@@ -18,18 +18,18 @@ class Player(msgspec.Struct, frozen=True):
     Attributes
     ----------
     id : str
-        Stays the same whatever the player is called.
+        Constant id; unlike the name, it cannot be changed by the user.
     name : str
-        Unique in the project, also where case does not count.
+        Unique in the project, ignoring case.
     colour : str
-        ``"#rrggbb"``; empty: the theme's, by the player's place in the project.
+        ``"#rrggbb"``; empty for a colour of the theme that depends on the player's place in the project.
     muted, soloed : bool
         Whether the player sounds; a muted player is still shown and exported.
     doubles : str
-        Id of the player whose body plays this instrument too, as a flutist's plays the piccolo; empty: a body of its
-        own. The character, parameters, place and outfit of the musician are stored with that player.
+        Id of the player whose body plays this instrument too, as a flutist also plays the piccolo; empty for a body of
+        its own. Character, parameters, place and outfit are stored with the player of that id.
     outfit : OutfitChoice
-        What the body wears.
+        Clothes of the body.
     """
 
     id: str
@@ -47,35 +47,35 @@ class Player(msgspec.Struct, frozen=True):
 
 
 class Dancer(msgspec.Struct, frozen=True):
-    """A performer who moves to the piece as a choreography has it.
+    """A performer who dances to the piece by a choreography.
 
     Attributes
     ----------
     id : str
-        Stays the same whatever the dancer is called; unique among players and dancers.
+        Constant id, unique among players and dancers.
     name : str
-        Unique among players and dancers, also where case does not count.
+        Unique among players and dancers, ignoring case.
     choreography : str
         Absolute path of a ``.choreography`` file as this machine knows it, or the name of a bundled one (see
         `app.project.choreography_files`); a project's file keeps a path relative to itself.
     stage : StagePosition
-        Where the dance begins, and which way the dancer faces.
+        Place and direction at the start of the dance.
     delay_beats : float
-        How much later than the music the dance begins, in felt beats: two dancers of one seed dance in canon.
+        Delay of the dance against the music in felt beats: two dancers with the same seed then dance in canon.
     mirrored : bool
         Left and right are exchanged.
     source : int
-        Index of the choreography's source whose segments are preferred; -1: none is.
+        Index of the choreography's source whose segments are preferred; -1 for none.
     size : float
         Of the motion, 0..1.5; 1: as captured.
     weight : float
-        -1..1, from light to heavy: how deep the knees bend; 0: as captured.
+        Bending of the knees, -1 (light) to 1 (heavy); 0 as captured.
     melody : float
-        0..1: how much melody, bass and accents count beside percussion; a piece without percussion is danced by them.
+        Weight of melody, bass and accents against percussion, 0..1; a piece without percussion is danced to them alone.
     colour : str
         ``"#rrggbb"``; empty: the theme's.
     outfit : OutfitChoice
-        What the body wears.
+        Clothes of the body.
     """
 
     id: str

@@ -35,10 +35,10 @@ from instrument_maps.library import all_maps
 
 SUFFIX: Final = ".suisou"
 BACKUP: Final = ".bak"
-"""Suffix of the backup: the file as it was before it was last saved."""
+"""Suffix of the backup: the previously saved version of the file."""
 
 AUTOSAVE: Final = ".autosave"
-"""Put behind the file's name: the work on it that is not saved yet."""
+"""Suffix of the file with unsaved work."""
 
 MOST_BYTES: Final = 256 * 2**20
 
@@ -233,13 +233,8 @@ def is_project_file(path: Path) -> bool:
 
 
 def missing(project: Project) -> tuple[Message, ...]:
-    """Warnings about what players and dancers need and this computer lacks; the project keeps it, and plays again where
-    it is there.
-
-    Messages: ``project.instrument_missing`` (player, id), ``project.character_missing`` (player, id),
-    ``project.outfit_missing`` (player, id),
-    ``project.choreography_missing`` (dancer, name, known), ``project.choreography_file_missing`` (dancer, file),
-    ``project.choreography_elsewhere`` (dancer, file, host).
+    """Return warnings about instruments, characters, outfits and choreographies that are missing on this computer. The
+    project keeps their names, and they are used again on a computer that has them.
     """
     instruments, bodies = all_maps(), characters()
     found = []
@@ -261,7 +256,7 @@ def missing(project: Project) -> tuple[Message, ...]:
 
 
 def choreography_missing(dancer: str, choreography: str) -> tuple[Message, ...]:
-    """Warnings about a missing choreography of a performer with this name; empty if it exists. See `missing`."""
+    """Return warnings about a missing choreography of the performer of a name; empty if it exists."""
     path = choreography_path(choreography)
     if not may_touch(path):
         return (

@@ -1,4 +1,4 @@
-"""The user's own characters: brought from a file, changed and removed, with their dialogs."""
+"""The dialogs for adding a character of the user's own from a file, changing it and removing it."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ from widgets.dialogs.characters import CharactersDialog
 from widgets.dialogs.person import PersonDialog
 
 PERSON_M: Final = 1.7
-"""Height that is offered for a figure that is as tall as no person is."""
+"""Height in metres that is proposed for a figure whose own height is impossible for a person."""
 
 
 def show_characters(editor: Editor) -> None:
-    """Show the user's own characters; once."""
+    """Open the list of the user's own characters, or bring the open list to the front."""
 
     def make() -> CharactersDialog:
         dialog = CharactersDialog(editor.session, editor.window)
@@ -56,7 +56,7 @@ def show_characters(editor: Editor) -> None:
 
 
 def ask_for_character(editor: Editor) -> None:
-    """Ask for a character's file, and bring it."""
+    """Ask for a character's file, and read it."""
     name = tr("files.characters")
     kinds = f"{name} ({' '.join(f'*{suffix}' for suffix in SUFFIXES)})"
     path = editor.questions.open_file(tr("files.add_character"), editor.files.folder, kinds)
@@ -66,7 +66,7 @@ def ask_for_character(editor: Editor) -> None:
 
 
 def bring_character(editor: Editor, path: Path) -> None:
-    """Read a character's file in the background, then ask what is what in it."""
+    """Read a character's file in the background, then open the dialog that assigns its joints and shapes."""
     session = editor.session
 
     def done(figure: Figure) -> None:
@@ -79,7 +79,7 @@ def bring_character(editor: Editor, path: Path) -> None:
 
 
 def edit_character(editor: Editor, id: str) -> None:
-    """Change what is known of one of the user's own characters."""
+    """Open the dialog that changes the settings of one of the user's own characters."""
     source = character_library().sources.get(id)
     if source is None or source.entry is None:
         return
@@ -99,7 +99,7 @@ def edit_character(editor: Editor, id: str) -> None:
 
 
 def make_person(editor: Editor) -> None:
-    """Make a person of the user's own, like one of ours, by sliders."""
+    """Open the dialog in which a new person is made by sliders from a person bundled with the program."""
 
     def keep(title: str, person: Person) -> None:
         try:
@@ -128,7 +128,7 @@ def _change_person(editor: Editor, id: str, title: str, person: Person) -> None:
 
 
 def remove(editor: Editor, id: str) -> None:
-    """Remove one of the user's own characters; asked first."""
+    """Remove one of the user's own characters after a confirmation."""
     session = editor.session
     project = session.project
     used = [player.name for player in project.players if player.character_id == id]
@@ -163,7 +163,9 @@ def _dialog(editor: Editor, path: Path, figure: Figure, draft: CharacterDraft, g
 
 
 def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None:
-    """Copy a character's file beside the others, and cast it."""
+    """Copy a character's file into the user's folder of characters, and give the character to the selected players if
+    requested.
+    """
     session = editor.session
     chosen = session.players
 
@@ -191,7 +193,7 @@ def _keep(editor: Editor, path: Path, draft: CharacterDraft, give: bool) -> None
 
 
 def _change(editor: Editor, id: str, entry: CharacterEntry, draft: CharacterDraft) -> None:
-    """Describe a character again."""
+    """Store changed settings of a character."""
     morphs = {face: dict(parts) for face, parts in draft.morphs.items()}
     title = shortened(" ".join(draft.title.split()), MOST_TITLE)
     now = msgspec.structs.replace(

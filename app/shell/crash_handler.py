@@ -1,4 +1,4 @@
-"""CrashHandler of the program: nothing is silent, the editor lives on, and the work is written down."""
+"""Handler of unexpected exceptions: it reports them, saves unsaved work, and keeps the editor running."""
 
 from __future__ import annotations
 
@@ -22,28 +22,29 @@ from app.editor.window_thread_calls import window_calls
 from app.errors import AppError, Message
 
 MOST_BYTES: Final = 1_000_000
-"""A longer log begins again."""
+"""A log longer than this number of bytes is started anew."""
 QUIET_S: Final = 1.0
-"""Least time between two reports of errors in the same place: a panel that cannot be drawn fails as often as the screen
-is refreshed."""
+"""Least time in seconds between two reports of errors in the same place, since a panel that cannot be drawn fails at
+every refresh of the screen.
+"""
 
 
 def log_path() -> Path:
-    """Return where faults are noted down."""
+    """Return the path of the log of unexpected exceptions."""
     return platformdirs.user_log_path("suisou", appauthor=False) / "faults.log"
 
 
 class CrashHandler:
-    """The one place where an unexpected exception ends.
+    """Receives, logs and reports every uncaught exception.
 
     Parameters
     ----------
     session : Session
-        Shows it.
+        Shows the report.
     write_down : callable
-        Writes unsaved work down.
+        Saves unsaved work to a recovery file.
     clock : callable
-        Seconds.
+        Returns the time in seconds.
     """
 
     def __init__(
@@ -59,12 +60,12 @@ class CrashHandler:
         self._ask = window_calls().ask
 
     def install(self) -> None:
-        """Receive every uncaught exception. In the window's thread."""
+        """Receive every uncaught exception from now on. Must be called in the window's thread."""
         sys.excepthook = self._uncaught
         threading.excepthook = self._uncaught_in_thread
 
     def report(self, error: BaseException) -> None:
-        """A fault: note it down, save what can be saved, say so; but once while it happens again and again."""
+        """Log an exception, save unsaved work and report it; an exception that repeats is handled once."""
         if self._is_repeated(error):
             return
         if isinstance(error, AppError):
@@ -88,7 +89,7 @@ class CrashHandler:
             self._telling = False
 
     def _is_repeated(self, error: BaseException) -> bool:
-        """Return whether the same went wrong in the same place just now."""
+        """Return whether the same kind of exception occurred in the same place a moment ago."""
         trace = error.__traceback__
         while trace is not None and trace.tb_next is not None:
             trace = trace.tb_next

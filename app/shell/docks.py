@@ -1,4 +1,4 @@
-"""Panels that can be moved, floated, tabbed and closed; none of it by a drag that misses a splitter."""
+"""Panels that can be moved, floated, tabbed and closed, protected against accidental drags."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from widgets.common.layouts import in_row
 from widgets.common.plain import Label
 
 MODIFIER: Final = Qt.KeyboardModifier.ControlModifier
-"""Held while a title is dragged it moves the panel."""
+"""Key that must be held for a drag of the title to move a panel."""
 FRAME: Final = (
     Qt.WindowType.Tool
     | Qt.WindowType.CustomizeWindowHint
@@ -24,22 +24,22 @@ FRAME: Final = (
     | Qt.WindowType.WindowCloseButtonHint
 )
 FRAME_PX: Final = QMargins(6, 34, 6, 6)
-"""Room for a frame that the system has not drawn yet."""
+"""Margins in pixels for a window frame that the system has not drawn yet."""
 FLOAT_SHARE: Final = 0.8
-"""Largest share of the window's width and height, so that a floating panel does not look docked."""
+"""Largest share of the main window's width and height that a floating panel takes, so that it does not look docked."""
 _PRESSES: Final = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick)
 
 
 def on_screen(frame: QRect, screens: Sequence[QRect]) -> QRect:
-    """Return where a window lies wholly on the screen that has most of it, or that is nearest; no larger than that
-    screen.
+    """Return a window's rectangle moved and shrunk to lie within one screen: the one with the largest part of it, or
+    the nearest.
 
     Parameters
     ----------
     frame : QRect
-        The window with its frame.
+        Rectangle of the window including its frame.
     screens : sequence of QRect
-        What is free of each screen; at least one.
+        Available rectangle of each screen; at least one.
     """
 
     def closeness(screen: QRect) -> tuple[int, int]:
@@ -54,20 +54,19 @@ def on_screen(frame: QRect, screens: Sequence[QRect]) -> QRect:
 
 
 class Dock(QDockWidget):
-    """A panel with a quiet title bar.
+    """A dock widget with a plain title bar that moves only by its button or by a drag with Ctrl.
 
-    It leaves its place only by its button, or by a drag of the title with Ctrl. Floating it is a window with the
-    system's frame, wholly on a screen.
+    A floating dock is a window with the system's frame that lies within one screen.
 
     Parameters
     ----------
     name : str
-        Names the panel in the layout that is remembered.
+        Object name, under which the layout is stored.
     panel : QWidget
     session : Session
     parent : QMainWindow
     tools : QWidget, optional
-        Stands in the title bar, behind the title.
+        Widget in the title bar behind the title.
     """
 
     def __init__(
@@ -117,11 +116,11 @@ class Dock(QDockWidget):
             self.setGeometry(frame)
 
     def _frame_soon(self) -> None:
-        """Frame a dock once Qt is done with what it does now: it may still be dragging."""
+        """Call `_frame` after Qt has finished the current event, which may be a drag."""
         QTimer.singleShot(0, self, self._frame)
 
     def _frame(self) -> None:
-        """The system's frame around a floating panel, and all of it on the screen."""
+        """Give a floating panel the system's frame, and move it within the screen."""
         if not self.isFloating() or self.isHidden() or self._held:
             return
         self._has_floated = True
@@ -192,7 +191,7 @@ def _without_modifiers(event: QMouseEvent) -> QMouseEvent:
 
 
 class TabsStay(QObject):
-    """Keeps tabs of docks in their bar: Qt tears one off that is dragged out of it.
+    """Event filter that keeps Qt from tearing tabs of docks out of their bar when they are dragged.
 
     Parameters
     ----------

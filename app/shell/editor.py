@@ -1,4 +1,4 @@
-"""The running editor: what commands have at hand."""
+"""The running editor: the session, its services and the window, as commands receive them."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ D = TypeVar("D", bound=QDialog)
 
 @dataclass(frozen=True, eq=False)
 class Editor:
-    """The services around one session, and the window they are seen in.
+    """The services of one session, and its window.
 
     Attributes
     ----------
     questions : Questions
-        How the user is asked.
+        Dialogs that ask the user, or their substitute in tests.
     exported_bars : dict of str to ExportedBars
-        What the last export of a piece wrote, by its source, until the program ends.
+        Bars and files of the last export of each piece, by the path of the piece, kept until the program ends.
     """
 
     session: Session
@@ -51,12 +51,12 @@ class Editor:
     exported_bars: dict[str, ExportedBars] = field(default_factory=dict)
 
     def speak(self, code: str) -> None:
-        """Show the editor in a language; empty: the system's."""
+        """Set the display language; empty for the system's."""
         self.settings.language = code
         self.language.set(code)
 
     def show_once(self, kind: type[D], make: Callable[[], D]) -> None:
-        """Bring the window's dialog of a kind to the front, made if it is not there."""
+        """Bring the window's dialog of a class to the front, creating it first if there is none."""
         dialog = self.window.findChild(kind) or make()
         dialog.show()
         dialog.raise_()
@@ -64,7 +64,7 @@ class Editor:
 
 
 class EditorAction(ActionRow[Editor]):
-    """A row about files, devices or the window: its functions take the editor."""
+    """An action about files, devices or the window, whose functions take the editor."""
 
     about_editor = True
 

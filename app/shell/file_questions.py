@@ -1,4 +1,4 @@
-"""Questions about files in the banner: unsaved work, missing media, other computers, changes from outside."""
+"""Questions about files in the banner: unsaved work, missing media, other computers, and changes by other programs."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from app.shell.start_page import unsaved_work
 from widgets.common.text import message_text, sentence
 
 _REASONS: Final = 4
-"""At most so many reasons are shown why no part is played."""
+"""Greatest number of reasons shown for an import without players."""
 
 
 class FileQuestions(QObject):
-    """Asks in the banner what the files of the editor report."""
+    """Shows the questions of the editor's file services in the banner."""
 
     def __init__(
         self, banner: Banner, session: Session, files: Files, questions: Questions, table: ActionTable
@@ -43,7 +43,9 @@ class FileQuestions(QObject):
         files.unsaveable.connect(self.say_what_cannot_be_saved)
 
     def offer_recovery(self, item: Recoverable) -> None:
-        """Offer work that was never saved; of a piece without a file its name is said, which may be another's."""
+        """Offer to recover work that was never saved. A piece without a file is named by its title, since it may belong
+        to another user.
+        """
 
         def found() -> str:
             if item.document is None:
@@ -56,7 +58,7 @@ class FileQuestions(QObject):
         )
 
     def ask_for_media(self, path: Path) -> None:
-        """Ask where a recording or a video is now."""
+        """Ask for the new place of a missing recording or video."""
         self._banner.ask(
             lambda: (
                 self.tr("window.media_not_found").format(name=shown(path.name)),
@@ -66,7 +68,7 @@ class FileQuestions(QObject):
         )
 
     def ask_to_look_elsewhere(self, paths: tuple[str, ...]) -> None:
-        """Ask whether files on other computers are read."""
+        """Ask whether media files on other computers may be read."""
         names = [*(shown(PureWindowsPath(path).name) for path in paths[:_REASONS]), *["…"] * (len(paths) > _REASONS)]
         hosts = ", ".join(dict.fromkeys(host_of(path) for path in paths))
         self._banner.ask(
@@ -78,7 +80,7 @@ class FileQuestions(QObject):
         )
 
     def say_why_no_one_plays(self, path: Path) -> None:
-        """Say why a file that was imported has no players."""
+        """Show the reasons why an imported file has no players."""
         score = self._session.project.score
 
         def why() -> str:
@@ -96,7 +98,7 @@ class FileQuestions(QObject):
         self._banner.ask(lambda: (why(), tuple(text for text, _ in answers)), tuple(run for _, run in answers))
 
     def ask_to_save_over(self, path: Path, then: Callable[[], None] | None) -> None:
-        """Ask what becomes of a file that someone else has changed."""
+        """Ask whether to overwrite a file that another program has changed."""
         self._banner.ask(
             lambda: (
                 self.tr("window.was_changed_outside").format(name=shown(path.name)),
@@ -106,7 +108,7 @@ class FileQuestions(QObject):
         )
 
     def say_what_cannot_be_saved(self, message: Message) -> None:
-        """Say what of the project no file can hold."""
+        """Report data of the project that cannot be stored in a file."""
         answers = {"window.undo_last_edit": self._table.actions["edit.undo"].trigger}
         if self._files.can_leave_out:
             answers["window.remove_it"] = self._files.leave_out

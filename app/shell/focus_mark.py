@@ -1,4 +1,4 @@
-"""The line that shows which panel has the keyboard: the same keys do other things in another panel."""
+"""The line above the panel with the keyboard focus, since shortcuts differ between panels."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ LINE_PX = 2
 
 
 class FocusMark(QWidget):
-    """A line in the accent's colour along the top of one panel.
+    """A line in the accent colour along the top of one panel.
 
     Parameters
     ----------
     session : Session
     window : QWidget
-        Has the line while no panel does.
+        Marked while no panel has the focus.
     panels : mapping of str to QWidget
-        What is marked, by the context of the shortcuts that hold there.
+        Panels by the name of the context of their shortcuts.
     """
 
     def __init__(self, session: Session, window: QWidget, panels: Mapping[str, QWidget]) -> None:
@@ -36,7 +36,7 @@ class FocusMark(QWidget):
         self.hide()
 
     def mark(self, context: str) -> None:
-        """Mark the panel where the shortcuts of a context hold, if there is one."""
+        """Move the line to the panel of a shortcut context, if there is one."""
         if not (isValid(self) and isValid(self._window)):
             # The window goes, and the keyboard with it.
             return
@@ -57,7 +57,7 @@ class FocusMark(QWidget):
     # Qt
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay as wide as the panel."""
+        """Keep the line as wide as the panel."""
         if event.type() == QEvent.Type.Resize and self._marked is not None:
             self._place(self._marked)
         return False

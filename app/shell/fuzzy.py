@@ -1,18 +1,18 @@
-"""Score of how well a few typed letters fit a name."""
+"""Fuzzy matching of a few typed letters with names."""
 
 from __future__ import annotations
 
 
 def fitness(query: str, text: str) -> float | None:
-    """Return how well a query fits a text; None: not at all.
+    """Return a score of how well a query fits a text (higher is better); None if it does not fit.
 
-    Its letters must all be there in their order. The start of a word and letters that follow one another count more;
-    short texts count more than long ones.
+    All letters of the query must occur in their order. Starts of words and adjacent letters score more, and short texts
+    score more than long ones.
 
     Parameters
     ----------
     query, text : str
-        Case does not count; blanks part the query into words that may stand in any order.
+        Case is ignored; spaces separate words that may occur in any order.
     """
     text = text.casefold()
     total = 0.0

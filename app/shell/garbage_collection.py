@@ -1,6 +1,6 @@
-"""Python's cycles are collected in the window's thread alone, and what lasts is not walked through again and again.
+"""Garbage collection of Python in the window's thread only, which passes over long-lived objects.
 
-A worker that happens to trigger the collection would destroy widgets in its own thread, which Qt does not survive.
+A collection in a worker thread would destroy widgets in that thread, which crashes Qt.
 """
 
 from __future__ import annotations
@@ -11,17 +11,18 @@ from PySide6.QtCore import QObject, QTimer
 
 PERIOD_MS = 500
 GROWN = 2.0
-"""Everything is looked through again once so many times as much has lasted as the last time. Modules, maps and a large
-piece are 200,000 objects, and each look at all of them would be a jerk of 100 ms."""
+"""Growth factor of the long-lived objects after which all of them are collected again. Modules, maps and a large piece
+are 200,000 objects, whose collection takes 100 ms.
+"""
 
 
 class Garbage(QObject):
-    """Collects when Python would have; takes the matter out of its hands for good.
+    """Runs the collection at Python's thresholds, replacing the automatic one permanently.
 
-    What survives a collection of the oldest generation is frozen, so that the next one has only what came since. A
-    cycle that dies frozen stays until everything is looked through.
+    Objects that survive a collection of the oldest generation are frozen, so that the next collection examines only
+    newer ones. A frozen cycle that becomes garbage stays until everything is examined.
 
-    It is made before the first thread of the program, and what is left after `stop` goes with the process.
+    Create it before the program's first thread. Garbage left after `stop` is freed when the process ends.
     """
 
     def __init__(self) -> None:
@@ -44,7 +45,7 @@ class Garbage(QObject):
                 return
 
     def _freeze(self) -> None:
-        """Leave aside what lasts, once it is known to be no rubbish."""
+        """Freeze the objects that have survived a collection."""
         gc.freeze()
         if gc.get_freeze_count() > GROWN * self._lasting:
             gc.unfreeze()
@@ -53,6 +54,6 @@ class Garbage(QObject):
             self._lasting = gc.get_freeze_count()
 
     def stop(self) -> None:
-        """Collect no more; threads that are still ending are not to do so either."""
+        """Stop collecting, also for threads that are still ending."""
         self._timer.stop()
         gc.unfreeze()

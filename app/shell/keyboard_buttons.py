@@ -1,4 +1,4 @@
-"""Buttons focused by the keyboard, and Space on them; Enter in fields of text."""
+"""Handling of Space on buttons that have the keyboard focus, and of Enter in text fields."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from shiboken6 import isValid
 
 
 class KeyboardButtons(QObject):
-    """Space plays; but who came to a button with the keyboard presses it with Space.
+    """Event filter: Space starts playback, but presses a button that was reached with the keyboard.
 
-    Enter plays a bar, except in a field of text, which Qt gives letters before shortcuts, but not Enter.
-    A button that was clicked keeps the keyboard too, and there Space goes on to play. Watched is only what has the
-    keyboard: a filter of the whole application would have Python asked a hundred times in every frame.
+    Enter plays a bar except in a text field. (For text fields Qt gives letters precedence over shortcuts, but not
+    Enter.) A clicked button keeps the focus too; Space starts playback there. Only the widget with the focus is
+    filtered: a filter of the whole application would call Python a hundred times in every frame.
     """
 
     def __init__(self, application: QApplication, parent: QObject) -> None:
@@ -35,7 +35,7 @@ class KeyboardButtons(QObject):
             self._watched.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Watch how the keyboard moves."""
+        """Install the filter on widgets that get the focus, and handle their keys."""
         kind = event.type()
         if kind == QEvent.Type.FocusOut and isinstance(event, QFocusEvent):
             self._reason = event.reason()

@@ -1,4 +1,4 @@
-"""The language of the editor: translations of its own texts and of Qt's, changed while it runs."""
+"""The display language: translations of the editor's and of Qt's texts, changeable at run time."""
 
 from __future__ import annotations
 
@@ -21,16 +21,13 @@ TEXTS: Final[Mapping[str, Wording]] = {
     **read_tables(_SHELL, "texts"),
     **read_tables(_SHELL.parents[1] / "widgets", "texts"),
 }
-"""All texts by id."""
+"""All texts of the editor by id."""
 
 
 class Language(QObject):
-    """Display language.
+    """The display language.
 
-    Signals
-    -------
-    changed()
-        Another one is shown; widgets get ``QEvent.LanguageChange`` besides.
+    Signals ------- changed() The language has changed. Widgets receive ``QEvent.LanguageChange`` too.
     """
 
     changed = Signal()
@@ -42,11 +39,11 @@ class Language(QObject):
 
     @property
     def code(self) -> str:
-        """``"en"`` or ``"ja"``."""
+        """Language code: ``"en"`` or ``"ja"``."""
         return self._code
 
     def set(self, code: str) -> None:
-        """Show this language; empty: the system's."""
+        """Set the language; empty for the system's."""
         code = code if code in LANGUAGES else system_language()
         if code == self._code:
             return
@@ -61,11 +58,11 @@ class Language(QObject):
 
 
 _INSTALLED: Final[list[QTranslator]] = []
-"""The application's translators, whichever `Language` set them."""
+"""Translators installed in the application by any `Language`."""
 
 
 def _translators(code: str) -> list[QTranslator]:
-    """Qt's own texts and those of the editor."""
+    """Return translators for Qt's own texts and for those of the editor."""
     found: list[QTranslator] = []
     of_qt = QTranslator()
     if of_qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
@@ -93,11 +90,11 @@ _LACKING_IN_QT: Final[Mapping[str, Mapping[tuple[str, str], str]]] = {
         ): "<b>「%1」という名前は使えません。</b><p>短い名前や、記号を含まない名前にしてください。",
     }
 }
-"""Texts of Qt's dialogs, by context and English text, that Qt's own translation lacks (6.11)."""
+"""Translations of Qt's dialog texts, by context and English text, that are missing in Qt 6.11."""
 
 
 class TextTranslator(QTranslator):
-    """Texts of the editor in one language, by id, and those that Qt's own translation lacks.
+    """Translates the editor's texts by id, and Qt's texts whose translation is missing.
 
     Parameters
     ----------
@@ -112,9 +109,9 @@ class TextTranslator(QTranslator):
         self._of_qt = _LACKING_IN_QT.get(code, {})
 
     def isEmpty(self) -> bool:
-        """Qt asks before it announces another language."""
+        """Return False: an empty translator would be ignored by Qt."""
         return False
 
     def translate(self, context: str, source: str, disambiguation: str | None = None, count: int = -1) -> str | None:
-        """The text of an id; None for what others translate, as most of Qt's own texts."""
+        """Return the text of an id; None for texts of other translators, such as most of Qt's."""
         return self._texts.get(source) or self._of_qt.get((context, source))

@@ -1,6 +1,6 @@
-"""The licences of everything that is installed with the program.
+"""The licences of all packages and data that the program is installed with.
 
-What packages say of themselves is read from their metadata; what these leave out is in `resources/licences.toml`.
+Licences are read from the packages' metadata; information missing there is in `resources/licences.toml`.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ from app.formats.toml import read_toml, shaped
 PROGRAM: Final = "suisou"
 _EXTRAS: Final = ("", "usd")
 _LONGEST: Final = 80
-"""A longer statement is the licence's text, not its name."""
+"""A statement with more characters than this is the licence's text and not its name."""
 _SOURCES: Final = ("source", "source code", "repository", "homepage", "home")
 
 
 class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Work of a third party within a package or among the program's data, with its licence.
+    """A third party's work within a package or among the program's data, with its licence.
 
     Attributes
     ----------
     name, licence, source : str
-        The licence as an SPDX expression; where its source is.
+        The licence is an SPDX expression; the source is an address.
     files : tuple of str
-        Patterns of the files that are it; none: it is linked into the package's own modules.
+        Patterns of the work's files; empty if it is linked into the package's own modules.
     """
 
     name: str
@@ -44,7 +44,7 @@ class ThirdPartyWork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Package(msgspec.Struct, frozen=True):
-    """An installed package; its licence is empty where unknown."""
+    """An installed package; its licence is empty if unknown."""
 
     name: str
     version: str
@@ -54,7 +54,7 @@ class Package(msgspec.Struct, frozen=True):
 
 
 class _Fact(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Facts that a package's metadata leave out."""
+    """Information that is missing in a package's metadata."""
 
     licence: str = ""
     source: str = ""
@@ -73,12 +73,12 @@ def _facts() -> _Facts:
 
 
 def data() -> tuple[ThirdPartyWork, ...]:
-    """Works of others among the program's own files."""
+    """Return the third parties' works among the program's own files."""
     return _facts().data
 
 
 def installed() -> tuple[Package, ...]:
-    """Every package that the program needs, directly or not, with the parts that it has on this system.
+    """Return every package that the program depends on, directly or indirectly, with its parts on this system.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def installed() -> tuple[Package, ...]:
 
 
 def distributions() -> dict[str, Distribution]:
-    """Installed distributions that the program needs, directly or not, by normalised name; without itself."""
+    """Return the installed distributions that the program depends on, directly or indirectly, by normalised name."""
     found: dict[str, Distribution] = {}
     waiting = [distribution(PROGRAM)]
     while waiting:
@@ -108,7 +108,9 @@ def distributions() -> dict[str, Distribution]:
 
 
 def described() -> tuple[Package, ...]:
-    """Packages of which `resources/licences.toml` has everything: those that only some Pythons need."""
+    """Return the packages described completely in `resources/licences.toml`: those needed by only some versions of
+    Python.
+    """
     return tuple(
         Package(name, "", fact.licence, fact.source, fact.parts)
         for name, fact in sorted(_facts().packages.items())
@@ -117,7 +119,7 @@ def described() -> tuple[Package, ...]:
 
 
 def package_of(found: Distribution) -> Package:
-    """Facts about an installed package, with the parts that it has on any system."""
+    """Return an installed package's information with its parts on any system."""
     metadata: Message = found.metadata  # type: ignore[assignment]
     fact = _facts().packages.get(canonicalize_name(metadata["Name"]), _Fact())
     return Package(
@@ -136,7 +138,7 @@ def _present(found: Distribution) -> Package:
 
 
 def _licence(metadata: Message) -> str:
-    """The licence's name as a package states it: an SPDX expression where it is a new one."""
+    """Return the licence's name from a package's metadata, as an SPDX expression where one is given."""
     stated = str(metadata.get("License-Expression") or metadata.get("License") or "").strip()
     if stated and "\n" not in stated and len(stated) <= _LONGEST:
         return stated
@@ -145,7 +147,7 @@ def _licence(metadata: Message) -> str:
 
 
 def _source(metadata: Message) -> str:
-    """Address of a package's source, or its home page."""
+    """Return the address of a package's source code or home page."""
     addresses = {}
     for entry in metadata.get_all("Project-URL", ()):
         label, _, address = str(entry).partition(",")

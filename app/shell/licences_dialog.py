@@ -1,4 +1,4 @@
-"""The licences of everything that is installed with the program, in a list."""
+"""The dialog that lists the licences of all installed packages and data."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SIZE = (1040, 640)
 
 
 class LicencesDialog(Retranslated, QDialog):
-    """Packages, what their wheels hold, and the data: versions, licences and sources."""
+    """List of packages, their bundled libraries and the data, with versions, licences and sources."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -68,7 +68,7 @@ class LicencesDialog(Retranslated, QDialog):
 
 
 def _row(*texts: str) -> QTreeWidgetItem:
-    """A row whose texts may be wider than their columns."""
+    """Return a row whose texts are tool tips too, since they may be wider than the columns."""
     row = QTreeWidgetItem(list(texts))
     for column, text in enumerate(texts):
         row.setToolTip(column, text)

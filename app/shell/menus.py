@@ -1,4 +1,4 @@
-"""The menus of the window, made from the table of actions."""
+"""The window's menus, made from the table of actions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from widgets.common.controls import Retranslated
 from widgets.common.help import ask_for_help
 
 BAR: Final = ("file", "edit", "view", "play", "record", "generate", "export", "help")
-"""Menus in the order of the bar; their entries stand as in the table."""
+"""Menus in the order of the menu bar; their entries have the order of the table."""
 BEFORE_LINE: Final = frozenset(
     (
         *("file.save", "file.import_midi", "file.piece_settings", "file.close", "file.quit"),
@@ -24,18 +24,18 @@ BEFORE_LINE: Final = frozenset(
         "cameras.keep",
     )
 )
-"""Rows that a line goes before; another line stands wherever the subject of the rows changes."""
+"""Ids of actions that a separator precedes, besides the separators between groups."""
 
 
 def menu_with_keys(keys: str) -> str:
-    """Name of the menu that one of these shortcuts opens in the language of the editor; empty: none."""
+    """Return the name of the menu opened by one of these shortcuts in the editor's language; empty if there is none."""
     requested = written(keys)
     titles = [tr(f"menu.{name}") for name in BAR]
     return next((without_key(title) for title in titles if QKeySequence.mnemonic(title).toString() in requested), "")
 
 
 class Menu(Retranslated, QMenu):
-    """A menu, called as the last part of its path says."""
+    """A menu titled by the last part of its path."""
 
     def __init__(self, path: str, parent: QWidget) -> None:
         super().__init__(parent)
@@ -51,7 +51,7 @@ class Menu(Retranslated, QMenu):
     # Qt overrides
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Show the guide about the command under the mouse by F1."""
+        """Show the guide section about the command under the mouse on F1."""
         if event.key() == Qt.Key.Key_F1:
             ask_for_help(self)
         else:
@@ -82,7 +82,7 @@ class Menus:
             menu.aboutToShow.connect(table.refresh)
 
     def menu(self, path: str) -> Menu:
-        """The menu at a path, made if it is not there."""
+        """Return the menu at a path, creating it if necessary."""
         if path not in self.menus:
             above = path.rpartition("/")[0]
             parent = self.menu(above) if above else self._bar

@@ -1,4 +1,4 @@
-"""List of notices from the status line, in full: to be read, copied, and looked for in its folder."""
+"""List of the status line's recent messages in full, to read and copy, with links to their folders."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from widgets.common.plain import Label
 from widgets.common.text import sentence
 
 SHOWN = 12
-"""Number of the newest notices that are listed."""
+"""Number of messages that are listed."""
 WIDTH_PX = 520
 
 
 class NoticeList(QFrame):
-    """Notices in full, the newest on top."""
+    """Messages in full, the newest on top."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
@@ -39,7 +39,7 @@ class NoticeList(QFrame):
         self._text = ""
 
     def open_over(self, anchor: QWidget, log: tuple[tuple[Message, Severity], ...]) -> None:
-        """Show the newest notices above a widget."""
+        """Show the newest messages above a widget."""
         while (item := self._rows.takeAt(0)) is not None:
             widget = item.widget()
             if widget is not None:
@@ -82,7 +82,7 @@ class NoticeList(QFrame):
 
 
 def folder_of(message: Message) -> Path | None:
-    """The folder that a message is about, or that of its file; None where it names none that is there."""
+    """Return the folder named by a message or the folder of its file; None if there is none."""
     for value in message.arguments.values():
         path = Path(value) if isinstance(value, str) else Path()
         if path.is_absolute() and may_touch(path):
@@ -94,7 +94,7 @@ def folder_of(message: Message) -> Path | None:
 
 
 def severity_colour(severity: Severity, tokens: Tokens) -> str:
-    """The colour of a notice's mark."""
+    """Return the colour of a severity's mark."""
     return {
         Severity.INFORMATION: tokens.accent,
         Severity.WARNING: tokens.warning,

@@ -1,4 +1,4 @@
-"""The command palette: everything that can be done, found by a few letters in either language."""
+"""The command palette: a search field for all commands, in either language."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _PLACE, _KEYS = _ID + 1, _ID + 2
 
 
 class Palette(Retranslated, QFrame):
-    """A field and a list under it; closes by itself."""
+    """A search field with a list of matching commands, which closes itself."""
 
     def __init__(self, session: Session, table: ActionTable, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
@@ -63,7 +63,7 @@ class Palette(Retranslated, QFrame):
         in_column(self.field, self.list, self.nothing, of=self, margins=6, spacing=6)
 
     def open_at(self, corner: QPoint) -> None:
-        """Show it with its top right corner here (of the screen)."""
+        """Open with the top right corner at a point of the screen."""
         self._table.refresh()
         self.field.clear()
         self._search("")
@@ -72,7 +72,7 @@ class Palette(Retranslated, QFrame):
         self.field.setFocus(Qt.FocusReason.PopupFocusReason)
 
     def found(self) -> list[str]:
-        """Ids of what is shown, the best first."""
+        """Return the ids of the listed commands, the best match first."""
         return [str(self.model.item(row).data(_ID)) for row in range(self.model.rowCount())]
 
     def _search(self, query: str) -> None:
@@ -99,8 +99,9 @@ class Palette(Retranslated, QFrame):
             self.list.setCurrentIndex(self.model.index(0, 0))
 
     def _best(self, query: str) -> list[str]:
-        """Ids that fit, what can be done now before what cannot, and letters strewn about after both; without a query
-        what was done last."""
+        """Return the ids of matching commands: available ones first, then unavailable ones, then matches of scattered
+        letters; the recently used commands for an empty query.
+        """
         scored: list[tuple[bool, bool, float, int, str]] = []
         whole = 2.0 * len("".join(query.split())) - 1.0
         for order, (action_id, row) in enumerate(self._table.rows.items()):
@@ -134,7 +135,7 @@ class Palette(Retranslated, QFrame):
             self.list.setCurrentIndex(self.model.index((self.list.currentIndex().row() + rows) % count, 0))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Keys of the field that move in the list."""
+        """Handle keys of the field that move in the list."""
         if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             steps = {
                 Qt.Key.Key_Down: 1,
@@ -153,7 +154,7 @@ class Palette(Retranslated, QFrame):
 
 
 class _Row(QStyledItemDelegate):
-    """A command: icon, text, where it stands in the menus, shortcut."""
+    """Draws a command: icon, text, menu and shortcut."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent)
@@ -193,5 +194,5 @@ class _Row(QStyledItemDelegate):
         painter.restore()
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
-        """Every row alike."""
+        """Return the same size for every row."""
         return QSize(WIDTH_PX - 20, ROW_PX)

@@ -17,7 +17,7 @@ from widgets.dialogs.shortcuts import ShortcutRow
 
 
 def show_preferences(editor: Editor, page: str) -> PreferencesDialog:
-    """Show a page of the preferences; what is changed there holds at once.
+    """Open a page of the preferences, whose changes apply immediately.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def show_preferences(editor: Editor, page: str) -> PreferencesDialog:
 
 
 def _choice(editor: Editor, setting: Setting[Any]) -> Choice:
-    """A setting as a row of the preferences: what the session holds, or else the language."""
+    """Return a preference row for a setting of the session or for the language."""
     session, held = editor.session, setting.held
     if held is None:
         return Choice(
@@ -56,7 +56,7 @@ def _choice(editor: Editor, setting: Setting[Any]) -> Choice:
 
 
 def shortcut_rows(editor: Editor) -> tuple[ShortcutRow, ...]:
-    """Rows of the list of shortcuts, in the language of the editor."""
+    """Return the rows of the list of shortcuts in the editor's language."""
     table = editor.table
     return tuple(
         ShortcutRow(

@@ -1,4 +1,4 @@
-"""Questions of the editor in dialogs: files to open, and unsaved work."""
+"""Questions of the editor as dialogs: files to open, and unsaved work."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from widgets.common.text import sentence
 
 
 class DialogQuestions:
-    """`app.editor.questions.Questions` asked in dialogs."""
+    """Implementation of `app.editor.questions.Questions` with dialogs."""
 
     def open_file(self, title: str, folder: str, filters: str) -> Path | None:
         """See `Questions.open_file`."""
@@ -95,7 +95,7 @@ class DialogQuestions:
 
 
 def with_suffix(path: Path, suffixes: Sequence[str]) -> Path:
-    """A path whose name ends with one of the suffixes; where it has none of them it gets the first."""
+    """Return a path that ends with one of the suffixes, adding the first if it has none of them."""
     return path if path.suffix.lower() in suffixes else path.with_name(path.name + suffixes[0])
 
 

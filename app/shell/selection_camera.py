@@ -1,4 +1,4 @@
-"""The camera goes to what is selected or corrected: hands, mouth, feet or the whole body of its player."""
+"""Automatic camera that shows the selected or corrected hands, mouth, feet or whole body."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from app.project.model import Project
 from app.project.undoable_document import Change
 
 _SOON_MS: Final = 40
-"""After a selection or an edit: a press may become a drag, and more may be selected with the same key."""
+"""Delay in milliseconds after a selection or an edit, which may be the beginning of a drag or of a larger selection."""
 _OF_ONE_PLAYER: Final = frozenset[View](("front", "hands", "mouth", "feet"))
 
 
 class SelectionCamera(QObject):
-    """Moves the viewport's camera after the selection and after corrections, as `ViewportState.follows` says.
+    """Moves the viewport's camera to selections and corrections as set in `ViewportState.follows`.
 
-    It stays while anything is dragged, played or recorded, and where it shows the right thing already: a camera that
-    the user has turned by hand is not turned back.
+    It does not move during a drag, playback or recording, nor if the camera already shows the right part, so that a
+    manually turned camera stays.
     """
 
     def __init__(self, session: Session) -> None:
@@ -43,12 +43,12 @@ class SelectionCamera(QObject):
         session.viewport.viewed.connect(self._stay)
 
     def _players_selected(self) -> None:
-        """Stay where the user has selected others since: they remain selected."""
+        """Cancel a pending move if its player is no longer selected."""
         if self._goal is not None and self._goal[0] not in self._session.players:
             self._goal = None
 
     def _stay(self) -> None:
-        """A view was asked for, as by a problem that is gone to."""
+        """Cancel a pending move when a view was requested otherwise, as by a jump to a problem."""
         self._goal = None
 
     def _selected(self) -> None:
@@ -63,8 +63,9 @@ class SelectionCamera(QObject):
             self._show_event(next(iter(events)))
 
     def _changed(self, change: Change) -> None:
-        """Show an edit of corrections of one kind and selected player; what is dragged was selected before, and undo
-        goes through many."""
+        """Schedule a move for an edit of corrections of one kind and selected player, but not during a drag or an undo
+        of many.
+        """
         document = self._session.document
         if change.opened or document.undone or not document.done or document.done[-1].gesture is not None:
             return
@@ -106,7 +107,7 @@ class SelectionCamera(QObject):
             self._seek(self._event)
 
     def _seek(self, key: EventKey) -> None:
-        """Put the playhead where the event is seen, unless it is there."""
+        """Move the playhead to the start of an event, unless it is within it."""
         session, plan = self._session, self._session.plans.get(key.player_id)
         event = None if plan is None else events_of(plan).get(key.event_id)
         if event is not None and not event.start_s <= session.playhead_s < event.end_s:
@@ -114,14 +115,14 @@ class SelectionCamera(QObject):
 
 
 def _player_of(session: Session, note_id: str) -> str:
-    """The player of a note: one in front, where several share its part."""
+    """Return the id of the player of a note; a selected one if several share the part."""
     part_ids = {part.id for part in session.project.score.parts if note_id in part.note_ids}
     playing = [player.id for player in session.project.players if player.part_id in part_ids]
     return next((id for id in session.players if id in playing), next(iter(playing), ""))
 
 
 def _corrected(before: Project, after: Project) -> list[EventKey]:
-    """Events that corrections were added to, changed of, or taken away from."""
+    """Return the keys of the events with added, changed or removed corrections."""
     found = list[EventKey]()
     if before.corrections is after.corrections:
         return found

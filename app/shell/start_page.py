@@ -1,4 +1,4 @@
-"""Start page while no project is open: new, open, recent files, example."""
+"""The page shown while no project is open: new, open, recent files and example."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from widgets.common.plain import Label, verbatim
 
 WIDTH_PX = 860
 RECENT_PX, LEAST_FOLDER_PX = 360, 90
-"""Room for a recent file's name with its folder, and what the folder has of it at least."""
+"""Width in pixels of a recent file's row, and the least width of the folder in it."""
 
 _BEGIN = (
     ("file.open", "start_open", "start_page.open_midi_file_or_project", "open"),
@@ -34,11 +34,11 @@ _BEGIN = (
     ("file.open_example", "start_example", "start_page.try_example_quartet", "players"),
     ("file.open_danced_example", "start_danced_example", "start_page.open_dancer_example", "pose"),
 )
-"""Ways to begin: the action, the button's name, the id of its text, and its picture."""
+"""Buttons of the page: action, object name, text id and picture."""
 
 
 class StartPage(Retranslated, QScrollArea):
-    """The start page."""
+    """The page shown while no project is open."""
 
     def __init__(self, session: Session, files: Files, settings: Settings) -> None:
         super().__init__()
@@ -77,7 +77,7 @@ class StartPage(Retranslated, QScrollArea):
         self.retranslate()
 
     def refresh(self) -> None:
-        """Look for recent files and unsaved work again."""
+        """Update the lists of recent files and unsaved work."""
         self._offers = ()
         self.retranslate()
         self._files.find_recoverable(self._offer)
@@ -164,7 +164,7 @@ class StartPage(Retranslated, QScrollArea):
 
 
 def unsaved_work(item: Recoverable) -> str:
-    """Say of which piece unsaved work is, and when it was written."""
+    """Return the text with the piece and the time of unsaved work."""
     changed = QDateTime.fromSecsSinceEpoch(round(item.changed_s))
     when = QLocale().toString(changed, QLocale.FormatType.ShortFormat)
     return tr("start_page.unsaved_changes").format(name=item.name or tr("start_page.unsaved_piece"), when=when)

@@ -1,4 +1,4 @@
-"""The status line: what is being done, what was said, problems, when it was saved, how smooth and how ready it is."""
+"""The status line: running work, messages, problems, the last save, frame rate and progress of the motion."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ from widgets.common.plain import Label, verbatim
 from widgets.common.text import message_text, sentence
 
 POLL_MS, AGE_MS = 100, 5000
-"""Intervals at which the progress of work, and the age of the last save, are updated."""
+"""Intervals in milliseconds at which the progress of work and the age of the last save are updated."""
 QUIET_S = 0.25
-"""Shorter work is not shown: it would only flash."""
+"""Work of fewer seconds is not shown, since it would only flash."""
 MOST_TASKS = 3
-"""Most kinds of work that are shown, the oldest: more would cut their names and push out what stands at the right."""
+"""Greatest number of running tasks shown, the oldest first, so that names are not cut off."""
 INFORMATION_S = 6.0
-"""Time that an information stays; warnings and errors stay until they are closed or another comes."""
+"""Seconds for which an information is shown; warnings and errors stay until closed or replaced."""
 MOST_NOTICES = 100
 
 
 class StatusLine(Retranslated, QStatusBar):
-    """The status line.
+    """The window's status line.
 
     Parameters
     ----------
     tasks : ThreadTasks or None
-        None: work is not shown.
+        Running work; None to show none.
     """
 
     def __init__(self, session: Session, files: Files, tasks: ThreadTasks | None, parent: QWidget) -> None:
@@ -193,18 +193,18 @@ class StatusLine(Retranslated, QStatusBar):
         self._dismiss.show()
 
     def dismiss(self) -> None:
-        """Take the notice away; the list keeps it."""
+        """Hide the message; it remains in the list."""
         self._notice.hide()
         self._dismiss.hide()
         self._details.hide()
 
     @property
     def notice_text(self) -> str:
-        """The notice that is shown; empty: none."""
+        """Return the message on display; empty if there is none."""
         return "" if self._notice.isHidden() else message_text(self._log[-1][0], self._session)
 
     def _follow_problem(self) -> None:
-        """Take the notice of a problem away with the problem, or say what it is by now."""
+        """Hide the message about a problem when the problem is solved, or update its text."""
         before, self._gone_to = self._gone_to, self._session.problem
         if before is None or self._notice.isHidden() or self._log[-1] != (before[1].message, Severity.WARNING):
             return
@@ -214,7 +214,7 @@ class StatusLine(Retranslated, QStatusBar):
             self.report(self._gone_to[1].message, Severity.WARNING)
 
     def _forget_device(self, port: str, is_open: bool) -> None:
-        """Take a warning about a device away once another one is chosen, or none, or that one works."""
+        """Hide a warning about a device when it works, or when another device or none is chosen."""
         if self._notice.isHidden() or self._log[-1][1] is Severity.INFORMATION:
             return
         message = self._log[-1][0]
@@ -257,7 +257,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._problems.setText(f" {text}")
 
     def _report_instruments(self) -> None:
-        """Report faulty instruments until the last file is mended: a notice goes with the next one."""
+        """Report faulty instrument files until all are corrected, since a message is replaced by the next."""
         wrong = library().problems
         tokens = self._session.tokens
         self._instruments.setVisible(bool(wrong))
@@ -289,7 +289,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._device.setToolTip(self.tr("status_line.midi_devices_tip"))
 
     def _report_stream(self) -> None:
-        """Show what is streamed, and its rate; nothing if nothing is."""
+        """Show the streamed format and its rate; hide the label while nothing is streamed."""
         streaming, tokens = self._session.streaming, self._session.tokens
         self._stream.setVisible(streaming.state != "off")
         lines = streaming.lines
@@ -310,7 +310,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._stream.setToolTip("\n".join([*who, "", self.tr("status_line.stream_tip")]).strip())
 
     def _report_risk(self) -> None:
-        """For as long as unsaved work is in no file."""
+        """Warn for as long as unsaved work could not be written to a recovery file."""
         risk, tokens = self._files.risk, self._session.tokens
         self._risk.setVisible(risk is not None)
         if risk is not None:
@@ -340,7 +340,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._saved.setText(template.format(ago=ago))
 
     def painted(self) -> None:
-        """The viewport drew a picture."""
+        """Count a picture drawn by the viewport, for the frame rate."""
         now_s = time.perf_counter()
         self._frames.append(now_s)
         if self._session.playing and len(self._frames) % 20 == 0:
@@ -355,7 +355,7 @@ class StatusLine(Retranslated, QStatusBar):
             self._rate.clear()
 
     def set_ready(self, share: float) -> None:
-        """Set the share of the motion that is made, 0..1."""
+        """Set the completed share of the motion, 0..1."""
         self._ready = share
         self._report_motion()
 
@@ -367,7 +367,7 @@ class StatusLine(Retranslated, QStatusBar):
         self._motion.setText(self.tr("status_line.making_motion") if busy else self.tr("status_line.motion_ready"))
 
     def retranslate(self) -> None:
-        """Set all texts, and what the theme colours."""
+        """Set all texts, and icons in the theme's colours."""
         tokens = self._session.tokens
         for label in (self._saved, self._rate, self._motion):
             label.setStyleSheet(f"color: {tokens.text_dim}; padding: 0 4px;")
@@ -381,7 +381,7 @@ class StatusLine(Retranslated, QStatusBar):
 
 
 def problem_count(session: Session) -> int:
-    """Problems of all players and dancers, as far as plans are there."""
+    """Return the number of problems of all players and dancers that have plans."""
     return sum(len(session.problems(one.id)) for one in session.performance.project.performers)
 
 

@@ -1,4 +1,4 @@
-"""A task in the status line: its name, how far it is, and a button that cancels it."""
+"""A running task in the status line: name, progress, and a button that cancels it."""
 
 from __future__ import annotations
 
@@ -15,14 +15,13 @@ from widgets.common.plain import Label
 from widgets.common.text import message_text
 
 NAME_PX = 48
-"""The name of work may become this narrow."""
+"""Least width of the task's name in pixels."""
 BAR_PX = 64
-"""Width of a progress bar."""
+"""Width of a progress bar in pixels."""
 
 
 def show_value(bar: QProgressBar, value: int) -> None:
-    """Show a value with the next picture: a bar left to itself paints it at once, and a window that holds GL puts all
-    of its picture together for that."""
+    """Set a progress bar's value without painting it immediately, which would redraw all of a window with OpenGL."""
     if value != bar.value():
         bar.setUpdatesEnabled(False)
         bar.setValue(value)
@@ -30,7 +29,7 @@ def show_value(bar: QProgressBar, value: int) -> None:
 
 
 class TaskRow(Retranslated, QWidget):
-    """Work: its name, how far it is, and a way to stop it."""
+    """A running task: name, progress, and a button that cancels it."""
 
     def __init__(self, session: Session, task: Task, stop: Callable[[], object]) -> None:
         super().__init__()
@@ -45,13 +44,13 @@ class TaskRow(Retranslated, QWidget):
         self.retranslate()
 
     def retranslate(self) -> None:
-        """Name the work."""
+        """Set the name of the task."""
         name = message_text(self._task.name)
         self._name.setText(name[:1].upper() + name[1:])
         self._name.setToolTip(self._name.text())
 
     def set_share(self, share: float) -> None:
-        """0..1; what says nothing of how far it is moves to and fro."""
+        """Set the completed share, 0..1; 0 shows an indeterminate bar."""
         most = 1000 if share > 0.0 else 0
         if self._bar.maximum() != most:
             self._bar.setRange(0, most)

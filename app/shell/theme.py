@@ -19,11 +19,13 @@ from app.formats.temporary_folders import scratch_folder
 from widgets.common.icons import source
 
 FAINT = 0.6
-"""Opacity of the dim text of what cannot be used now."""
+"""Opacity of the dim text of disabled controls."""
 
 
 def apply_theme(application: QApplication, tokens: Tokens) -> None:
-    """Dress the whole application, if it is not dressed so yet: Qt polishes every widget again, whatever the rules."""
+    """Apply palette and style sheet to the application, unless they are applied already, since Qt polishes every widget
+    again.
+    """
     rules = style_sheet(tokens)
     if application.styleSheet() == rules:
         return
@@ -37,8 +39,9 @@ def apply_theme(application: QApplication, tokens: Tokens) -> None:
 
 @contextmanager
 def unstyled(application: QApplication) -> Iterator[None]:
-    """Build widgets without the style sheet's rules, which all get at the end: Qt polishes a widget and everything in
-    it again whenever it comes into another one."""
+    """Remove the style sheet while widgets are built and restore it afterwards, since Qt polishes a styled widget again
+    whenever its parent changes.
+    """
     rules = application.styleSheet()
     application.setStyleSheet("")
     try:
@@ -48,7 +51,7 @@ def unstyled(application: QApplication) -> Iterator[None]:
 
 
 def palette(tokens: Tokens) -> QPalette:
-    """The colours of widgets that the style sheet does not name."""
+    """Return the palette for widgets without a rule in the style sheet."""
     role, group = QPalette.ColorRole, QPalette.ColorGroup
     result = QPalette()
     for colour_role, colour in (
@@ -90,7 +93,7 @@ def _folder() -> Path:
 
 @cache
 def _marks(tokens: Tokens) -> dict[str, str]:
-    """Drawings that a style sheet can only name as files, in a theme's colours."""
+    """Return paths of drawings in a theme's colours for the style sheet, which can only name files."""
     drawings = {
         "mark_up": ("chevron_up", tokens.text_dim),
         "mark_down": ("chevron_down", tokens.text_dim),
@@ -109,7 +112,7 @@ def _marks(tokens: Tokens) -> dict[str, str]:
 
 
 def faint(tokens: Tokens) -> str:
-    """The colour of what cannot be used now: between dim text and the surface."""
+    """Return the colour of disabled controls: between dim text and the surface."""
     text, ground = QColor(tokens.text_dim), QColor(tokens.surface)
     mixed = QColor.fromRgbF(
         FAINT * text.redF() + (1.0 - FAINT) * ground.redF(),
@@ -120,7 +123,7 @@ def faint(tokens: Tokens) -> str:
 
 
 def style_sheet(tokens: Tokens) -> str:
-    """Rules for what Fusion draws too loudly: flat, quiet, one accent; those of ``resources/theme.qss``."""
+    """Return the rules of ``resources/theme.qss``, which make Qt's Fusion style flatter, with the theme's colours."""
     rules = Template((files("resources") / "theme.qss").read_text(encoding="utf-8"))
     sizes = {
         "target_px": LEAST_TARGET_PX,

@@ -1,4 +1,4 @@
-"""The window: panels around the viewport, transport above, status line below."""
+"""The main window: panels around the viewport, transport bar above, status line below."""
 
 from __future__ import annotations
 
@@ -48,34 +48,34 @@ from widgets.viewport.panel import ViewportPanel
 
 SIZE: Final = QSize(1600, 1000)
 FRAME: Final = QSize(16, 48)
-"""Most that the title bar and the frame of a window take of the screen."""
+"""Largest width and height in pixels that a window's frame and title bar take."""
 LEAST_SIZE: Final = QSize(960, 600)
 NARROW_PX: Final = 1060
-"""In a window narrower than this the field for commands does not show its keys beside menus and workspaces."""
+"""Width in pixels below which the command field hides its shortcut."""
 DOCKED: Final = ("players", "inspector", "timeline", "recording")
-"""Panels docked around the viewport."""
+"""Names of the panels docked around the viewport."""
 
 
 class Window(Retranslated, QMainWindow):
-    """The editor's window.
+    """The editor's main window.
 
     Parameters
     ----------
     session : Session
     files : Files
     settings : Settings
-        Remember the layout.
+        Stores the layout.
     questions : Questions
     table : ActionTable
     generator : Generator
-        Makes what the viewport shows.
+        Generates the motion that the viewport shows.
 
     Signals
     -------
     character_dropped(Path)
-        A character's file was dropped here.
+        A character's file was dropped on the window.
     help_requested(QWidget)
-        The guide's place for this part is requested.
+        The guide section about this widget is requested.
     """
 
     character_dropped = Signal(object)
@@ -191,7 +191,7 @@ class Window(Retranslated, QMainWindow):
             self.move(available.topLeft() + QPoint(spare.width(), spare.height()))
 
     def remember(self) -> None:
-        """Keep the layout for the next time."""
+        """Store the layout for the next start."""
         settings = self._settings
         if self._full is None:
             settings.geometry = self.saveGeometry()
@@ -199,20 +199,20 @@ class Window(Retranslated, QMainWindow):
         settings.sync()
 
     def choose_workspace(self, workspace_id: str) -> None:
-        """Show panels and lanes as a workspace has them."""
+        """Show the panels and lanes of a workspace."""
         self.set_full_screen(False)
         with self._keys_kept():
             self.workspaces.choose(workspace_id)
 
     def reset_workspace(self) -> None:
-        """Every panel and lane as the workspace has it at first."""
+        """Restore the panels and lanes of the workspace to the default."""
         self.set_full_screen(False)
         with self._keys_kept():
             self.workspaces.reset()
 
     @contextmanager
     def _keys_kept(self) -> Iterator[None]:
-        """Panels that are put elsewhere lose the keys."""
+        """Keep the keyboard focus while panels move, since a moved panel loses it."""
         held = self.focusWidget()
         yield
         if self._files.is_open:
@@ -220,7 +220,7 @@ class Window(Retranslated, QMainWindow):
             kept.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_page(self) -> None:
-        """Panels where a project is open, else the start page alone."""
+        """Show the panels while a project is open, else the start page."""
         is_open = self._files.is_open
         self.set_full_screen(False)
         self.banner.hide()
@@ -249,7 +249,7 @@ class Window(Retranslated, QMainWindow):
             self.panels[name].setFocus(Qt.FocusReason.ShortcutFocusReason)
 
     def is_panel_shown(self, name: str) -> bool:
-        """Return whether a panel is there, perhaps behind another tab."""
+        """Return whether a panel is open, possibly behind another tab."""
         return not self.docks[name].isHidden()
 
     @property
@@ -277,15 +277,15 @@ class Window(Retranslated, QMainWindow):
     # What commands ask
 
     def show_palette(self) -> None:
-        """Search everything that can be done."""
+        """Open the command palette."""
         self.palette_popup.open_at(self.mapToGlobal(QPoint(self.width() - 8, self.menuBar().height() + 2)))
 
     def show_help(self, about: QWidget) -> None:
-        """Show the guide's place for a part of the window or of one of its dialogs."""
+        """Show the guide section about a widget of the window or of its dialogs."""
         self.help_requested.emit(about)
 
     def rename_player(self) -> None:
-        """Open the field for the name of the player in front."""
+        """Open the field for the name of the active player."""
         self.show_panel("players", True)
         self.players.list.rename_current()
 
@@ -329,7 +329,7 @@ class Window(Retranslated, QMainWindow):
         self._report_title()
 
     def _fit_corner(self) -> None:
-        """Give what stands at the right of the menus the width that it needs now; in a narrow window it needs less."""
+        """Give the widgets at the right of the menu bar the width that they need, which is less in a narrow window."""
         self._narrow = self.width() < NARROW_PX
         keys = self._table.actions["application.palette"].shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         self.palette_field.setText(self.tr("window.search").format(keys="" if self._narrow else keys).strip())
@@ -340,20 +340,20 @@ class Window(Retranslated, QMainWindow):
     # Qt
 
     def keyPressEvent(self, event: QEvent) -> None:
-        """Escape leaves full screen."""
+        """Leave full screen on Escape."""
         if event.key() == Qt.Key.Key_Escape and self.is_full_screen:  # type: ignore[attr-defined]
             self.set_full_screen(False)
             return
         super().keyPressEvent(event)  # type: ignore[arg-type]
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """The bar of menus has room for more or less."""
+        """Fit the widgets at the right of the menu bar to the new width."""
         super().resizeEvent(event)
         if (self.width() < NARROW_PX) != self._narrow:
             self._fit_corner()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        """A file that can be opened is welcome."""
+        """Accept a dragged file that can be opened."""
         if dropped_file(event) is not None:
             event.acceptProposedAction()
 
@@ -368,7 +368,7 @@ class Window(Retranslated, QMainWindow):
                 self._files.open(path)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Unsaved changes are saved or given up first, and files that are being written are finished or given up."""
+        """Close after unsaved changes are saved or discarded and running exports are finished or cancelled."""
         writing = self.session.tasks.writing
         if writing and not self._closing and not self._questions.stop_writing(writing):
             event.ignore()
@@ -388,7 +388,7 @@ class Window(Retranslated, QMainWindow):
 
 
 def dropped_file(event: QDropEvent) -> Path | None:
-    """The first file of a drop that can be opened."""
+    """Return the first file of a drop that can be opened."""
     for path in dropped_paths(event):
         if path.suffix.lower() in (SUFFIX, *MUSIC, *AUDIO_SUFFIXES, *VIDEO_SUFFIXES, *CHARACTER_SUFFIXES):
             return path

@@ -1,6 +1,6 @@
-"""Workspaces: how panels and lanes stand for a kind of work. Each is remembered as the user left it.
+"""Workspaces: arrangements of panels and lanes for kinds of work, each stored as the user left it.
 
-`WorkspaceSwitch` is the choice among them in the bar of menus.
+`WorkspaceSwitch` is the row of buttons in the menu bar.
 """
 
 from __future__ import annotations
@@ -25,13 +25,16 @@ from widgets.timeline.lane_layout import LaneState
 from widgets.timeline.panel import TimelinePanel
 
 LAYOUT_VERSION: Final = 2
-"""Version of stored layouts; layouts stored with another version, for other panels, are ignored."""
+"""Version of stored layouts; those of other versions are ignored."""
 SHORT_PX: Final = 880
-"""In a window lower than this the inspector has the whole height: above the timeline it could show two rows; and the
-players have none of it, so that the timeline is wide."""
+"""Window height in pixels below which the inspector takes the full height beside the timeline, and the players' panel
+none of it.
+"""
 
 CHROME_PX: Final = 105
-"""About the height of what is above and below the panels: menus, transport, status line, and the line between two."""
+"""Approximate height in pixels of everything above and below the panels: menus, transport bar, status line and
+splitter.
+"""
 
 Area = Qt.DockWidgetArea
 LEFT, RIGHT, BOTTOM = Area.LeftDockWidgetArea, Area.RightDockWidgetArea, Area.BottomDockWidgetArea
@@ -40,25 +43,25 @@ Whole = Literal["always", "never", "if_high", "if_low"]
 
 @dataclass(frozen=True)
 class Workspace:
-    """Default layout of the panels.
+    """Default arrangement of the panels.
 
     Attributes
     ----------
     id : str
     text_id : str
-        Of the name on its button.
+        Text id of the name on the button.
     left, right : tuple of str
-        Panels at the sides, from the top; those that are in neither, nor the timeline, are closed.
+        Panels at the sides from the top; panels in neither are closed, except for the timeline.
     left_px, right_px : int
-        Widths of the sides.
+        Widths of the sides in pixels.
     timeline_share : float
-        Of the window's height.
+        Share of the window's height, 0..1.
     left_whole, right_whole : Whole
-        Whether a side has the whole height, beside the timeline, or ends above it; perhaps by the window's height.
+        Whether a side has the full height beside the timeline or ends above it; may depend on the window's height.
     lists_share : float
-        Of the inspector's height: problems, corrections and history.
+        Share of problems, corrections and history in the inspector's height, 0..1.
     keeps_lists : bool
-        Whether a short list of problems keeps that share.
+        Whether a short list of problems keeps its share.
     lanes : LaneState
     """
 
@@ -137,29 +140,30 @@ WORKSPACES: Final = (
         ),
     ),
 )
-"""In the order of the menu. To animate: the timeline, the viewport, what is selected, and the players. To record: the
-takes in a tall timeline, and the device. To check: problems beside a large viewport."""
+"""The workspaces in the order of the menu. Animate: timeline, viewport, inspector and players. Record: a tall timeline
+with the takes, and the device. Check: problems beside a large viewport.
+"""
 _BY_ID: Final = {workspace.id: workspace for workspace in WORKSPACES}
 
 
 class Workspaces(QObject):
-    """Puts the panels of the window where the workspace has them.
+    """Arranges the window's panels by workspace.
 
     Parameters
     ----------
     window : QMainWindow
     docks : dict of Dock
-        By the name of their panel.
+        Docks by the name of their panel.
     timeline : TimelinePanel
     inspector : InspectorPanel
     players : PlayersPanel
     settings : Settings
-        Remember each workspace, and which is chosen.
+        Stores each workspace and the chosen one.
 
     Signals
     -------
     changed()
-        Another one is chosen.
+        Another workspace was chosen.
     """
 
     changed = Signal()
@@ -187,11 +191,11 @@ class Workspaces(QObject):
 
     @property
     def current(self) -> str:
-        """Id of the chosen one."""
+        """Return the id of the chosen workspace."""
         return self._settings.workspace if self._settings.workspace in _BY_ID else WORKSPACES[0].id
 
     def choose(self, workspace_id: str) -> None:
-        """Remember the current layout, and show another workspace as it was left."""
+        """Store the current layout, and show another workspace's stored layout."""
         if workspace_id == self.current:
             return
         self.keep()
@@ -201,27 +205,27 @@ class Workspaces(QObject):
         self.changed.emit()
 
     def show(self) -> None:
-        """Show the panels: a project is open."""
+        """Show the panels when a project is opened."""
         if not self._shown:
             self._shown = True
             self._show()
 
     def leave(self) -> None:
-        """Take the panels away: no project is open."""
+        """Hide the panels when no project is open."""
         self.keep()
         self._shown = False
         for dock in self._docks.values():
             dock.hide()
 
     def keep(self) -> None:
-        """Remember the current layout."""
+        """Store the current layout."""
         if self._shown:
             layout = base64.b64encode(self._window.saveState(LAYOUT_VERSION).data()).decode()
             states = {name: panel.save_state() for name, panel in self._panels.items()}
             self._settings.set_workspace_state(self.current, layout=layout, **states)
 
     def reset(self) -> None:
-        """Everything as the workspace has it at first."""
+        """Restore the default arrangement of the workspace."""
         if self._shown:
             self._arrange(_BY_ID[self.current])
             self._settings.forget_workspace(self.current)
@@ -289,7 +293,7 @@ class Workspaces(QObject):
 
 
 def _height_px(dock: Dock) -> int:
-    """Height that a panel needs, perhaps before it was ever shown: only a polished widget knows its font."""
+    """Return the height in pixels that a panel needs, polishing it first, since only a polished widget has its font."""
     for widget in dock.findChildren(QWidget):
         widget.ensurePolished()
     for layout in dock.findChildren(QLayout):
@@ -298,12 +302,12 @@ def _height_px(dock: Dock) -> int:
 
 
 class WorkspaceSwitch(Retranslated, QWidget):
-    """A button for each workspace; the one that is shown is down.
+    """A row of buttons, one for each workspace; that of the current workspace is pressed.
 
     Parameters
     ----------
     table : ActionTable
-        Its rows are what the buttons do.
+        Actions that the buttons trigger.
     """
 
     def __init__(self, table: ActionTable) -> None:

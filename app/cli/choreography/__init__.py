@@ -1,1 +1,1 @@
-"""``suisou choreography``: learning choreographies, and dancing them."""
+"""``suisou choreography``: learning choreographies, and generating dances."""

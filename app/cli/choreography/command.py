@@ -1,4 +1,4 @@
-"""``suisou choreography``: learn how dancers move to music, and let them dance to a piece."""
+"""``suisou choreography``: learns dancers' motion to music, and generates dances to a piece."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MOST_DANCERS: Final = 32
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     actions = add_actions(command, required=True)
     _add_learn(actions)
     _add_generate(actions)
@@ -43,7 +43,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 @dataclass(frozen=True)
 class PairFiles:
-    """Files of a pair, as typed."""
+    """Files of a pair of motion and music as typed."""
 
     motion: Path
     music: Path
@@ -56,7 +56,7 @@ class PairFiles:
 
 
 class _AddPair(argparse.Action):
-    """``--pair MOTION PIECE``."""
+    """Action of the option ``--pair MOTION PIECE``."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
@@ -65,7 +65,7 @@ class _AddPair(argparse.Action):
 
 
 class _OfPair(argparse.Action):
-    """An option of the pair before it."""
+    """Action of an option about the preceding pair."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
@@ -79,7 +79,7 @@ class _OfPair(argparse.Action):
 
 
 class _CorrectBone(argparse.Action):
-    """``--bone JOINT=NAME`` of the pair before it."""
+    """Action of ``--bone JOINT=NAME`` about the preceding pair."""
 
     def __call__(
         self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: str | None = None
@@ -125,12 +125,12 @@ def _add_learn(actions: Actions) -> None:
 
 
 def learn(arguments: argparse.Namespace) -> int:
-    """Learn from the pairs that can be read, write the file and print what it holds; the exit status.
+    """Learn from all readable pairs, write the file, print its contents, and return the exit status.
 
     Raises
     ------
     AppError
-        That of the first pair, if nothing can be learned from any.
+        No pair could be used; the error of the first is raised.
     """
     from app.choreography.learn import learn as learned
     from app.choreography.model_file import write_model
@@ -171,7 +171,7 @@ def learn(arguments: argparse.Namespace) -> int:
 
 
 def _read_pairs(files: Sequence[PairFiles], progress: Progress) -> tuple[list[ReadPair], list[tuple[str, AppError]]]:
-    """Read pairs; the names of the motions of those from which nothing can be learned, with the reasons."""
+    """Return the pairs that could be read, and the names of the other motions with the reasons."""
     from app.choreography.learn import require_usable
     from app.choreography.read_pair import read_pair
 
@@ -199,9 +199,9 @@ def _read_pairs(files: Sequence[PairFiles], progress: Progress) -> tuple[list[Re
 
 
 def learned_table(model: ChoreographyModel, file: Path, starts_s: Sequence[float]) -> list[str]:
-    """Table of what was learned, with the yield and offset of each pair.
+    """Return a table of the learned material with the yield and offset of each pair.
 
-    Offsets are printed as they are given: as times of the files, in which the clips of the model start later.
+    Offsets are times in the input files; the clips of the model may start later.
     """
     from app.choreography.learn import summary
     from app.choreography.music_offset import CONFIDENT
@@ -255,7 +255,7 @@ def _add_generate(actions: Actions) -> None:
 
 
 def _formation(name: str) -> str:
-    """A formation, whose module is imported only when one is typed."""
+    """Return a formation by name, importing its module only when needed."""
     from app.choreography.formation import FORMATIONS
 
     if name not in FORMATIONS:
@@ -264,7 +264,7 @@ def _formation(name: str) -> str:
 
 
 def generate(arguments: argparse.Namespace) -> None:
-    """Generate the dances, write the files and print what is danced."""
+    """Generate dances, write the files and print a table."""
     from app.choreography.clip import write_motion
     from app.choreography.dance import Manner
     from app.choreography.derived_rhythm import audible_rhythm
@@ -297,7 +297,7 @@ def generate(arguments: argparse.Namespace) -> None:
 
 
 def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Sequence[Dance]) -> list[str]:
-    """Table of what each dancer dances, and how much slower and faster than captured."""
+    """Return a table of each dancer's clips and the range of their speeds relative to the capture."""
     import numpy as np
 
     rows = [heads("generate.heads")]
@@ -323,7 +323,7 @@ def generated_table(model: ChoreographyModel, files: Sequence[Path], dances: Seq
 
 
 def _source(model: ChoreographyModel, name: str | None) -> int | None:
-    """The number of a source by its motion's name."""
+    """Return the index of a source by the name of its motion."""
     if name is None:
         return None
     names = [source.motion_name for source in model.sources]
@@ -333,7 +333,7 @@ def _source(model: ChoreographyModel, name: str | None) -> int | None:
 
 
 def _dancers_files(target: Path, dancers: int) -> list[Path]:
-    """The file of each dancer."""
+    """Return the output file of each dancer."""
     if target.suffix.lower() != ".bvh":
         target = Path(f"{target}.bvh")
     if dancers == 1:

@@ -1,1 +1,1 @@
-"""``suisou evaluate``: an evaluation made, and its results."""
+"""``suisou evaluate``: makes an evaluation, and tabulates its results."""

@@ -1,4 +1,4 @@
-"""``suisou evaluate``: clips and a questionnaire, so that viewers judge a performance against real players."""
+"""``suisou evaluate``: makes clips and a questionnaire by which viewers compare a performance with real players."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ _length = bounded_number(LEAST_S, MOST_S, "quantity.seconds", float)
 
 
 def variants(typed: str) -> tuple[Variant, ...]:
-    """The type of an option that takes names of variants with commas between them."""
+    """Return the variants of a text of names separated by commas."""
     names = [name.strip().casefold() for name in typed.split(",") if name.strip()]
     found = tuple(variant for variant in VARIANTS if variant in names)
     unknown = [name for name in names if name not in VARIANTS]
@@ -67,7 +67,7 @@ def variants(typed: str) -> tuple[Variant, ...]:
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_source_options(command)
     command.add_argument("--to", type=Path, required=True, metavar="DIR")
     _add_variants_options(command)
@@ -79,7 +79,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _add_variants_options(command: argparse.ArgumentParser) -> None:
-    """Add the options for the variants to compare."""
+    """Declare the options for the variants to compare."""
     command.add_argument("--film", type=Path, metavar="VIDEO")
     command.add_argument("--film-offset", type=seconds, metavar="S")
     command.add_argument("--follow-film", action="store_true")
@@ -89,7 +89,7 @@ def _add_variants_options(command: argparse.ArgumentParser) -> None:
 
 
 def _add_clip_options(command: argparse.ArgumentParser) -> None:
-    """Add the options for the clips and their look."""
+    """Declare the options for the clips and their appearance."""
     fill_help(command.add_argument("--excerpts", type=_excerpts, metavar="N"), usual=EXCERPTS)
     fill_help(command.add_argument("--seconds", type=_length, metavar="S"), usual=f"{SECONDS:g}")
     command.add_argument("--view", choices=VIEWS)
@@ -101,7 +101,7 @@ def _add_clip_options(command: argparse.ArgumentParser) -> None:
 
 
 def evaluate(arguments: argparse.Namespace) -> int:
-    """Write the evaluation, and name the excluded players; the exit status."""
+    """Write the evaluation, print the excluded players, and return the exit status."""
     from app.evaluation.make import make_evaluation
     from app.export.tree import clean_up
 
@@ -139,8 +139,7 @@ def evaluate(arguments: argparse.Namespace) -> int:
 
 
 def _check_options(arguments: argparse.Namespace) -> None:
-    """Raise UsageError (``picture.film_option``, ``picture.odd_size``, ``evaluate.one_choice``) for what means
-    nothing."""
+    """Raise UsageError for options that do not fit each other, sizes of odd pixels, or a single variant."""
     needing: Final = (
         ("--film-offset", arguments.film_offset is not None, "--film", arguments.film),
         ("--follow-film", arguments.follow_film, "--film", arguments.film),

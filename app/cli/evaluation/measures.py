@@ -1,4 +1,4 @@
-"""``suisou evaluate measures``: what can be measured of a piece without viewers."""
+"""``suisou evaluate measures``: measurements of a piece that need no viewers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.cli.terminal import say
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_file_options(command)
     command.set_defaults(run=measures, settings=[])
 

@@ -1,4 +1,4 @@
-"""``suisou evaluate results``: what viewers answered, as tables and in words."""
+"""``suisou evaluate results``: tables and a report of the viewers' answers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.add_argument("files", type=Path, nargs="+", metavar="FILE.csv")
     command.add_argument("--key", type=Path, metavar="KEY.json")
     command.add_argument("--to", type=Path, metavar="DIR")
@@ -29,7 +29,7 @@ def results(arguments: argparse.Namespace) -> None:
     Raises
     ------
     AppError
-        Those of `app.evaluation.viewer_files`, and of writing.
+        The answers cannot be read, or the report cannot be written.
     """
     from app.evaluation.conclusions import conclude
     from app.evaluation.report import write_results
@@ -50,5 +50,5 @@ def results(arguments: argparse.Namespace) -> None:
 
 
 def table_lines(table: ResultTable) -> list[str]:
-    """A table, numbers on the right of their columns."""
+    """Return a table as lines of text, with numbers aligned right."""
     return [table.title, *columns([table.head, *table.rows], names=table.names), f"({table.note})"]

@@ -1,4 +1,4 @@
-"""An evaluation made for a window that stays alive meanwhile: the other side of `app.evaluation.process`."""
+"""Process that makes an evaluation for the editor's window (counterpart of `app.evaluation.process`)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.messages import text
 
 
 def main() -> None:
-    """Make the evaluation that is asked for."""
+    """Make the requested evaluation."""
     channel: MessageChannel[EvaluationJob] = channel_to_parent(EvaluationJob, "evaluation")
     job = channel.receive()
     stopped = threading.Event()
@@ -43,7 +43,7 @@ def _made(job: EvaluationJob, channel: MessageChannel[EvaluationJob], stopped: t
 
 
 def _until_closed(channel: MessageChannel[EvaluationJob], stopped: threading.Event) -> None:
-    """Wait until who asked closes the input, or has ended."""
+    """Wait until the parent process closes the input or has ended."""
     while channel.incoming.read(1):
         pass
     stopped.set()

@@ -16,9 +16,9 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
     Attributes
     ----------
     event_kind : str
-        The kind of the events that it is about, where all are of one.
+        Kind of the events that the correction is about; empty if it varies.
     has_event : bool
-        Plans have an event of it, which may be moved and deleted as others.
+        True if the plan contains an event for the correction, which can be moved and deleted like others.
     """
 
     event_kind: ClassVar[str] = ""

@@ -1,1 +1,1 @@
-"""Dancers and choreographies in the window."""
+"""Actions for dancers and choreographies in the editor's window."""

@@ -1,4 +1,4 @@
-"""Dancers: who dances, and what they may dance."""
+"""Actions for dancers: adding one, and choosing or learning a choreography."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def rename(editor: Editor) -> None:
 
 
 def show_choreography(editor: Editor) -> None:
-    """See what the choreography of the selected dancer has learned; once."""
+    """Open the dialog about the choreography of the selected dancer, or bring it to the front."""
     from widgets.dialogs.choreography.show import ChoreographyDialog
 
     editor.show_once(ChoreographyDialog, lambda: ChoreographyDialog(editor.session, editor.window))
 
 
 def learn_choreography(editor: Editor) -> None:
-    """Learn a choreography from motion and music, in a dialog; once."""
+    """Open the dialog that learns a choreography from motion and music, or bring it to the front."""
     from widgets.dialogs.choreography.learn import LearnDialog  # it brings the readers of motion with it
 
     def make() -> LearnDialog:
@@ -49,7 +49,7 @@ def learn_choreography(editor: Editor) -> None:
 
 
 def _dance(session: Session, path: Path) -> None:
-    """Let the selected dancer dance a choreography, or a new one where there is none."""
+    """Give the selected dancer a choreography; add a dancer if none is selected."""
     dancer, choreography = session.dancer, os.fspath(path.absolute())
     if dancer is None:
         performer_edits.add_dancer(session, choreography, tr("action.dancer"))

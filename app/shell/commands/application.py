@@ -1,4 +1,4 @@
-"""Commands of the editor itself: palette, panels, theme, language, how pitches and times are written."""
+"""Commands of the editor itself: palette, panels, theme, language, and the notation of pitches and times."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ def preferences(editor: Editor, page: str = "general") -> None:
 
 
 def instruments(editor: Editor) -> None:
-    """Show the instruments and their fingerings; once."""
+    """Open the dialog of instruments and their fingerings, or bring it to the front."""
     from widgets.dialogs.instrument_map import InstrumentsDialog
 
     editor.show_once(InstrumentsDialog, lambda: InstrumentsDialog(editor.session, editor.window))
 
 
 def about(editor: Editor) -> None:
-    """Say which program this is."""
+    """Open the dialog with the program's name and version."""
     from app.shell.about import AboutDialog
 
     AboutDialog(editor.settings.path, editor.window).open()

@@ -1,4 +1,4 @@
-"""Commands of cameras that are kept with the piece."""
+"""Commands for cameras that are stored in the project."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from app.shell.action import Action
 from app.shell.commands.command_targets import has_everyone
 
 NUMBERED: Final = 9
-"""Cameras that have a key."""
+"""Number of cameras that have a shortcut."""
 
 
 def current(session: Session) -> CameraBookmark | None:
-    """The bookmark that was kept or recalled last, if it is still there."""
+    """Return the camera bookmark that was stored or recalled last, if it still exists."""
     cameras = {camera.name: camera for camera in session.project.cameras}
     return next((cameras[name] for name in session.viewport.bookmarks if name in cameras), None)
 
 
 def recall(session: Session, index: int) -> None:
-    """Look from a bookmark, counted from 0."""
+    """Move the viewport's camera to a bookmark, counted from 0."""
     cameras, eye = session.project.cameras, session.viewport.camera
     if eye is not None and index < len(cameras):
         eye.recall(cameras[index])

@@ -1,4 +1,4 @@
-"""The user's own characters."""
+"""Commands for the user's own characters."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from app.shell.editor import Editor, EditorAction
 
 
 def add(editor: Editor) -> None:
-    """Bring a character from a file."""
+    """Ask for a character's file, and add the character."""
     from app.shell.characters import ask_for_character
 
     ask_for_character(editor)
 
 
 def bring(editor: Editor, path: Path) -> None:
-    """Bring this character."""
+    """Add the character of a file."""
     from app.shell.characters import bring_character
 
     bring_character(editor, path)
 
 
 def show(editor: Editor) -> None:
-    """See which there are, change and remove them."""
+    """Open the list in which the user's own characters are changed and removed."""
     from app.shell.characters import show_characters
 
     show_characters(editor)

@@ -1,4 +1,4 @@
-"""A menu of what there is to choose from, where the mouse is."""
+"""A menu of choices that opens at the mouse pointer."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from widgets.common.controls import named
 
 
 def choice_menu() -> QMenu:
-    """A menu of the editor's window; it goes when it closes."""
+    """Return a menu of the editor's window that is deleted when it closes."""
     windows = (window for window in QApplication.topLevelWidgets() if isinstance(window, QMainWindow))
     # Not of the palette, which may be what asks: it is about to close.
     menu = named(QMenu(next(windows, QApplication.activeWindow())), "choice")

@@ -1,4 +1,4 @@
-"""Targets and conditions of commands: the selection, by player, the timeline."""
+"""Objects that commands act on, and conditions for enabling them: the selection, its players, the timeline."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from app.score.model import Note
 
 
 def notes_by_player(session: Session) -> dict[Player, list[Note]]:
-    """The selected notes by who plays them, in the order of the score. Where several play a part, those in front are
-    meant, else all of them."""
+    """Return the selected notes by the player that plays them, in the order of the score. Where several players share a
+    part, the selected ones count, else all of them.
+    """
     project, selected = session.project, session.selection.notes
     by_part = {
         part.id: found
@@ -33,7 +34,7 @@ def notes_by_player(session: Session) -> dict[Player, list[Note]]:
 
 
 def events_by_player(session: Session) -> dict[str, list[str]]:
-    """The ids of the selected events by player."""
+    """Return the ids of the selected events by player."""
     result: dict[str, list[str]] = defaultdict(list)
     known = {player.id for player in session.project.players}
     for key in sorted(session.selection.events):
@@ -43,7 +44,7 @@ def events_by_player(session: Session) -> dict[str, list[str]]:
 
 
 def selected_ticks(session: Session) -> tuple[int, int] | None:
-    """The selected range, else what the selected notes take."""
+    """Return the selected range of ticks, else the range of the selected notes."""
     selection = session.selection
     if selection.span is not None:
         return selection.span
@@ -64,7 +65,7 @@ def has_something(session: Session) -> bool:
 
 
 def has_player(session: Session) -> bool:
-    """Return whether a player is in front."""
+    """Return whether a player is active."""
     return session.player is not None
 
 
@@ -74,7 +75,7 @@ def has_everyone(session: Session) -> bool:
 
 
 def on_timeline(run: Callable[[TimelineView], None]) -> Callable[..., None]:
-    """A command that the timeline carries out, where one is shown."""
+    """Wrap a function of the timeline as a command that does nothing while no timeline is shown."""
 
     def asked(session: Session, on: bool = True) -> None:
         if session.timeline_view is not None:

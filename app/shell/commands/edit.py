@@ -1,4 +1,4 @@
-"""Undo and redo; the felt beat, in which breaths, cues and sway count."""
+"""Commands for undo and redo, and for the felt beat (the note value in which breaths, cues and sway count)."""
 
 from __future__ import annotations
 

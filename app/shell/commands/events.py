@@ -1,4 +1,4 @@
-"""Commands about a player's events: breaths, cues, gestures, expressions, and what the user changed of them."""
+"""Commands for a player's events: adding breaths, cues, gestures and expressions, and removing manual changes."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ from widgets.common.event_names import expression_name, gesture_name, style_name
 from widgets.common.plain import verbatim
 
 STYLE = "style"
-"""The first part of the ids of regions of a style."""
+"""First part of the ids of style regions."""
 NEW_BEATS = 2
-"""Length of an added gesture or expression at the playhead."""
+"""Length of a gesture or expression added at the playhead, in beats."""
 
 
 def _playhead_tick(session: Session) -> int:
@@ -52,8 +52,9 @@ def _playhead_tick(session: Session) -> int:
 
 
 def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
-    """Return where something is added: before the first selected note of each player, else at the playhead of the one
-    in front."""
+    """Return the places for an added event: the first selected note of each player, else the playhead for the active
+    player.
+    """
     found = [(player.id, notes[0].onset_tick) for player, notes in notes_by_player(session).items()]
     if not found and session.player is not None:
         found = [(session.player.id, _playhead_tick(session))]
@@ -61,8 +62,9 @@ def _places(session: Session) -> list[tuple[PlayerPlan, int]]:
 
 
 def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
-    """Over what something is added: the selected notes of each player, or the selected range, or some beats from the
-    playhead on."""
+    """Return the ranges for an added event: the selected notes of each player, the selected range, or a few beats from
+    the playhead on.
+    """
     found = [
         (player.id, notes[0].onset_tick, max(note.end_tick for note in notes))
         for player, notes in notes_by_player(session).items()
@@ -80,7 +82,7 @@ def _spans(session: Session) -> list[tuple[PlayerPlan, int, int]]:
 
 
 def choose_gesture(session: Session) -> None:
-    """Show the kinds of gestures where the mouse is, and below them those that are written in tables."""
+    """Open a menu of gestures at the mouse pointer: built-in kinds, then gestures from tables."""
     menu = choice_menu()
     for action in ADDED:
         menu.addAction(actions(session)[action.id])
@@ -93,7 +95,7 @@ def choose_gesture(session: Session) -> None:
 
 
 def choose_expression(session: Session) -> None:
-    """Show the expressions where the mouse is: the program's, then the user's own."""
+    """Open a menu of expressions at the mouse pointer: built-in ones, then the user's own."""
     menu = choice_menu()
     own = {item.name for item in session.project.expressions}
     for name in sorted(session.performance.expressions, key=lambda name: (name in own, name)):
@@ -104,8 +106,9 @@ def choose_expression(session: Session) -> None:
 
 
 def choose_style(session: Session) -> None:
-    """Show the styles where the mouse is: of the selected players in the selected range, or from the playhead's bar on;
-    with selected regions, another one for them."""
+    """Open a menu of styles at the mouse pointer. The chosen style replaces that of the selected regions, or else
+    begins a region for the selected players in the selected range or from the playhead's bar on.
+    """
     menu = choice_menu()
     regions = any(EventId.parse(key.event_id).kind == STYLE for key in session.selection.events)
     for name in sorted(session.performance.metadata.styles.items, key=style_name):
@@ -153,8 +156,9 @@ def delete(session: Session) -> None:
 
 
 def return_to_generated(session: Session) -> None:
-    """Let the generator decide again about the selected events, and about fingering, embouchure and marks of the
-    selected notes."""
+    """Remove manual changes from the selected events, and from fingering, embouchure and marks of the selected
+    notes.
+    """
     events = events_by_player(session)
     notes = {player.id: [note.id for note in found] for player, found in notes_by_player(session).items()}
 
@@ -185,7 +189,7 @@ def _can_return(session: Session) -> bool:
 
 
 def revert_player(session: Session) -> None:
-    """Let the generator decide about everything of the player in front again."""
+    """Remove all manual changes of the active player."""
     player = session.player
     if player is not None:
         session.attempt(
@@ -198,7 +202,7 @@ def revert_player(session: Session) -> None:
 
 
 def _breathing_notes(session: Session) -> dict[str, list[str]]:
-    """Notes whose breath or preparation is selected, or that are selected themselves, by player."""
+    """Return the notes by player that are selected, or whose breath or preparation is selected."""
     result: dict[str, list[str]] = defaultdict(list)
     for player_id, ids in events_by_player(session).items():
         for event_id in ids:
@@ -242,7 +246,7 @@ def _added(kind: GestureRow) -> Action:
 
 
 ADDED: Final = tuple(_added(kind) for kind in GESTURES if kind.command)
-"""Commands that add a gesture of a kind."""
+"""Commands that add a gesture, one for each kind that has a command."""
 ACTIONS: tuple[Action, ...] = (
     Action("edit.delete", delete, "edit", "Delete", "timeline", has_something, icon="delete"),
     Action("events.give_back", return_to_generated, "edit", "Backspace", "timeline", _can_return, icon="reset"),

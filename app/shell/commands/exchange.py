@@ -1,5 +1,6 @@
-"""Commands that exchange files with other programs: a changed MIDI file in; a MIDI file, players, films and a
-stream of poses out."""
+"""Commands that exchange data with other programs: re-importing MIDI, and exporting MIDI, animation files, films and a
+live stream of poses.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +29,7 @@ from widgets.inspector.words import correction_title
 
 
 def read_again(editor: Editor) -> None:
-    """Read the project's MIDI file or score once more; one that is not there any more is asked for."""
+    """Read the project's MIDI file or score again, asking for its place if it is missing."""
     source = editor.session.project.source
     if source and is_file(source):
         reimport_from(editor, Path(source))
@@ -54,7 +55,7 @@ def _ask_for_version(editor: Editor, title: str) -> None:
 
 
 def reimport_from(editor: Editor, path: Path) -> None:
-    """Show what a MIDI file or a score changes in the piece, and change it if the user agrees."""
+    """Show the changes that a MIDI file or a score makes to the piece, and apply them if the user agrees."""
     session = editor.session
     project = session.project
 
@@ -85,7 +86,9 @@ def reimport_from(editor: Editor, path: Path) -> None:
 def _take_of_others(
     session: Session, before: Project, outcome: Reimport, kept: frozenset[str], removed: tuple[str, ...]
 ) -> None:
-    """Take a re-import, but for the parts that are kept: working that out takes seconds of a large piece."""
+    """Apply a re-import except for the parts that the user keeps unchanged, in the background, since a large piece
+    takes seconds.
+    """
     if not kept:
         _take(session, before, outcome, removed)
         return
@@ -106,7 +109,7 @@ def _take(session: Session, before: Project, outcome: Reimport, removed: tuple[s
 
 
 def export_midi(editor: Editor) -> None:
-    """Ask for a file, and write the piece to it as MIDI."""
+    """Ask for a file name, and write the piece as MIDI."""
     session = editor.session
     proposal = Path(editor.files.folder) / f"{editor.files.stem}.mid"
     kinds = f"{tr('files.midi_files')} (*.mid)"
@@ -135,7 +138,7 @@ def export_midi(editor: Editor) -> None:
 
 
 def export_files(editor: Editor) -> None:
-    """Ask what to export, and write it."""
+    """Open the export dialog."""
     folder = editor.settings.export_folder or str(Path(editor.files.folder) / "export")
     from widgets.dialogs.export_files import ExportDialog  # it brings all formats with it
 
@@ -172,7 +175,7 @@ def export_files(editor: Editor) -> None:
 
 
 def playblast(editor: Editor) -> None:
-    """Ask for a film of the viewport, and make it."""
+    """Open the dialog that makes a film of the viewport."""
     session = editor.session
     path = Path(editor.files.folder) / f"{editor.files.stem}.mp4"
     project = session.project
@@ -190,7 +193,7 @@ def playblast(editor: Editor) -> None:
 
 
 def can_draw(editor: Editor) -> bool:
-    """Return whether there are players whom a film can show."""
+    """Return whether the project has players that a film can show."""
     return _can_export(editor) and editor.window.viewport.has_gl
 
 
@@ -199,12 +202,12 @@ def _can_export(editor: Editor) -> bool:
 
 
 def toggle_stream(session: Session, on: bool = True) -> None:
-    """Stream, or no more."""
+    """Start or stop the live stream of poses."""
     session.streaming.set(on=not session.streaming.on)
 
 
 def stream_settings(editor: Editor) -> None:
-    """Choose what is streamed, and where; once."""
+    """Open the dialog of the live stream, or bring it to the front."""
     from widgets.dialogs.stream import StreamDialog
 
     editor.show_once(StreamDialog, lambda: StreamDialog(editor.session, editor.window))

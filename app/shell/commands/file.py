@@ -1,4 +1,4 @@
-"""Commands of files: begin, open, save, close."""
+"""Commands for files: new, open, save and close."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def open_file(editor: Editor) -> None:
 
 
 def import_midi(editor: Editor) -> None:
-    """Ask for a MIDI file or a score and who plays what in it."""
+    """Ask for a MIDI file or a score and for the instruments of its parts, and open it."""
     kinds = (
         (tr("files.music"), MUSIC),
         (tr("files.midi_files"), MIDI),
@@ -36,7 +36,7 @@ def import_midi(editor: Editor) -> None:
 
 
 def add_audio(editor: Editor) -> None:
-    """Ask for the recording that the piece plays with."""
+    """Ask for a recording that replaces the synthesiser."""
     kinds = (
         (tr("files.sound_files"), AUDIO_SUFFIXES),
         (tr("files.video_files"), VIDEO_SUFFIXES),
@@ -48,7 +48,7 @@ def add_audio(editor: Editor) -> None:
 
 
 def add_video(editor: Editor) -> None:
-    """Ask for the video that is seen with the performance."""
+    """Ask for a reference video of the performance."""
     kinds = ((tr("files.video_files"), VIDEO_SUFFIXES), (tr("files.all_files"), ("",)))
     path = editor.questions.open_file(tr("files.add_video"), editor.files.folder, _filters(kinds))
     if path is not None:
@@ -56,7 +56,7 @@ def add_video(editor: Editor) -> None:
 
 
 def piece_settings(editor: Editor) -> None:
-    """Show title, frame rate, pre-roll, felt beat and seed of the piece."""
+    """Open the dialog of the piece's title, frame rate, pre-roll, felt beat and seed."""
     from widgets.dialogs.piece_settings import PieceSettingsDialog
 
     PieceSettingsDialog(editor.session, editor.window).open()

@@ -1,4 +1,4 @@
-"""Commands about fingerings: typed sign by sign, or one after the other."""
+"""Commands for fingerings: typing a label, and stepping through the alternatives."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from instrument_maps.model import Fingering
 from widgets.common.instrument_name import language
 
 TYPED_TOGETHER_S = 2.0
-"""Signs typed within this time are one fingering: 1 and 3 are 13."""
+"""Signs typed within this time in seconds form one label: 1 and then 3 is 13."""
 
 
 class _Typed:
-    """Beginning of a fingering that is being typed."""
+    """The beginning of a fingering label that is being typed."""
 
     def __init__(self) -> None:
         self.text = ""
@@ -37,7 +37,7 @@ _typed: WeakKeyDictionary[Session, _Typed] = WeakKeyDictionary()
 
 
 def choices(session: Session, player: Player, note: Note) -> tuple[Fingering, ...]:
-    """Every fingering of a note on the player's instrument, first choice first."""
+    """Return every fingering of a note on the player's instrument, the preferred one first."""
     try:
         return session.performance.instrument(player).fingerings_for(note.pitch)
     except AppError:
@@ -46,17 +46,17 @@ def choices(session: Session, player: Player, note: Note) -> tuple[Fingering, ..
 
 
 def type_fingering(session: Session, sign: str, now_s: float | None = None) -> None:
-    """Pin the fingering that is being typed, sign by sign: its signs in any order, as the map writes its labels.
+    """Pin the fingering whose label is being typed. The order of the signs does not matter.
 
-    What is no fingering is reported beside the first note, with those that are; a beginning of it that was pinned is
-    taken back.
+    A label that is no fingering is shown beside the first note together with the valid ones, and a fingering pinned
+    from its beginning is undone.
 
     Parameters
     ----------
     sign : str
-        One sign of a label: a digit, T.
+        One sign of a label: a digit or ``T``.
     now_s : float, optional
-        On a monotonic clock.
+        Time on a monotonic clock in seconds.
     """
     at_s = time.monotonic() if now_s is None else now_s
     typed = _typed.setdefault(session, _Typed())
@@ -87,8 +87,9 @@ def type_fingering(session: Session, sign: str, now_s: float | None = None) -> N
 
 
 def _offer(session: Session, notes: Mapping[Player, Sequence[Note]], text: str, is_refused: bool) -> None:
-    """Offer the fingerings of the first note beside it, and say that this is none; in the status line too, if it cannot
-    become one."""
+    """Show the fingerings of the first note beside it, with the text typed so far; report in the status line too if the
+    text cannot become a fingering.
+    """
     player, found = next(iter(notes.items()))
     offered = choices(session, player, found[0])
     instrument = session.performance.instrument(player) if offered else None
@@ -101,7 +102,7 @@ def _offer(session: Session, notes: Mapping[Player, Sequence[Note]], text: str, 
 
 
 def _holds(label: str, signs: str) -> bool:
-    """Return whether all signs are in a label."""
+    """Return whether a label contains all the signs."""
     return all(label.count(sign) >= signs.count(sign) for sign in signs)
 
 
@@ -117,7 +118,7 @@ def _pin(session: Session, pins: dict[str, dict[str, str]], token: object | None
 
 
 def cycle_fingering(session: Session) -> None:
-    """Pin the next alternate of each selected note; after the last comes the first choice."""
+    """Pin the next alternative fingering of each selected note; the first choice follows the last."""
     pins: dict[str, dict[str, str]] = {}
     for player, notes in notes_by_player(session).items():
         plan = session.plans.get(player.id)

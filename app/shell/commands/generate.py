@@ -1,4 +1,4 @@
-"""Commands of generating: it runs by itself after every edit; these ask for another performance of the same plan."""
+"""Commands that generate another variation of the performance. Ordinary generation runs by itself after every edit."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ LOST = "correction.orphaned"
 
 
 def vary_everyone(session: Session) -> None:
-    """Let everyone perform again; what was corrected by hand stays."""
+    """Generate another variation for all players; manual corrections stay."""
     if session.attempt(Message("edit.vary_everyone"), generation.vary_everyone):
         _report(session, tuple(player.id for player in session.project.players))
 
 
 def vary_players(session: Session) -> None:
-    """Let the selected players perform again; what was corrected by hand stays."""
+    """Generate another variation for the selected players; manual corrections stay."""
     chosen = session.players
     name = edit_of_players(session.project, "edit.vary_players", chosen)
     if session.attempt(name, lambda project: generation.vary_players(project, chosen)):
@@ -27,7 +27,7 @@ def vary_players(session: Session) -> None:
 
 
 def vary_bars(session: Session) -> None:
-    """Let the selected players perform the selected bars again; what was corrected by hand stays."""
+    """Generate another variation of the selected bars for the selected players; manual corrections stay."""
     chosen, span = session.players, selected_ticks(session)
     if span is None:
         return
@@ -38,7 +38,7 @@ def vary_bars(session: Session) -> None:
 
 
 def unvary_bars(session: Session) -> None:
-    """Let the selected players perform the selected bars as at first."""
+    """Return the selected bars of the selected players to the original variation."""
     chosen, span = session.players, selected_ticks(session)
     if span is not None:
         session.attempt(
@@ -47,7 +47,7 @@ def unvary_bars(session: Session) -> None:
 
 
 def _report(session: Session, player_ids: tuple[str, ...]) -> None:
-    """Say how many corrections are kept, as soon as the new plans are there."""
+    """Report the number of corrections that were preserved as soon as the new plans exist."""
 
     def say() -> None:
         performance, project = session.performance, session.project

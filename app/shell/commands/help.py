@@ -1,4 +1,4 @@
-"""Commands of help: the guides, and the guide's place for a part of the window."""
+"""Commands of the help menu: the guides, and the section of a guide about a part of the window."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from app.shell.help.window import HelpWindow
 
 
 def guides(editor: Editor) -> None:
-    """Show the guides where they were left, or the one about the window."""
+    """Open the guides at the section read last, or at the guide about the window."""
     window = _help_window(editor)
     name, number = window.place or (names()[0], 0)
     window.read(name, number)
 
 
 def help_here(editor: Editor) -> None:
-    """Show the guide's place for what is under the mouse, or has the keyboard."""
+    """Open the section of a guide about the widget under the mouse, or about the one with the keyboard focus."""
     help_about(editor, part_under(QCursor.pos(), editor.window))
 
 
 def help_about(editor: Editor, part: QWidget) -> None:
-    """Show the guide's place for a part of the window or of a dialog, or for the command chosen in a menu."""
+    """Open the section of a guide about a widget, or about the command chosen in a menu."""
     place = place_in_menu(part) if isinstance(part, QMenu) else place_of(part)
     while (menu := QApplication.activePopupWidget()) is not None:
         menu.close()
@@ -38,7 +38,7 @@ def _help_window(editor: Editor) -> HelpWindow:
 
 
 def first_steps(editor: Editor) -> None:
-    """Begin the tour, or bring it into view."""
+    """Start the tour, or bring a running tour into view."""
     (editor.window.findChild(FirstSteps) or FirstSteps(editor)).begin()
 
 

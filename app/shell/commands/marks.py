@@ -1,4 +1,4 @@
-"""Commands that write marks over the selected notes, or take them away where all have them."""
+"""Commands that write marks over the selected notes, or remove them if all selected notes have them."""
 
 from __future__ import annotations
 
@@ -26,16 +26,18 @@ KEYS: Final = {
     "crescendo": "<",
     "diminuendo": ">",
 }
-"""MuseScore's where they are free: slur and staccato are not, since S and Shift+S split notes."""
+"""Shortcuts of marks: those of MuseScore where they are free (not for slur and staccato, since S and Shift+S split
+notes).
+"""
 
 
 def toggle(session: Session, kind: str, text: str = "") -> None:
-    """Write a mark over the selected notes of each player."""
+    """Write a mark over the selected notes of each player, or remove it if all have it."""
     toggle_mark(session, {player.id: notes for player, notes in notes_by_player(session).items()}, kind, text)
 
 
 def choose_dynamic(session: Session) -> None:
-    """Show the dynamics where the mouse is."""
+    """Open a menu of dynamics at the mouse pointer."""
     menu = choice_menu()
     for action in DYNAMICS:
         menu.addAction(actions(session)[action.id])

@@ -1,4 +1,4 @@
-"""Notes: selecting, moving, cutting up, copying, quantising: the selection, at the playhead, the player in front."""
+"""Commands for notes: selecting, moving, splitting, copying and quantising them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ VELOCITY_STEP = 8
 
 
 def select_all(session: Session) -> None:
-    """Select every note of the selected players; where all are selected already: of all players."""
+    """Select every note of the selected players; if they are all selected already, every note of all players."""
     project = session.project
     mine = _notes_of(session, session.players)
     everyone = _notes_of(session, tuple(player.id for player in project.players))
@@ -46,7 +46,7 @@ def select_none(session: Session) -> None:
 
 
 def select_pitch(session: Session) -> None:
-    """Every note at a pitch of the selected ones, in their parts."""
+    """Select every note in the same part and at the same pitch as a selected note."""
     selected = session.selection.notes
     found: set[str] = set()
     for part, mine in notes.chosen_notes(session.project, selected):
@@ -56,7 +56,7 @@ def select_pitch(session: Session) -> None:
 
 
 def select_bar(session: Session) -> None:
-    """The notes that begin in the bars of the selected ones; else those of the bar at the playhead."""
+    """Select the notes that begin in the bars of the selected notes, else in the bar at the playhead."""
     project = session.project
     score = project.score
     chosen = list(notes.chosen_notes(project, session.selection.notes))
@@ -103,7 +103,7 @@ def _edit(session: Session, id: str, edit: Callable[[Project, frozenset[str]], P
 def _edit_making(
     session: Session, name: Message, edit: Callable[[Project], tuple[Project, tuple[str, ...]]], kept: frozenset[str]
 ) -> None:
-    """An edit that makes notes; they are selected afterwards, with ``kept``."""
+    """Make an edit that adds notes, and select these notes together with ``kept``."""
     made: list[str] = []
 
     def run(project: Project) -> Project:
@@ -116,7 +116,7 @@ def _edit_making(
 
 
 def split(session: Session) -> None:
-    """Cut the selected notes at the playhead; where none is selected, what the player in front plays there."""
+    """Split the selected notes at the playhead; if none are selected, the notes of the active player there."""
     tick = _playhead_tick(session)
     ids = session.selection.notes
     if not ids and session.player is not None:
@@ -127,14 +127,14 @@ def split(session: Session) -> None:
 
 
 def join(session: Session) -> None:
-    """Make one note of neighbours at one pitch."""
+    """Join neighbouring notes of the same pitch into one."""
     _edit(session, "edit.join_notes", notes.join)
     known = _notes_of(session, tuple(player.id for player in session.project.players))
     session.select(Selection(session.selection.notes & known))
 
 
 def duplicate(session: Session) -> None:
-    """Copy the selected notes behind themselves, on the next line of the grid."""
+    """Copy the selected notes to the grid line after them."""
     ids = session.selection.notes
     chosen = [note for _, mine in notes.chosen_notes(session.project, ids) for note in mine]
     if not chosen:
@@ -150,7 +150,7 @@ def duplicate(session: Session) -> None:
 
 
 def transpose(session: Session, by_pitch: int) -> None:
-    """Transpose by semitones, within the range of MIDI."""
+    """Transpose the selected notes by semitones within the range of MIDI."""
     _edit(
         session,
         "edit.transpose_notes",
@@ -159,13 +159,13 @@ def transpose(session: Session, by_pitch: int) -> None:
 
 
 def nudge(session: Session, steps: int) -> None:
-    """Notes or events, by steps of the grid."""
+    """Shift the selected notes or events by steps of the grid."""
     step = session.grid.quarters * session.project.score.ticks_per_quarter
     _shift(session, lambda onset: round(onset + steps * step))
 
 
 def nudge_frames(session: Session, frames: int) -> None:
-    """Notes or events, by frames of the picture; at least a tick."""
+    """Shift the selected notes or events by video frames, at least by one tick."""
     tempo = session.project.score.tempo_map
     by_s = float(frames / session.project.fps)
 
@@ -177,7 +177,7 @@ def nudge_frames(session: Session, frames: int) -> None:
 
 
 def _shift(session: Session, moved: Callable[[int], int]) -> None:
-    """Shift what is selected by what a function makes of its first tick."""
+    """Shift the selection by the difference that a function makes to its first tick."""
     selection = session.selection
     if selection.notes:
         chosen = [note for _, mine in notes.chosen_notes(session.project, selection.notes) for note in mine]
@@ -217,7 +217,7 @@ def _shift_events(session: Session, moved: Callable[[int], int]) -> None:
 
 
 def change_velocity(session: Session, by: int) -> None:
-    """Louder or softer."""
+    """Change the MIDI velocity of the selected notes by a number."""
     _edit(session, "edit.change_velocity", lambda project, ids: notes.change_velocity(project, ids, by))
 
 
@@ -240,7 +240,9 @@ def cut(session: Session) -> None:
 
 
 def paste(session: Session) -> None:
-    """Put the clipboard's notes at the playhead: one line to the player in front, several to where they came from."""
+    """Insert the clipboard's notes at the playhead: notes of a single part for the active player, notes of several
+    parts for their own players.
+    """
     clip = _clipboard()
     player = session.player
     if clip is None or not clip.lines:
@@ -267,7 +269,7 @@ def _clipboard() -> notes.ClipboardNotes | None:
 
 
 def _playhead_tick(session: Session) -> int:
-    """The playhead's tick, on the grid's line where it stands on one to the eye."""
+    """Return the playhead's tick, rounded to the grid line if the playhead looks as if it is on one."""
     score = session.project.score
     tick = score.tempo_map.ticks(session.playhead_s)
     snapped = session.grid.snap(score.metre_map, tick)

@@ -1,4 +1,4 @@
-"""Commands that save, load and compare what was said of the acting in a piece, and show where the user's tables are."""
+"""Commands that save, load and compare a piece's acting metadata, and open the folder of the user's tables."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def save(editor: Editor) -> None:
 
 
 def load(editor: Editor) -> None:
-    """Ask for a file, and take its metadata into the piece."""
+    """Ask for a file, and apply its acting metadata to the piece."""
     session, found = editor.session, _read(editor)
     if found is None:
         return
@@ -56,7 +56,7 @@ def load(editor: Editor) -> None:
 
 
 def compare(editor: Editor) -> None:
-    """Ask for a file, and show where its metadata are not the piece's."""
+    """Ask for a file, and show the differences between its acting metadata and the piece's."""
     from widgets.dialogs.metadata_differences import MetadataDifferencesDialog
 
     session, found = editor.session, _read(editor)
@@ -71,7 +71,7 @@ def compare(editor: Editor) -> None:
 
 
 def show_rules(editor: Editor) -> None:
-    """Show the rules by which players act, to be changed."""
+    """Open the dialog of the rules that players act by."""
     from widgets.dialogs.rules import RulesDialog
 
     for there in editor.window.findChildren(RulesDialog):
@@ -84,8 +84,9 @@ def show_rules(editor: Editor) -> None:
 
 
 def open_folder(editor: Editor) -> None:
-    """Show the folder of the user's own tables, with a folder for each kind, in the file manager; what is wrong in them
-    is said once more."""
+    """Open the folder of the user's own tables in the file manager, with a folder for each kind, and report faults in
+    the tables again.
+    """
     for folder in FOLDERS:
         folder.folder().mkdir(parents=True, exist_ok=True)
     for problems in metadata_library().problems.values():

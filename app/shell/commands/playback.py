@@ -1,4 +1,4 @@
-"""Playing: from here, in a loop, step by step; what sounds; where the recording stands."""
+"""Commands for playback: playing, looping, stepping, the audible sources, and the recording."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from app.editor.listening import Source
 
 _NEAR_S = 1e-4
-"""Two moments that are the same moment."""
+"""Two moments closer than this number of seconds count as equal."""
 
 
 def toggle(session: Session) -> None:
-    """Play from here, or stop."""
+    """Start playing at the playhead, or stop."""
     if session.playback is None:
         return
     if session.playback.is_playing:
@@ -31,7 +31,7 @@ def toggle(session: Session) -> None:
 
 
 def play_bar(session: Session) -> None:
-    """Play from the beginning of the bar."""
+    """Start playing at the beginning of the bar."""
     if session.playback is not None:
         start_s = _bar_s(session, _bar(session))
         session.set_playhead(start_s)
@@ -39,7 +39,7 @@ def play_bar(session: Session) -> None:
 
 
 def stop(session: Session) -> None:
-    """Stop, and go back to where playing began to make sense: the loop's start, or stay."""
+    """Stop playing, and return to the start of the loop if there is one."""
     if session.playback is None:
         return
     if session.playback.is_playing:
@@ -51,18 +51,20 @@ def stop(session: Session) -> None:
 
 
 def to_start(session: Session) -> None:
-    """Go to the beginning of the performance."""
+    """Move the playhead to the beginning of the performance."""
     _go(session, session.performance.time_frame.first_frame_s)
 
 
 def to_end(session: Session) -> None:
-    """Go to the end of the last note."""
+    """Move the playhead to the end of the last note."""
     score = session.project.score
     _go(session, score.tempo_map.seconds(float(score.end_tick)))
 
 
 def toggle_loop(session: Session, on: bool = True) -> None:
-    """Play what is selected over and over: the range, the notes, else the bar; what is looped already no longer."""
+    """Loop the selected range, the selected notes or else the current bar; end the loop if that range is looped
+    already.
+    """
     span = _selected_s(session)
     if session.loop_s is not None and (span is None or span == session.loop_s):
         session.set_loop(None)
@@ -74,7 +76,7 @@ def toggle_loop(session: Session, on: bool = True) -> None:
 
 
 def step_frames(session: Session, count: int) -> None:
-    """Go by a frame, to the frame's own moment: from between two frames to the nearer one in that direction."""
+    """Move the playhead by whole frames; from between two frames, first to the nearest frame in that direction."""
     fps = float(session.project.fps)
     frame = session.playhead_s * fps
     near = round(frame)
@@ -85,31 +87,31 @@ def step_frames(session: Session, count: int) -> None:
 
 
 def step_notes(session: Session, by: int) -> None:
-    """Go to where the next note (1) or the one before (-1) begins, of the player in front."""
+    """Move the playhead to the next note (1) or the previous note (-1) of the active player."""
     beyond = [by * at_s for at_s in _onsets_s(session) if by * (at_s - session.playhead_s) > _NEAR_S]
     if beyond:
         _go(session, by * min(beyond))
 
 
 def bar_back(session: Session) -> None:
-    """Go to the beginning of the bar, from there to the one before."""
+    """Move the playhead to the beginning of the bar, or from there to the previous bar."""
     bar = _bar(session)
     start_s = _bar_s(session, bar)
     _go(session, start_s if session.playhead_s > start_s + _NEAR_S else _bar_s(session, bar - 1))
 
 
 def bar_on(session: Session) -> None:
-    """Go to the next bar."""
+    """Move the playhead to the next bar."""
     _go(session, _bar_s(session, _bar(session) + 1))
 
 
 def remove_recording(session: Session) -> None:
-    """Let the synthesiser play instead of the recording."""
+    """Remove the recording, so that the synthesiser plays."""
     session.attempt(Message("edit.remove_audio"), lambda project: set_audio(project, None))
 
 
 def follow_recording(editor: Editor) -> None:
-    """Ask what is taken from the recording, and follow it."""
+    """Ask for the properties to take from the recording (such as tempo), and apply them."""
     from widgets.dialogs.follow_recording import FollowRecordingDialog
 
     dialog = FollowRecordingDialog(editor.session, editor.window)
@@ -178,7 +180,7 @@ def _onsets_s(session: Session) -> set[float]:
 
 
 def _selected_s(session: Session) -> tuple[float, float] | None:
-    """Span of the selection, seconds."""
+    """Return the start and end of the selection in seconds."""
     ticks, tempo_map = selected_ticks(session), session.project.score.tempo_map
     return (tempo_map.seconds(float(ticks[0])), tempo_map.seconds(float(ticks[1]))) if ticks is not None else None
 

@@ -1,4 +1,4 @@
-"""Players: add, remove, mute, solo, activate."""
+"""Commands for players: adding, removing, muting, soloing and selecting them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _chosen(session: Session) -> list[Player]:
 
 
 def add(session: Session) -> None:
-    """Add a player with the instrument of the active player; in an empty project with the first instrument."""
+    """Add a player with the active player's instrument, or with the first instrument if there is no player."""
     front = session.player
     known = library()
     instrument_id = (
@@ -34,7 +34,7 @@ def add(session: Session) -> None:
 
 
 def join(session: Session) -> None:
-    """Let one musician play what the selected players play, in turn: the first of them in the list."""
+    """Merge the selected players into one musician, the first in the list, who plays their parts in turn."""
     chosen = [player for player in session.project.players if player.id in session.players]
     first, *others = chosen
 
@@ -47,7 +47,7 @@ def join(session: Session) -> None:
 
 
 def separate(session: Session) -> None:
-    """Make the selected doubling players musicians with their own bodies."""
+    """Split the selected doubling players into musicians with bodies of their own."""
     chosen = session.players
     doubling = [player.id for player in _chosen(session) if player.doubles]
     session.attempt(
@@ -66,7 +66,7 @@ def clear_mute_and_solo(session: Session) -> None:
 
 
 def step(session: Session, by: int) -> None:
-    """Put the next player (1) or the one before (-1) in front."""
+    """Make the next player (1) or the previous player (-1) active."""
     players = session.project.players
     if session.player is None:
         return
@@ -75,7 +75,7 @@ def step(session: Session, by: int) -> None:
 
 
 def toggle_posture(session: Session) -> None:
-    """Let the selected players sit down, those whose instruments are played so; stand up where all of them sit."""
+    """Make the selected players sit if their instruments are played sitting; make them stand if all of them sit."""
     project = session.project
     free = [player for player in _chosen(session) if len(edit.postures_of_musician(project, player)) > 1]
     chosen = tuple(player.id for player in free)
@@ -87,7 +87,7 @@ def toggle_posture(session: Session) -> None:
 
 
 def arrange(session: Session) -> None:
-    """Put everyone on the automatic arc."""
+    """Place all players on the automatic arc."""
     session.attempt(Message("edit.arrange_players"), edit.arrange)
 
 
@@ -106,7 +106,7 @@ def select_all(session: Session) -> None:
 
 
 def select_section(session: Session) -> None:
-    """Select everyone of the sections of the selected players; the active player stays active."""
+    """Select all players of the selected players' sections; the active player stays active."""
     others = (id for id in in_sections_of(session.project, session.players) if id not in session.players[:1])
     session.set_players((*session.players[:1], *others))
 
@@ -150,7 +150,7 @@ def _marking(name: str, mark: PlayerMark, key: str) -> Action:
 
 
 def _marking_section(name: str, mark: PlayerMark, key: str) -> Action:
-    """A row that marks the sections of the selected players; it is on where all of them are marked."""
+    """Return an action that marks the sections of the selected players, checked if all of them are marked."""
 
     def own(session: Session) -> tuple[str, ...]:
         return in_sections_of(session.project, session.players)

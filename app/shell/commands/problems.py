@@ -1,4 +1,4 @@
-"""Commands that walk through the problems of all players."""
+"""Commands that step through the problems of all players."""
 
 from __future__ import annotations
 
@@ -14,14 +14,18 @@ _visited: WeakKeyDictionary[Session, tuple[str, Problem]] = WeakKeyDictionary()
 
 
 def problems(session: Session) -> list[tuple[str, Problem]]:
-    """The problems of all players and dancers with their ids, in the order of time: those that are listed, if any."""
+    """Return the problems of all players and dancers with their ids, ordered by time; only those in the filtered list,
+    if it has any.
+    """
     found = [(one.id, problem) for one in session.project.performers for problem in session.problems(one.id)]
     listed = [item for item in found if session.problem_filter.takes(*item, session.players)]
     return sorted(listed or found, key=lambda item: item[1].start_s)
 
 
 def step_problems(session: Session, step: int) -> None:
-    """Show the next problem (1) or the one before (-1): of the one shown last, else of the playhead; round the end."""
+    """Show the next problem (1) or the previous one (-1), counted from the one shown last or else from the playhead;
+    the list wraps around.
+    """
     found = problems(session)
     if not found:
         session.notice(Message("problems.none"))

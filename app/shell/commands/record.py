@@ -1,4 +1,4 @@
-"""Recording: a take, who is recorded, counting in, the punch range."""
+"""Commands for recording MIDI: takes, the armed player, the count-in and the punch range."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.shell.editor import Editor, EditorAction
 
 
 def devices(editor: Editor) -> None:
-    """Show the MIDI devices; what is chosen there holds at once."""
+    """Open the dialog of MIDI devices, whose choices apply immediately."""
     from widgets.dialogs.midi_devices import MidiDevicesDialog
 
     recorder = editor.recorder
@@ -30,7 +30,7 @@ def devices(editor: Editor) -> None:
 
 
 def latency(editor: Editor) -> None:
-    """Find out how late the MIDI device comes."""
+    """Measure the latency of the MIDI device."""
     from widgets.dialogs.latency import LatencyDialog
 
     recorder = editor.recorder
@@ -52,7 +52,7 @@ def arm(session: Session, on: bool = True) -> None:
 
 
 def punch(session: Session, on: bool = True) -> None:
-    """The part takes only what is played in the range that is selected, or looped; off again."""
+    """Limit recording to the selected or looped range, or remove the limit."""
     recording = session.recording
     span = _span(session)
     if span is None or (recording.punch and recording.punch_ticks == span):
@@ -62,7 +62,7 @@ def punch(session: Session, on: bool = True) -> None:
 
 
 def _span(session: Session) -> tuple[int, int] | None:
-    """Selected ticks: a range, notes, else the loop."""
+    """Return the selected ticks: those of a range, of notes, or else of the loop."""
     selected, tempo_map = selected_ticks(session), session.project.score.tempo_map
     if selected is not None:
         return selected

@@ -1,4 +1,4 @@
-"""Takes: listen, take, clean, put away."""
+"""Commands for recorded takes: listening to them, using them in the part, cleaning and removing them."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from app.shell.editor import Editor, EditorAction
 
 
 def _takes(session: Session) -> tuple[Take, ...]:
-    """The takes of the player in front, in the order of their lanes."""
+    """Return the takes of the active player in the order of their lanes."""
     return _takes_of(session.project, session.player.id) if session.player is not None else ()
 
 
 def _chosen(session: Session) -> tuple[Player, Take] | None:
-    """The selected take, and whose it is."""
+    """Return the selected take and its player."""
     player, take_id = session.player, session.selection.take
     found = [take for take in _takes(session) if take.id == take_id]
     return (player, found[0]) if player is not None and found else None
 
 
 def listen(editor: Editor, alone: bool = False) -> None:
-    """Hear the selected take among the others, or alone, or no more."""
+    """Play the selected take together with the other players or alone; stop if it plays already."""
     session, sound = editor.session, editor.sound
     player, take_id = session.player, session.selection.take
     if player is None or take_id is None:
@@ -47,7 +47,9 @@ def listen(editor: Editor, alone: bool = False) -> None:
 
 
 def _listen_from(session: Session) -> float:
-    """Begin of listening: the selected span, else the playhead, if that is in the take, else the take's beginning."""
+    """Return the moment at which listening begins in seconds: the start of the selected span, else the playhead if it
+    is within the take, else the start of the take.
+    """
     clock, span, chosen = session.project.score.tempo_map, session.selection.span, _chosen(session)
     if span is not None:
         return clock.seconds(float(span[0]))
@@ -58,7 +60,7 @@ def _listen_from(session: Session) -> float:
 
 
 def whole(session: Session) -> None:
-    """Let the part have all of the selected take, or all of what was there before."""
+    """Use all of the selected take in the part, or all of the notes from before the first take."""
     player, take_id, chosen = session.player, session.selection.take, _chosen(session)
     if player is None or take_id is None:
         return
@@ -67,14 +69,14 @@ def whole(session: Session) -> None:
 
 
 def before(session: Session) -> None:
-    """Let the part have again what was there before, in the selected span, else everywhere."""
+    """Restore the notes from before the first take in the selected span, or everywhere."""
     player, span = session.player, session.selection.span or (0, LAST_TICK)
     if player is not None:
         session.attempt(Message("edit.comp_before"), lambda project: edit.comp(project, player.id, BEFORE, *span))
 
 
 def _change(session: Session, id: str, change: Callable[..., Project], *values: object) -> bool:
-    """Change the selected take, if there is one; whether that was done."""
+    """Apply a change to the selected take, if there is one, and return whether it was applied."""
     chosen = _chosen(session)
     if chosen is None:
         return False
@@ -85,13 +87,13 @@ def _change(session: Session, id: str, change: Callable[..., Project], *values: 
 
 
 def remove(session: Session) -> None:
-    """Throw the selected take away; what the part has of it stays."""
+    """Remove the selected take; its notes that the part uses stay."""
     if _change(session, "edit.remove_take", edit.remove_take):
         session.select(Selection())
 
 
 def move(session: Session, by: int) -> None:
-    """Put the selected take above the one above it (-1), or below the one below it (1)."""
+    """Move the selected take up (-1) or down (1) by a lane."""
     chosen = _chosen(session)
     if chosen is not None:
         place = _takes(session).index(chosen[1]) + by
@@ -99,12 +101,12 @@ def move(session: Session, by: int) -> None:
 
 
 def usual_cleaning(session: Session) -> None:
-    """Clean the selected take as every take is cleaned at first."""
+    """Clean the selected take with the default settings."""
     _change(session, "edit.clean_take", edit.set_cleaning, Cleaning())
 
 
 def find_beats(session: Session) -> None:
-    """Let the piece have the tempo that the selected take was played in."""
+    """Give the piece the tempo that is found in the selected take."""
     chosen = _chosen(session)
     if chosen is None:
         return
@@ -140,7 +142,7 @@ def _has_chosen(session: Session) -> bool:
 
 
 def _has_row(session: Session) -> bool:
-    """Return whether a take is selected, or what was there before."""
+    """Return whether a take, or the row of the notes from before the first take, is selected."""
     return _has_chosen(session) or (session.selection.take == BEFORE and bool(_takes(session)))
 
 
@@ -149,7 +151,7 @@ def _can_take_whole(session: Session) -> bool:
 
 
 def _differs_from_before(session: Session) -> bool:
-    """Return whether the part is no longer what it was before the first take."""
+    """Return whether the part differs from the notes before the first take."""
     player = session.player
     recorded = session.project.takes.get(player.id) if player is not None else None
     if player is None or recorded is None or not recorded.takes:
@@ -171,7 +173,7 @@ def _can_step(session: Session) -> bool:
 
 
 def _may_move(session: Session, edge: int) -> bool:
-    """Return whether the selected take is not yet the first (0) or the last (-1)."""
+    """Return whether the selected take is not the first (0) or the last (-1)."""
     chosen = _chosen(session)
     return chosen is not None and chosen[1] is not _takes(session)[edge]
 

@@ -1,4 +1,4 @@
-"""Commands for the display of the timeline. The timeline itself is `Session.timeline_view`."""
+"""Commands for the display of the timeline, the widget `Session.timeline_view`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from widgets.timeline.lanes import LANES as BELOW
 from widgets.timeline.marks.dynamics_lane import DynamicsLane
 
 ICONS: Final = {"zoom_in_pitch": "zoom_in", "zoom_out_pitch": "zoom_out"}
-"""Names of icons by action, where they differ."""
+"""Icon names of actions whose icon has another name than the action."""
 
 
 def _has_view(session: Session) -> bool:
@@ -51,11 +51,11 @@ def _counted(display: TimeDisplay) -> Action:
 
 
 LANES: Final = (BELOW[0].id, "roll", *(kind.id for kind in BELOW[1:]))
-"""Lanes in their order in a new window."""
+"""Ids of the lanes in the order of a new window."""
 
 
 NUMBERED: Final = tuple(id for id in LANES if id != DynamicsLane.id)
-"""Lanes that have a digit as shortcut, ten at most."""
+"""Ids of the lanes that have a digit as shortcut, ten at most."""
 
 
 def _lane(id: str) -> Action:

@@ -1,4 +1,4 @@
-"""Commands of the reference video: how it is seen, and where it begins."""
+"""Commands of the reference video: its display and its start time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.shell.editor import Editor, EditorAction
 
 
 def remove_video(session: Session) -> None:
-    """See the performance without the video."""
+    """Remove the video from the project."""
     session.attempt(Message("edit.remove_video"), lambda project: set_video(project, None))
 
 

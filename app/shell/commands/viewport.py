@@ -1,4 +1,4 @@
-"""Commands of the viewport: views, framing, what is drawn."""
+"""Commands of the viewport: views, framing, and the parts that are drawn."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.shell.action import Action
 from app.shell.commands.command_targets import has_everyone
 
 KEY_STEPS = 2.0
-"""Steps of the wheel that a key stands for."""
+"""Steps of the mouse wheel that one press of a zoom key equals."""
 
 
 def _row(

@@ -1,1 +1,1 @@
-"""Evaluations in the window."""
+"""Actions for evaluations in the editor's window."""

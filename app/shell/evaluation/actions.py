@@ -1,4 +1,4 @@
-"""Actions about evaluations: clips and a questionnaire for viewers, and what viewers answered."""
+"""Actions for evaluations: making clips and a questionnaire for viewers, and showing the viewers' answers."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from app.shell.commands.exchange import can_draw
 from app.shell.editor import Editor, EditorAction
 
 WORKER: Final = "app.cli.evaluation.worker"
-"""Run as a program of its own: the window stays alive meanwhile."""
+"""Module that makes an evaluation in a process of its own, so that the window stays responsive."""
 
 
 def make(editor: Editor) -> None:
-    """Ask what viewers are to judge, and make the clips and the page for them."""
+    """Open the dialog for an evaluation, and make its clips and questionnaire."""
     session = editor.session
     from app.evaluation.process import made_by_process
     from widgets.dialogs.evaluation.make import EvaluationDialog
@@ -30,7 +30,7 @@ def make(editor: Editor) -> None:
 
 
 def show_results(editor: Editor) -> None:
-    """Show what viewers answered."""
+    """Open the dialog with the viewers' answers."""
     from app.evaluation.viewer_files import gather
     from widgets.dialogs.evaluation.results import EvaluationResultsDialog
 

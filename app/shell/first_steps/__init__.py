@@ -1,1 +1,1 @@
-"""First steps: a tour of five stops on the bundled quartet, which waits at each until the user has done it."""
+"""First steps: a tour of five stops on the bundled quartet, each of which waits until the user has done its task."""

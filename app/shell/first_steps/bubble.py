@@ -1,4 +1,4 @@
-"""The bubble of the tour, and the frame around the control that it is about."""
+"""The text bubble of the tour, and the frame around the control that it explains."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ FRAME_PX: Final = 2
 
 
 def place_beside(avoided: QRect, target: QRect, size: QSize, room: QRect) -> QPoint:
-    """Return the top left corner of a bubble in the room that covers nothing of what is avoided, if there is such a
-    place: below, above, right or left of it, as near to the target as can be.
+    """Return the top left corner for a bubble that does not cover a rectangle: below, above, right or left of it, as
+    near to the target as possible.
 
     Parameters
     ----------
     avoided : QRect
-        The part of the window that the target is in, and the target.
+        Rectangle not to be covered: the part of the window with the target.
     """
     x = min(max(target.center().x() - size.width() // 2, room.left()), room.right() + 1 - size.width())
     y = min(max(target.center().y() - size.height() // 2, room.top()), room.bottom() + 1 - size.height())
@@ -41,7 +41,7 @@ def place_beside(avoided: QRect, target: QRect, size: QSize, room: QRect) -> QPo
 
 
 class Spotlight(QWidget):
-    """A frame in the accent's colour, through which the mouse goes."""
+    """A frame in the accent colour that lets mouse events through."""
 
     def __init__(self, session: Session, window: QWidget) -> None:
         super().__init__(window)
@@ -62,14 +62,10 @@ class Spotlight(QWidget):
 
 
 class Bubble(Retranslated, QFrame):
-    """Says what to do at a stop and how far the tour is, with buttons to go on, back and away.
+    """A bubble with the task and number of a stop and buttons for next, back and close.
 
-    Signals
-    -------
-    back_requested(), next_requested(), closed()
-        A button was pressed.
-    left()
-        Escape gives the keyboard back.
+    Signals ------- back_requested(), next_requested(), closed() The button of that name was pressed. left() Escape was
+    pressed, which gives up the keyboard focus.
     """
 
     back_requested = Signal()
@@ -99,14 +95,14 @@ class Bubble(Retranslated, QFrame):
         self.hide()
 
     def say(self, step: str, title: str, text: str, state: str, forward: str, is_done: bool, is_first: bool) -> None:
-        """Show texts in the bubble, and take the height that they need.
+        """Show the texts of a stop, and fit the height to them.
 
         Parameters
         ----------
         forward : str
-            Text of the button that goes on.
+            Text of the button that leads to the next stop.
         is_done : bool
-            True if the work of the stop was done.
+            True if the task of the stop is done.
         """
         for label, words in ((self._step, step), (self._title, title), (self._text, text), (self._state, state)):
             label.setText(words)
@@ -120,7 +116,7 @@ class Bubble(Retranslated, QFrame):
         self.adjustSize()
 
     def apply_theme(self) -> None:
-        """Show it in the theme's colours."""
+        """Apply the theme's colours."""
         tokens = self._session.tokens
         self.setStyleSheet(
             f"#first_steps {{ background: {tokens.raised}; border: 1px solid {tokens.accent}; border-radius: 7px; }}"

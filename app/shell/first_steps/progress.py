@@ -1,4 +1,4 @@
-"""Progress of the tour: a value that goes on by what the user does and by its buttons."""
+"""Progress of the tour: an immutable value that changes with the user's actions and the tour's buttons."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from app.project.model import Project
 
 @dataclass(frozen=True)
 class TourFacts:
-    """State of the editor by which the user's work is recognised.
+    """Facts about the editor's state by which completed tasks are recognised.
 
     Attributes
     ----------
     is_playing : bool
     fingerings : frozenset of (str, PinFingering)
-        Pinned fingerings, with the ids of their players.
+        Pinned fingerings with the ids of their players.
     breaths : frozenset of (str, int)
-        Starts of the breaths that were set by hand and not added, with the ids of their players.
+        Start ticks of existing breaths that were set by hand, with the ids of their players.
     breath_ticks : frozenset of (str, int)
-        Starts of the breaths of all plans, with the ids of their players.
+        Start ticks of the breaths in all plans, with the ids of their players.
     amplitudes : mapping of str to float
-        By the ids of the players.
+        Amplitude of each player's motion, by player id.
     is_exporting : bool
         True if the export dialog is open.
     """
@@ -39,7 +39,7 @@ class TourFacts:
 
 
 def facts_of(project: Project, plans: Mapping[str, PlayerPlan], is_playing: bool, is_exporting: bool) -> TourFacts:
-    """Gather the facts of a project and its newest plans."""
+    """Return the facts about a project and its newest plans."""
     made = [(player, each) for player in project.players for each in project.corrections.get(player.id, ())]
     return TourFacts(
         is_playing,
@@ -73,22 +73,24 @@ STOPS: Final[Mapping[str, Callable[[TourFacts, TourFacts], bool]]] = {
     "amplitude": _has_other_amplitude,
     "export": lambda then, now: now.is_exporting,
 }
-"""The stops in their order; each compares the facts of now with those at the arrival to find that it is done."""
+"""The stops in order, each with a function of the facts at arrival and the present facts that is true if the task is
+done.
+"""
 _NAMES: Final = tuple(STOPS)
 
 
 @dataclass(frozen=True)
 class TourProgress:
-    """The tour at a stop.
+    """Current stop of the tour and the tasks done so far.
 
     Attributes
     ----------
     arrival : TourFacts
-        The facts when the user came to the stop.
+        Facts at the arrival at the stop.
     number : int
-        Of the stop, from 0; that of none once the tour is over.
+        Index of the stop from 0; the number of stops after the tour has ended.
     done : frozenset of str
-        Stops whose work was done, whatever was undone since.
+        Names of the stops whose task was done, even if it was undone later.
     """
 
     arrival: TourFacts
@@ -97,12 +99,12 @@ class TourProgress:
 
     @property
     def stop(self) -> str:
-        """Name of the stop; empty once the tour is over."""
+        """Return the name of the stop, empty after the tour has ended."""
         return _NAMES[self.number] if self.number < len(_NAMES) else ""
 
     @property
     def is_done(self) -> bool:
-        """True if the work of this stop was done."""
+        """True if the task of this stop is done."""
         return self.stop in self.done
 
     @property
@@ -111,7 +113,7 @@ class TourProgress:
         return self.number == len(_NAMES) - 1
 
     def observe(self, now: TourFacts) -> TourProgress:
-        """Recognise the work of this stop."""
+        """Return the progress with the task of this stop marked as done if the facts show it."""
         if not self.stop or self.is_done:
             return self
         if STOPS[self.stop](self.arrival, now):
@@ -122,9 +124,9 @@ class TourProgress:
         return self
 
     def next(self, now: TourFacts) -> TourProgress:
-        """Go on to the next stop, or end the tour, whether or not this one is done."""
+        """Return the progress at the next stop, or after the last one, even if the task is not done."""
         return TourProgress(now, min(self.number + 1, len(_NAMES)), self.done)
 
     def back(self, now: TourFacts) -> TourProgress:
-        """Go back to the stop before."""
+        """Return the progress at the previous stop."""
         return TourProgress(now, max(self.number - 1, 0), self.done)

@@ -1,4 +1,4 @@
-"""The tour in the window: opens the quartet, points at real controls, and watches what the user does."""
+"""The tour in the window: opens the quartet, points at controls, and observes the user's actions."""
 
 from __future__ import annotations
 
@@ -20,25 +20,27 @@ from widgets.common.actions import actions
 from widgets.common.section import Section
 
 AIR: Final = QMargins(3, 3, 3, 3)
-"""Between a control and the frame around it."""
+"""Margins between a control and the frame around it in pixels."""
 LOOK_AGAIN_MS: Final = 200
-"""Controls move when panels are resized and scrolled: so often the tour looks where they are."""
+"""Interval in milliseconds at which the tour follows controls that have moved, as when panels are resized or
+scrolled.
+"""
 
 
 @dataclass(frozen=True)
 class TourTarget:
-    """A control that a stop is about.
+    """The control that a stop is about.
 
     Attributes
     ----------
     control : callable
-        Finds it in the window.
+        Function that finds the control in the window.
     avoided : callable
-        The part of the window that the bubble leaves free: what is needed for the work.
+        Function that returns the part of the window that the bubble must not cover, since the task needs it.
     prepare : callable
-        Brings the control into view.
+        Function that scrolls or opens what is necessary to show the control.
     action : str
-        Command whose shortcut the text of the stop names.
+        Id of the action whose shortcut is named in the text of the stop.
     """
 
     control: Callable[[Window], QRect]
@@ -56,7 +58,7 @@ def _named(name: str) -> Callable[[Window], QRect]:
 
 
 def _seen(widget: QWidget, window: Window) -> QRect:
-    """The part of a widget that is in sight, in the window; empty if there is none."""
+    """Return the visible part of a widget in the window's coordinates; empty if it is hidden."""
     if not widget.isVisible() or not window.isAncestorOf(widget):
         return QRect()
     box = QRect(widget.mapTo(window, QPoint()), widget.size())
@@ -112,7 +114,7 @@ TARGETS: Final[Mapping[str, TourTarget]] = {
     "amplitude": TourTarget(_named("parameter_amplitude"), _named("dock_players"), _show_amplitude, "play.toggle"),
     "export": TourTarget(_export_menu, _bars, _nothing, "export.files"),
 }
-"""By the names of `STOPS`."""
+"""The controls by the names of `STOPS`."""
 
 
 class FirstSteps(QObject):
@@ -121,7 +123,7 @@ class FirstSteps(QObject):
     Parameters
     ----------
     editor : Editor
-        Its window is the parent.
+        Editor whose window is the parent.
     """
 
     def __init__(self, editor: Editor) -> None:
@@ -146,8 +148,9 @@ class FirstSteps(QObject):
         self._window.installEventFilter(self)
 
     def begin(self) -> None:
-        """Open the quartet, unless the user keeps the present piece, and go to the first stop. A tour that is under way
-        comes into view again and takes the keyboard."""
+        """Open the quartet, unless the user keeps the present piece, and show the first stop. A running tour is brought
+        into view and gets the keyboard focus.
+        """
         if self.progress is not None:
             self._arrive()
             # As by Tab: then Space presses the button, and does not play.
@@ -157,7 +160,7 @@ class FirstSteps(QObject):
         self._editor.files.open_example()
 
     def end(self) -> None:
-        """Take the tour away; what was done stays."""
+        """Close the tour; the user's edits stay."""
         had_keys = self.bubble.isAncestorOf(self._window.focusWidget() or self._window)
         self.progress = None
         self._look_again.stop()
@@ -208,7 +211,7 @@ class FirstSteps(QObject):
             self.end()
 
     def _arrive(self) -> None:
-        """Bring the control of the stop into view."""
+        """Show the control of the current stop."""
         if self.progress is not None:
             self._window.set_full_screen(False)
             TARGETS[self.progress.stop].prepare(self._window)
@@ -246,7 +249,7 @@ class FirstSteps(QObject):
         self._place()
 
     def _place(self) -> None:
-        """Put frame and bubble where the control is now."""
+        """Move frame and bubble to the present place of the control."""
         if self.progress is None:
             return
         target = TARGETS[self.progress.stop]

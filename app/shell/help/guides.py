@@ -1,7 +1,7 @@
-"""The guides: Markdown files of ``docs``, in the language of the editor where there is a translation.
+"""The guides: Markdown files in ``docs``, in the editor's language if a translation exists.
 
-A translation stands beside its guide, ``acting_ja.md`` beside ``acting.md``, with the same headings in the same order,
-so that a place in one is a place in the other. Qt's Markdown reads them; HTML in a guide is not read.
+A translation lies beside its guide (``acting_ja.md`` beside ``acting.md``) and has the same headings in the same order,
+so that section numbers agree. Qt renders the Markdown; HTML in it is ignored.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Final
 from PySide6.QtGui import QTextBlock, QTextDocument
 
 FOLDER: Final = Path(str(files("resources"))).parent / "docs"
-"""Beside the packages, in a checkout as in an installation."""
+"""Folder of the guides, beside the packages in a checkout and in an installation."""
 FEATURES: Final = (
     QTextDocument.MarkdownFeature.MarkdownDialectGitHub.value | QTextDocument.MarkdownFeature.MarkdownNoHTML.value
 )
@@ -30,19 +30,19 @@ ORDER: Final = (
     *("add-an-instrument", "metadata", "command-line", "inspect", "glossary"),
     *("install", "tested", "licences", "security", "conduct", "architecture"),
 )
-"""Guides as the contents list them: the window, the music, the acting, recordings, characters, export, tables."""
+"""Names of the guides in the order of the contents: window, music, acting, recordings, characters, export, tables."""
 
 
 @dataclass(frozen=True)
 class GuideSection:
-    """A heading of a guide with the text below it.
+    """A heading of a guide and the text below it.
 
     Attributes
     ----------
     level : int
         1 for the title of the guide.
     anchor : str
-        Part of a link after ``#``, as code hosts make it from the heading.
+        Part of a link after ``#``, derived from the heading as code hosts do.
     block : int
         Number of the heading's block in the document.
     text : str
@@ -66,7 +66,7 @@ class Guide:
         File name of the English guide without its ending.
     markdown : str
     is_translated : bool
-        False if the text is English although another language is shown.
+        False if the text is English because there is no translation.
     sections : tuple of GuideSection
         The title first.
     """
@@ -78,11 +78,11 @@ class Guide:
 
     @property
     def title(self) -> str:
-        """The first heading."""
+        """Return the title, which is the first heading."""
         return self.sections[0].heading
 
     def number(self, anchor: str) -> int | None:
-        """Return the number of the section with an anchor; the first for an empty one, None where there is none."""
+        """Return the index of the section with an anchor: 0 for an empty anchor, None if there is no such section."""
         if not anchor:
             return 0
         return next((number for number, section in enumerate(self.sections) if section.anchor == anchor), None)
@@ -90,7 +90,7 @@ class Guide:
 
 @dataclass(frozen=True)
 class SearchHit:
-    """A section that a search found, with the text around the first word in it."""
+    """A section found by a search, with an excerpt around the first match."""
 
     guide: str
     number: int
@@ -129,7 +129,7 @@ def guide(name: str, language: str) -> Guide:
 
 
 def sections(markdown: str) -> tuple[GuideSection, ...]:
-    """Return the headings of a text, with what stands below each."""
+    """Return the headings of a Markdown text with the text below each."""
     document = QTextDocument()
     document.setMarkdown(markdown, QTextDocument.MarkdownFeature(FEATURES))
     found: list[GuideSection] = []
@@ -162,12 +162,13 @@ def _blocks(document: QTextDocument) -> Iterator[QTextBlock]:
 
 
 EXCERPT: Final = 90
-"""Characters of an excerpt on each side of the first word found."""
+"""Number of characters of an excerpt on each side of the first match."""
 
 
 def search(words: str, language: str) -> tuple[SearchHit, ...]:
-    """Return the sections of all guides in which every word occurs: first those with the words in their heading, then
-    those that have them most often."""
+    """Return the sections of all guides that contain every word: those with the words in the heading first, then by
+    number of matches.
+    """
     searched = words.casefold().split()
     if not searched:
         return ()

@@ -1,4 +1,4 @@
-"""The page on which a guide is read."""
+"""The text view of a guide."""
 
 from __future__ import annotations
 
@@ -33,20 +33,17 @@ SIZES_PT: Final = (8.0, 9.5, 11.0, 12.5, 14.5, 17.0, 20.0)
 USUAL_SIZE: Final = SIZES_PT.index(11.0)
 assert FONT_SIZE_PT in SIZES_PT
 LINE_HEIGHT: Final = 125.0
-"""Per cent."""
+"""Line height in per cent."""
 MARGIN_PX: Final = 22
 MARK_OPACITY: Final = 0.3
 ABOVE_PX: Final = 6
-"""Room above a heading that is brought to the top."""
+"""Space in pixels above a heading that is scrolled to the top."""
 
 
 class GuidePage(QTextBrowser):
-    """A guide as text with pictures.
+    """A text browser for one guide with its pictures.
 
-    Signals
-    -------
-    followed(QUrl)
-        A link was clicked, as it is written in the guide.
+    Signals ------- followed(QUrl) A link of the guide was clicked; its address is unchanged.
     """
 
     followed = Signal(QUrl)
@@ -68,7 +65,7 @@ class GuidePage(QTextBrowser):
 
     @property
     def guide(self) -> Guide | None:
-        """The guide that is shown."""
+        """The guide on display."""
         return self._guide
 
     def show_guide(self, guide: Guide) -> None:
@@ -86,14 +83,14 @@ class GuidePage(QTextBrowser):
         self.verticalScrollBar().setValue(0)
 
     def go_to(self, number: int) -> None:
-        """Bring a section's heading to the top."""
+        """Scroll a section's heading to the top."""
         if self._guide is None:
             return
         block = self.document().findBlockByNumber(self._guide.sections[number].block)
         self._bring_up(block if number else self.document().begin())
 
     def section_in_sight(self) -> int:
-        """Return the number of the section that is read at the top."""
+        """Return the index of the section at the top of the view."""
         if self._guide is None:
             return 0
         top = self._block_at_top().blockNumber()
@@ -101,7 +98,7 @@ class GuidePage(QTextBrowser):
         return begun[-1] if begun else 0
 
     def mark(self, words: str) -> None:
-        """Mark the places of words that were searched for."""
+        """Highlight the matches of a search."""
         tokens, marked = self._session.tokens, []
         shade = QTextCharFormat()
         ground = QColor(tokens.accent)
@@ -119,12 +116,12 @@ class GuidePage(QTextBrowser):
     # Looks
 
     def zoom(self, steps: int) -> None:
-        """Make the letters larger or smaller; 0: as they come."""
+        """Make the font larger or smaller by steps; 0 restores the default size."""
         self._size = min(max(self._size + steps, 0), len(SIZES_PT) - 1) if steps else USUAL_SIZE
         self._keep_place(self._apply_size)
 
     def apply_theme(self) -> None:
-        """Show the guide in the theme's colours."""
+        """Apply the theme's colours."""
         if self._guide is not None:
             self._keep_place(self._dress)
 
@@ -135,7 +132,7 @@ class GuidePage(QTextBrowser):
         self.document().setDefaultFont(font)
 
     def _dress(self) -> None:
-        """Room between lines, and quiet tables, code and links."""
+        """Set the line height, and plain styles for tables, code and links."""
         tokens, document = self._session.tokens, self.document()
         cursor = QTextCursor(document)
         cursor.beginEditBlock()
@@ -168,7 +165,7 @@ class GuidePage(QTextBrowser):
         cursor.endEditBlock()
 
     def _fit_pictures(self) -> None:
-        """Give each picture the width of the page at most."""
+        """Shrink pictures wider than the page."""
         ratio = self.devicePixelRatioF()
         room = self.viewport().width() - 2 * MARGIN_PX
         for name, picture in self._pictures.items():
@@ -200,7 +197,9 @@ class GuidePage(QTextBrowser):
     # Qt overrides
 
     def loadResource(self, kind: int, name: QUrl | str) -> object:
-        """Pictures are given to the document; nothing else is read."""
+        """Return None for every resource, since pictures are added to the document directly and nothing else may be
+        loaded.
+        """
         return None
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -210,7 +209,7 @@ class GuidePage(QTextBrowser):
 
 
 def _fragments(block: QTextBlock) -> Iterator[tuple[int, int, QTextCharFormat]]:
-    """Pieces of a block with one format: position, length, format."""
+    """Yield the pieces of a block with uniform format: position, length, format."""
     fragments = block.begin()
     while not fragments.atEnd():
         fragment = fragments.fragment()
@@ -235,6 +234,6 @@ def _picture_names(document: QTextDocument) -> set[str]:
 
 
 def _picture_path(name: str) -> Path | None:
-    """Return the file of a picture in the folder of the guides; None: there is none, or it is somewhere else."""
+    """Return the path of a picture within the guides' folder; None if it does not exist or lies elsewhere."""
     path = (FOLDER / name).resolve()
     return path if path.is_relative_to(FOLDER.resolve()) and os.path.isfile(path) else None

@@ -1,4 +1,4 @@
-"""The guides' places for parts of the window and dialogs, by object names: one table for F1 and the help buttons."""
+"""Sections of the guides about parts of the window and dialogs, by object name, for F1 and for help buttons."""
 
 from __future__ import annotations
 
@@ -12,13 +12,15 @@ from PySide6.QtWidgets import QApplication, QMenu, QWidget
 
 _TABLE: Final = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
 PLACES: Final[Mapping[str, str]] = _TABLE["parts"]
-"""Guide, and after ``#`` the anchor of its heading. A widget without a place of its own has that of what it is in."""
+"""Guide of each object name with the anchor of a heading after ``#``. Other widgets use the entry of the nearest
+parent.
+"""
 ACTIONS: Final[Mapping[str, str]] = _TABLE["actions"]
-"""Places of commands, by the beginning of their ids; others have that of their menu."""
+"""Guide sections of commands by the beginning of their ids; other commands use the section of their menu."""
 
 
 def place_of(widget: QWidget) -> str:
-    """Return the place for a widget: its own, or that of the nearest part it is in."""
+    """Return the guide section about a widget or the nearest parent that has one."""
     found: QWidget | None = widget
     while found is not None:
         if found.objectName() in PLACES:
@@ -28,7 +30,7 @@ def place_of(widget: QWidget) -> str:
 
 
 def place_in_menu(menu: QMenu) -> str:
-    """Return the place for the command under the mouse in an open menu, or for the menu where it has none."""
+    """Return the guide section about the command under the mouse in an open menu, or about the menu."""
     chosen = menu.activeAction()
     if chosen is None:
         return place_of(menu)
@@ -38,8 +40,9 @@ def place_in_menu(menu: QMenu) -> str:
 
 
 def part_under(pointer: QPoint, window: QWidget) -> QWidget:
-    """Return the widget under the pointer if it is a part of the window, else the one that has the keyboard, else the
-    window."""
+    """Return the widget under the pointer if it belongs to the window, else the one with the keyboard focus, else the
+    window.
+    """
     under = QApplication.widgetAt(pointer)
     part = under
     while part is not None and part is not window:

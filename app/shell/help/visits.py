@@ -1,4 +1,4 @@
-"""Places of the guides that were read one after another."""
+"""History of the guide sections that were read."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 Place: TypeAlias = tuple[str, int]
-"""Name of a guide, and the number of its section."""
+"""Name of a guide, and the index of its section."""
 
 
 @dataclass(frozen=True)
 class Visits:
-    """The places read so far, and the one that is shown; a new one takes the place of those that were gone back from.
+    """The history of visited sections and the position in it; a new visit discards the sections after the position.
 
     Attributes
     ----------
     places : tuple of Place
     at : int
-        Number of the place that is shown; -1: none yet.
+        Index of the section on display; -1 if there is none.
     """
 
     places: tuple[Place, ...] = ()
@@ -25,30 +25,30 @@ class Visits:
 
     @property
     def here(self) -> Place | None:
-        """The place that is shown."""
+        """The section on display."""
         return self.places[self.at] if self.places else None
 
     @property
     def can_go_back(self) -> bool:
-        """True if a place was read before this one."""
+        """True if there is an earlier section."""
         return self.at > 0
 
     @property
     def can_go_forward(self) -> bool:
-        """True if a place was gone back from."""
+        """True if there is a later section."""
         return self.at < len(self.places) - 1
 
     def visit(self, place: Place) -> Visits:
-        """Show a place; nothing changes if it is shown."""
+        """Return the history after visiting a section; unchanged if it is on display."""
         if place == self.here:
             return self
         places = (*self.places[: self.at + 1], place)
         return Visits(places, len(places) - 1)
 
     def back(self) -> Visits:
-        """Show the place before, if there is one."""
+        """Return the history at the previous section, if there is one."""
         return Visits(self.places, self.at - 1) if self.can_go_back else self
 
     def forward(self) -> Visits:
-        """Show the place after, if there is one."""
+        """Return the history at the next section, if there is one."""
         return Visits(self.places, self.at + 1) if self.can_go_forward else self

@@ -1,4 +1,4 @@
-"""The help window: the guides with their contents, search, and the way back."""
+"""The help window: guides with contents, search and history."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ from widgets.common.plain import Label
 SIZE: Final = QSize(940, 640)
 LIST_PX: Final = 280
 DEEPEST: Final = 3
-"""Level of the smallest headings in the contents."""
+"""Level of the deepest headings in the contents."""
 WEB: Final = ("http", "https")
-"""Schemes of links that the browser opens."""
+"""Schemes of links that the web browser opens."""
 _PLACE: Final = int(Qt.ItemDataRole.UserRole)
 
 
 class HelpWindow(Retranslated, QDialog):
-    """A window beside the editor's, which stays usable while a modal dialog is open.
+    """A separate window that stays usable while a modal dialog is open.
 
     Parameters
     ----------
     session : Session
     language : Language
-        Picks the translation of each guide.
+        Language in which guides are shown.
     parent : QWidget
         The editor's window.
     """
@@ -113,14 +113,14 @@ class HelpWindow(Retranslated, QDialog):
     # Places
 
     def read(self, name: str, section: str | int = "") -> None:
-        """Show a guide at a heading, and the window in front.
+        """Open a guide at a section, and raise the window.
 
         Parameters
         ----------
         name : str
             See `Guide.name`.
         section : str or int
-            Anchor of a section in the English guide, or its number; an anchor of none: the beginning.
+            Anchor of a section in the English guide, or its index; an unknown anchor stands for the beginning.
         """
         number = section if isinstance(section, int) else guide(name, "en").number(section) or 0
         self.show()
@@ -133,16 +133,16 @@ class HelpWindow(Retranslated, QDialog):
 
     @property
     def place(self) -> Place | None:
-        """The guide that is shown and the number of the section that was opened."""
+        """The guide on display and the index of the section that was opened."""
         return self._visits.here
 
     def go_back(self) -> None:
-        """Show the place before."""
+        """Show the previous section in the history."""
         self._visits = self._visits.back()
         self._show_place()
 
     def go_forward(self) -> None:
-        """Show the place after."""
+        """Show the next section in the history."""
         self._visits = self._visits.forward()
         self._show_place()
 
@@ -169,7 +169,7 @@ class HelpWindow(Retranslated, QDialog):
         return guide(name, self._language.code)
 
     def _follow(self, link: QUrl) -> None:
-        """Follow a link of the guide that is shown: to a guide, or to the web by the browser."""
+        """Open a link of the guide: another guide, or a web page in the browser."""
         here = self._visits.here
         if here is None:
             return
@@ -247,7 +247,7 @@ class HelpWindow(Retranslated, QDialog):
             self._go_to_hit(self.hits.item(0))
 
     def _leave(self) -> None:
-        """Escape ends a search, then closes the window."""
+        """End the search on Escape; close the window if there is none."""
         if self.search_field.text():
             self.search_field.clear()
         else:
@@ -268,7 +268,7 @@ class HelpWindow(Retranslated, QDialog):
     # Modality
 
     def _stay_usable(self, window: QWindow | None) -> None:
-        """Belong to the modal dialog that is in front, which blocks every window that is not its own."""
+        """Make the front modal dialog the parent, since a modal dialog blocks all windows but its children."""
         own, editor = self.windowHandle(), self._editor.windowHandle()
         if own is None or not self.isVisible():
             return
