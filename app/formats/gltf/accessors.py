@@ -253,6 +253,16 @@ class Accessors:
             raise self.damaged("accessor type")
         return self._scaled(accessor, values)
 
+    def weights(self, number: object, width: int) -> FloatArray:
+        """Accessor as weights (N, width) of bones; what is no number is 0, since some exporters divide 0 by 0 for
+        vertices that no bone moves."""
+        accessor, values = self._elements(number)
+        if values.shape[1] != width:
+            raise self.damaged("accessor type")
+        if values.dtype.kind == "f":
+            values = np.where(np.isfinite(values), values, 0.0).astype(values.dtype)
+        return self._scaled(accessor, values)
+
     def whole(self, number: object, width: int) -> IntArray:
         """Accessor as integers (N, width)."""
         _, values = self._elements(number)

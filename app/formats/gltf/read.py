@@ -137,7 +137,8 @@ class _Reader(Accessors):
         def optional(name: str, width: int) -> FloatArray | None:
             if attributes.get(name) is None:
                 return None
-            values = self.real(attributes[name], width)
+            read = self.weights if name.startswith("WEIGHTS") else self.real
+            values = read(attributes[name], width)
             if len(values) != count:
                 raise self.damaged(name)
             return values

@@ -134,6 +134,7 @@ def build_figure(
         humanoid={joint: bone_of[node] for joint, node in (humanoid or {}).items() if node in bone_of},
         expressions=expressions or {},
         posed=posed,
+        notes=tuple(note for part in parts if (note := _unheld(part, file)) is not None),
     )
     return _in_metres(figure)
 
@@ -231,6 +232,14 @@ def nearest_rotations(world: FloatArray) -> FloatArray:
 def _named_apart(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     names = numbered((mesh.name or "mesh" for mesh in meshes), key=str)
     return tuple(replace(mesh, name=name) for mesh, name in zip(meshes, names, strict=True))
+
+
+def _unheld(part: FigurePart, file: str) -> Message | None:
+    """A note on vertices that no bone moves, if there are any in a mesh that bones move."""
+    count = int((part.mesh.weights.sum(axis=1) <= 0.0).sum())
+    if not count:
+        return None
+    return Message("figure.unheld", {"file": file, "mesh": part.mesh.name, "count": count})
 
 
 def _at_rest(part: FigurePart, above: Sequence[int]) -> Mesh:

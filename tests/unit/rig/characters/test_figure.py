@@ -449,6 +449,22 @@ def test_a_figure_taller_than_any_person_is_taken_as_it_is_and_that_is_said(
     assert not has_odd_height(at_height(figure, 1.7))
 
 
+def test_weights_that_are_no_numbers_are_none_and_that_is_said(ours: Character, tmp_path: Path) -> None:
+    """Some exporters divide 0 by 0 for vertices that no bone moves; the character is not refused for it."""
+    made = foreign(ours)
+    name, weights = made.meshes[0].name, made.meshes[0].weights.copy()
+    weights[:5] = np.nan
+    figure = read_figure(
+        write_glb(tmp_path / "x.glb", replace(made, meshes=[replace(made.meshes[0], weights=weights)]))
+    )
+    (note,) = figure.notes
+    assert (note.id, note.arguments["mesh"], note.arguments["count"]) == ("figure.unheld", name, 5)
+    (mesh,) = figure.meshes
+    assert np.isfinite(mesh.positions_m).all()
+    np.testing.assert_allclose(mesh.weights.sum(axis=1), 1.0, atol=1e-3)
+    assert {int(bone) for bone in mesh.joints[:5, 0]} == {int(mesh.joints.min())}
+
+
 @pytest.mark.parametrize("kind", ["glb", "fbx"])
 def test_damage_is_a_file_error(ours: Character, tmp_path: Path, kind: str) -> None:
     small = replace(ours, meshes=tuple(replace(mesh, morphs=()) for mesh in ours.meshes if mesh.name == "teeth"))
