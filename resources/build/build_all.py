@@ -68,6 +68,17 @@ STEPS = (
         lambda arguments: str(arguments.characters_python),
     ),
     Step(
+        "wardrobe",
+        ("resources/characters/wardrobe/*.glb", "resources/characters/wardrobe/*.jpg"),
+        lambda arguments: (
+            (("resources/build/build_wardrobe.py", "--assets", str(arguments.assets)),)
+            if arguments.characters_python is not None and arguments.assets is not None
+            else ()
+        ),
+        "--characters-python: a Python with anny, and --assets: MakeHuman's",
+        lambda arguments: str(arguments.characters_python),
+    ),
+    Step(
         "bodies",
         ("resources/characters/*.arrays",),
         lambda arguments: (("resources/build/build_bodies.py",),) if arguments.characters_python is not None else (),

@@ -62,14 +62,18 @@ def _by_material(whole: Surface, source: Source) -> Surface:
     return Surface(**(whole.__dict__ | {"triangles": parts}))
 
 
+def visible(tailoring: Tailoring, places: np.ndarray) -> np.ndarray:
+    """(N,) whether T-pose places of the skin are of head, neck or hands."""
+    hands = np.abs(places[:, 0]) > tailoring.wrist_m - HAND_IN_CUFF_M
+    trunk = np.abs(places[:, 0]) < tailoring.shoulder[0]
+    return hands | (trunk & (above_collar(tailoring, places) > -NECK_IN_COLLAR_M))
+
+
 def visible_body(source: Source, fit: SkeletonFit, tailoring: Tailoring) -> Surface:
     """Head, neck and hands: what shirt, trousers and shoes leave to be seen, and a little beneath their edges."""
     whole = _by_material(surface_of(source, fit, "body", ("body",), "skin", morphs=True), source)
     t_pose = fit.to_t_pose(whole.positions, whole.weights)
-    hands = np.abs(t_pose[:, 0]) > tailoring.wrist_m - HAND_IN_CUFF_M
-    trunk = np.abs(t_pose[:, 0]) < tailoring.shoulder[0]
-    head = trunk & (above_collar(tailoring, t_pose) > -NECK_IN_COLLAR_M)
-    shown = hands | head
+    shown = visible(tailoring, t_pose)
     return keep_triangles(whole, {name: shown[faces].all(axis=1) for name, faces in whole.triangles.items()})
 
 

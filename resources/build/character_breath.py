@@ -106,7 +106,8 @@ def _read(gltf: GLTF2, blob: bytearray, index: int) -> np.ndarray:
     kind = {5121: np.uint8, 5123: np.uint16, 5126: np.float32}[accessor.componentType]
     width = {"VEC3": 3, "VEC4": 4}[accessor.type]
     start = (view.byteOffset or 0) + (accessor.byteOffset or 0)
-    return np.frombuffer(bytes(blob), kind, accessor.count * width, start).reshape(-1, width).astype(np.float64)
+    rows = np.frombuffer(bytes(blob), kind, accessor.count * width, start).reshape(-1, width).astype(np.float64)
+    return rows / np.iinfo(kind).max if accessor.normalized else rows
 
 
 def _sparse(gltf: GLTF2, blob: bytearray, deltas: np.ndarray) -> int:

@@ -16,11 +16,18 @@ from pygltflib import GLTF2
 if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
 
-FLOAT, USHORT, UBYTE, UINT = 5126, 5123, 5121, 5125
-_DTYPES = {FLOAT: np.dtype("<f4"), USHORT: np.dtype("<u2"), UBYTE: np.dtype("u1"), UINT: np.dtype("<u4")}
+FLOAT, USHORT, UBYTE, BYTE, UINT = 5126, 5123, 5121, 5120, 5125
+_DTYPES = {
+    FLOAT: np.dtype("<f4"),
+    USHORT: np.dtype("<u2"),
+    UBYTE: np.dtype("u1"),
+    BYTE: np.dtype("i1"),
+    UINT: np.dtype("<u4"),
+}
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 LINEAR, LINEAR_MIPMAP_LINEAR, REPEAT = 9729, 9987, 10497
 TRANSFORM = "KHR_texture_transform"
+QUANTIZED = "KHR_mesh_quantization"
 MORPH_THRESHOLD_M = 2e-6
 
 
@@ -85,6 +92,27 @@ class _Buffer:
         self.accessors.append(entry)
         return len(self.accessors) - 1
 
+    def packed(self, array: np.ndarray, component: int) -> int:
+        """An accessor of numbers within -1 to 1 as integers, each row on a multiple of four bytes."""
+        kind = _DTYPES[component]
+        rows = np.round(np.clip(array, -1.0, 1.0) * np.iinfo(kind).max).astype(kind)
+        width = rows.shape[1]
+        room = -(-width * kind.itemsize // 4) * 4 // kind.itemsize
+        padded = np.zeros((len(rows), room), dtype=kind)
+        padded[:, :width] = rows
+        view = self.view(padded, ARRAY_BUFFER)
+        self.views[view]["byteStride"] = room * kind.itemsize
+        self.accessors.append(
+            {
+                "bufferView": view,
+                "componentType": component,
+                "normalized": True,
+                "count": len(rows),
+                "type": f"VEC{width}",
+            }
+        )
+        return len(self.accessors) - 1
+
     def sparse_vec3(self, array: np.ndarray) -> int:
         """A sparse accessor of (N, 3) offsets: only the rows that differ from zero are stored."""
         rows = np.flatnonzero(np.abs(array).max(axis=1) > MORPH_THRESHOLD_M)
@@ -109,27 +137,42 @@ class _Buffer:
         return len(self.accessors) - 1
 
 
-def _skin_attributes(buffer: _Buffer, weights: np.ndarray) -> dict[str, int]:
+def _shares_of_255(values: np.ndarray) -> np.ndarray:
+    """Weights (N, K) as multiples of 1/255 that sum to 1."""
+    rounded = np.round(values * 255.0)
+    rounded[:, 0] += 255.0 - rounded.sum(axis=1)
+    return rounded / 255.0
+
+
+def _skin_attributes(buffer: _Buffer, weights: np.ndarray, compact: bool) -> dict[str, int]:
     """JOINTS_n and WEIGHTS_n with as many sets of four as the heaviest vertex needs."""
     count = max(4, -(-int((weights > 0).sum(axis=1).max()) // 4) * 4)
     order = np.argsort(-weights, axis=1, kind="stable")[:, :count]
     values = np.take_along_axis(weights, order, axis=1).astype(np.float32)
+    if compact:
+        values = _shares_of_255(values).astype(np.float32)
     order = np.where(values > 0, order, 0)
     attributes = {}
     for start in range(0, count, 4):
         attributes[f"JOINTS_{start // 4}"] = buffer.accessor(order[:, start : start + 4], UBYTE, "VEC4", ARRAY_BUFFER)
-        attributes[f"WEIGHTS_{start // 4}"] = buffer.accessor(values[:, start : start + 4], FLOAT, "VEC4", ARRAY_BUFFER)
+        part = values[:, start : start + 4]
+        attributes[f"WEIGHTS_{start // 4}"] = (
+            buffer.packed(part, UBYTE) if compact else buffer.accessor(part, FLOAT, "VEC4", ARRAY_BUFFER)
+        )
     return attributes
 
 
-def _mesh(buffer: _Buffer, surface: Surface, materials: Sequence[str]) -> dict[str, Any]:
+def _mesh(buffer: _Buffer, surface: Surface, materials: Sequence[str], compact: bool) -> dict[str, Any]:
+    downward = np.stack([surface.uvs[:, 0], 1.0 - surface.uvs[:, 1]], axis=1)
     attributes = {
         "POSITION": buffer.accessor(surface.positions, FLOAT, "VEC3", ARRAY_BUFFER, bounds=True),
-        "NORMAL": buffer.accessor(surface.normals, FLOAT, "VEC3", ARRAY_BUFFER),
-        "TEXCOORD_0": buffer.accessor(
-            np.stack([surface.uvs[:, 0], 1.0 - surface.uvs[:, 1]], axis=1), FLOAT, "VEC2", ARRAY_BUFFER
-        ),
-    } | _skin_attributes(buffer, surface.weights)
+        "NORMAL": buffer.packed(surface.normals, BYTE)
+        if compact
+        else buffer.accessor(surface.normals, FLOAT, "VEC3", ARRAY_BUFFER),
+        "TEXCOORD_0": buffer.packed(downward, USHORT)
+        if compact
+        else buffer.accessor(downward, FLOAT, "VEC2", ARRAY_BUFFER),
+    } | _skin_attributes(buffer, surface.weights, compact)
     targets = [{"POSITION": buffer.sparse_vec3(delta)} for delta in surface.morphs.values()]
     primitives = []
     for material, triangles in surface.triangles.items():
@@ -191,6 +234,8 @@ def _pictures(buffer: _Buffer, textures: Sequence[Texture]) -> dict[str, Any]:
             "mimeType": texture.mime_type,
             "bufferView": buffer.view(np.frombuffer(texture.content, np.uint8)),
         }
+        if not texture.uri
+        else {"name": texture.name, "uri": texture.uri}
         for texture in textures
     ]
     return {
@@ -259,14 +304,20 @@ def write_character(
     materials: Mapping[str, Material],
     meta: Mapping[str, Any],
     suisou: Mapping[str, Any],
+    *,
+    compact: bool = False,
 ) -> None:
-    """Write one character; `positions` are the (J, 3) joint centres of the T-pose as standing on the floor."""
+    """Write one character; `positions` are the (J, 3) joint centres of the T-pose as standing on the floor.
+
+    A `compact` file has normals, texture coordinates and weights as integers: half the size, for what is not looked at
+    from very near.
+    """
     buffer = _Buffer()
     used = [name for name in materials if any(name in surface.triangles for surface in surfaces)]
     textures = list(dict.fromkeys(texture for name in used for texture in materials[name].textures()))
     tiled = any(materials[name].normal_tiles != 1.0 for name in used)
     nodes = _nodes(fit, positions)
-    meshes = [_mesh(buffer, surface, used) for surface in surfaces]
+    meshes = [_mesh(buffer, surface, used, compact) for surface in surfaces]
     inverse_binds = np.linalg.inv(fit.world_from_joint_rest)
     inverse_binds[:, 3] = (0.0, 0.0, 0.0, 1.0)
     skin = {
@@ -281,7 +332,8 @@ def write_character(
         nodes.append({"name": surface.name, "mesh": index, "skin": 0})
     document = {
         "asset": {"version": "2.0", "generator": "Suisou build_characters", "copyright": meta["copyrightInformation"]},
-        "extensionsUsed": ["VRMC_vrm", *([TRANSFORM] if tiled else [])],
+        "extensionsUsed": ["VRMC_vrm", *([TRANSFORM] if tiled else []), *([QUANTIZED] if compact else [])],
+        **({"extensionsRequired": [QUANTIZED]} if compact else {}),
         "scene": 0,
         "scenes": [{"name": meta["name"], "nodes": [0, *mesh_nodes.values()], "extras": {"suisou": suisou}}],
         "nodes": nodes,

@@ -18,10 +18,14 @@ JPEG_QUALITY = 88
 
 @dataclass(frozen=True)
 class Texture:
-    """A picture as stored: the name becomes that of its file, the content is PNG or JPEG."""
+    """A picture as stored: the name becomes that of its file, the content is PNG or JPEG.
+
+    With a `uri` it lies beside the files that use it, and is in none of them.
+    """
 
     name: str
     content: bytes
+    uri: str = ""
 
     @property
     def mime_type(self) -> str:

@@ -1,0 +1,102 @@
+"""Build the outfits in resources/characters/wardrobe: `python resources/build/build_wardrobe.py --assets FOLDER`.
+
+See resources/build/README.md for what has to be installed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+
+# One thread: sums in one order, so that a second build is the same to the bit.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+import numpy as np
+from build_characters import CHARACTERS, CHARACTERS_FOLDER, META, Character
+from character_anatomy import load_person
+from character_breath import add_breath
+from character_garments import measure
+from character_glb import Material, write_character
+from character_shoes import shoes
+from character_skeleton import fit_skeleton
+from character_skin import skin_layout
+from character_source import Source, load_model
+from character_textures import Texture
+from wardrobe_atlas import CLOTH_MEAN_LINEAR, write_atlas
+from wardrobe_outfits import OUTFITS, Outfit, Pieces
+from wardrobe_pieces import Wearer
+
+WEARERS = {"man": "man_adult", "woman": "woman_adult", "": "man_adult"}
+
+
+def _materials(outfit: Outfit, folder: Path) -> dict[str, Material]:
+    atlas = {
+        name: Texture(f"cloth_{name}", (folder / f"cloth_{name}.jpg").read_bytes(), f"cloth_{name}.jpg")
+        for name in ("color", "normal", "orm")
+    }
+    found = {
+        name: Material(
+            tuple(min(1.0, channel / CLOTH_MEAN_LINEAR) for channel in colour),
+            1.0,
+            two_sided=True,
+            colour_texture=atlas["color"],
+            normal_texture=atlas["normal"],
+            orm_texture=atlas["orm"],
+        )
+        for name, colour in outfit.colours.items()
+    }
+    return found | {"skin": Material((0.8, 0.5, 0.4), 0.6)}
+
+
+def build(outfit: Outfit, pieces: Pieces, wearer: Wearer, path: Path) -> None:
+    """Write one outfit as it sits on a finished body."""
+    surfaces = {surface.name: (surface, slot) for surface, slot in pieces}
+    materials = _materials(outfit, path.parent)
+    used = {name for surface, _ in surfaces.values() for name in surface.triangles}
+    tints = {name: name.removeprefix("cloth_") for name in outfit.colours if name in used}
+    about = {
+        "id": outfit.id,
+        "title": {"en": outfit.title[0], "ja": outfit.title[1]},
+        "body": wearer.name,
+        "parts": {name: slot for name, (_, slot) in surfaces.items()},
+        "hides": list(outfit.hides),
+        "tints": tints,
+        "means": dict.fromkeys(tints, CLOTH_MEAN_LINEAR),
+    }
+    meta = META | {"name": f"Suisou {outfit.title[0].lower()}"}
+    parts = [surface for surface, _ in surfaces.values()]
+    write_character(path, wearer.fit, wearer.positions, parts, materials, meta, {"outfit": about}, compact=True)
+    add_breath(path)
+
+
+def wearer_of(character: Character, source: Source, assets: Path) -> Wearer:
+    """Prepare a finished body for its clothes; it stands on its own shoes."""
+    fit = fit_skeleton(source)
+    tailoring = measure(source, fit)
+    soles = shoes(tailoring, fit)
+    floor = float(fit.to_t_pose(soles.positions, soles.weights)[:, 1].min())
+    layout = skin_layout(source.uvs, source.groups["body"].uvs)
+    return Wearer(character.name, source, fit, tailoring, layout, assets, fit.positions_t - np.array([0.0, floor, 0.0]))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--to", type=Path, default=CHARACTERS_FOLDER / "wardrobe", help="folder the files go to")
+    parser.add_argument("--assets", type=Path, required=True, help="folder with MakeHuman's assets")
+    parser.add_argument("outfits", nargs="*", help="ids; none: all")
+    arguments = parser.parse_args()
+    write_atlas(arguments.assets, arguments.to)
+    model = load_model()
+    for character in CHARACTERS:
+        wearer = wearer_of(character, load_person(model, character.phenotype), arguments.assets)
+        for outfit in OUTFITS:
+            for ending, pieces in outfit.pieces.items():
+                if WEARERS[ending] == character.name and outfit.id in (arguments.outfits or [outfit.id]):
+                    path = arguments.to / f"{outfit.id}{'_' if ending else ''}{ending}.glb"
+                    build(outfit, pieces(wearer), wearer, path)
+                    print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,95 @@
+"""The outfits keep their contract: bound to VRM's joints, few materials, one set of pictures."""
+
+from __future__ import annotations
+
+import json
+import struct
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.rig.characters.load_character import load_character
+from app.rig.mesh import Mesh
+from app.rig.model import Character
+
+FOLDER = Path(__file__).resolve().parents[3] / "resources" / "characters"
+OUTFITS = sorted((FOLDER / "wardrobe").glob("*.glb"))
+CLOTH = {"cloth_main", "cloth_second", "cloth_accent"}
+MOST_BYTES = 700_000
+
+
+def about(path: Path) -> dict[str, Any]:
+    data = path.read_bytes()
+    (length,) = struct.unpack_from("<I", data, 12)
+    found: dict[str, Any] = json.loads(data[20 : 20 + length])["scenes"][0]["extras"]["suisou"]["outfit"]
+    return found
+
+
+@cache
+def body(name: str) -> Character:
+    return load_character(FOLDER / f"{name}.glb", name)
+
+
+@cache
+def worn(path: Path) -> Character:
+    return load_character(path)
+
+
+def places(mesh: Mesh) -> set[tuple[int, ...]]:
+    return {tuple(row) for row in np.round(mesh.positions_m / 1e-5).astype(int).tolist()}
+
+
+@pytest.mark.parametrize("path", OUTFITS, ids=lambda path: path.stem)
+def test_an_outfit_says_what_it_is_and_has_what_it_says(path: Path) -> None:
+    outfit, character = about(path), worn(path)
+    assert path.stem in (outfit["id"], f"{outfit['id']}_man", f"{outfit['id']}_woman")
+    assert set(outfit["title"]) == {"en", "ja"}
+    assert list(outfit["parts"]) == [mesh.name for mesh in character.meshes]
+    own = {mesh.name for mesh in body(outfit["body"]).meshes}
+    assert set(outfit["hides"]) <= own
+    assert not set(outfit["parts"]) & (own - set(outfit["hides"]))
+    materials = {material.name for mesh in character.meshes for material in mesh.materials}
+    assert set(outfit["tints"]) == materials - {"skin"} <= CLOTH
+    assert path.stat().st_size < MOST_BYTES
+
+
+@pytest.mark.parametrize("path", OUTFITS, ids=lambda path: path.stem)
+def test_an_outfit_is_bound_as_the_body_it_was_made_on(path: Path) -> None:
+    character, wearer = worn(path), body(about(path)["body"])
+    assert character.skeleton.names == wearer.skeleton.names
+    np.testing.assert_allclose(character.joint_from_mesh, wearer.joint_from_mesh, atol=1e-6)
+    np.testing.assert_allclose(character.skeleton.offsets_m, wearer.skeleton.offsets_m, atol=1e-6)
+    for mesh in character.meshes:
+        np.testing.assert_allclose(mesh.weights.sum(axis=1), 1.0, atol=1e-5)
+        assert {morph.name for morph in mesh.morphs} <= {"chestExpand", "bellyExpand"}
+
+
+def test_all_outfits_share_three_pictures() -> None:
+    digests = {
+        use.texture.digest
+        for path in OUTFITS
+        for mesh in worn(path).meshes
+        for material in mesh.materials
+        for use in (material.textures.color, material.textures.normal, material.textures.occlusion)
+        if use is not None
+    }
+    assert len(digests) == 3
+
+
+def test_bare_skin_continues_the_bodys_own() -> None:
+    bare = [(path, mesh) for path in OUTFITS for mesh in worn(path).meshes if mesh.name.startswith("skin_")]
+    assert bare
+    for path, mesh in bare:
+        skin = next(own for own in body(about(path)["body"]).meshes if own.name == "body")
+        shared = places(mesh) & places(skin)
+        assert len(shared) > 8, (path.stem, mesh.name)
+        faces = {frozenset(map(tuple, np.round(skin.positions_m[row] / 1e-5).astype(int))) for row in skin.triangles}
+        double = [
+            row
+            for row in mesh.triangles
+            if frozenset(map(tuple, np.round(mesh.positions_m[row] / 1e-5).astype(int))) in faces
+        ]
+        assert not double, (path.stem, mesh.name)
