@@ -1,8 +1,8 @@
-"""Suisou: from the notes of a wind ensemble to the performance of its players.
+"""Suisou: converts the notes of a wind ensemble to a performance of animated players.
 
-Linear algebra and k-means work on one thread: the matrices are small, more threads are slower on a busy machine, and
-the last bits would be chance. The libraries read these variables when they are loaded. A later limit lists what is
-loaded, which can deadlock with an import in another thread (issue 228 of threadpoolctl).
+Linear algebra and k-means use one thread: the matrices are small, more threads are slower on a busy machine, and
+rounding would vary from run to run. The libraries read these variables when they are loaded. Limiting them later lists
+loaded libraries, which can deadlock with an import in another thread (threadpoolctl issue 228).
 """
 
 import os

@@ -1,6 +1,6 @@
-"""``python -m app``, and the installed command ``suisou``: a sub-command, or the editor.
+"""Entry point of ``python -m app`` and of the command ``suisou``: runs a sub-command or the editor.
 
-Nothing of Qt is imported before it is known that the editor is requested.
+Qt is imported only after the editor is known to be requested.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from types import FrameType
 
 UTF8_MODE = "PYTHONUTF8"
-"""Python's own variable."""
+"""Environment variable of Python's UTF-8 mode."""
 OPENED = (".suisou", *MUSIC)
-"""A file that is named alone, as a desktop does, opens in the editor."""
+"""Suffixes of files that open in the editor if given without a command, as a desktop does."""
 
 
 def main() -> int:
@@ -42,19 +42,20 @@ def main() -> int:
 
 
 def begin_again_in_utf8() -> None:
-    """Replace this process by one for which names of files are UTF-8, as they are for Qt and on the disk, whatever the
-    locale says; a terminal keeps its encoding."""
+    """Replace this process by one in which file names are UTF-8 regardless of the locale, as in Qt; a terminal keeps
+    its encoding.
+    """
     encoding = {"PYTHONIOENCODING": f"{sys.stderr.encoding}:backslashreplace"} if sys.stderr.isatty() else {}
     os.execve(sys.executable, sys.orig_argv, {**os.environ, UTF8_MODE: "1", **encoding})
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:
-    """End like a program that a signal has ended, without a word."""
+    """End the process without output and with the exit status of a program killed by a signal."""
     os._exit(128 + number)
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run with these arguments (without the program's own name) and return the exit status."""
+    """Run the program with arguments (without its own name), and return the exit status."""
     from pathlib import Path
 
     from app.cli import main as command_line
@@ -89,7 +90,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def edit(parsed: Namespace) -> int:
-    """Start the editor as the command line says."""
+    """Start the editor with the options of the command line."""
     # Which sound libraries this system lacks is nothing the user can act on.
     os.environ.setdefault("QT_LOGGING_RULES", "qt.multimedia.symbolsresolver=false;qt.multimedia.ffmpeg=false")
     from app.cli.speech import error_sentence

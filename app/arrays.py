@@ -1,4 +1,6 @@
-"""The types of arrays, once: what a shape or a unit adds is said where an array is used; and neighbours in them."""
+"""Types of arrays for the whole program (shapes and units are documented where arrays are used), and a running
+median.
+"""
 
 from __future__ import annotations
 
@@ -9,13 +11,13 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 AnyFloatArray: TypeAlias = npt.NDArray[np.floating]
-"""Any precision."""
+"""Array of floats of any precision."""
 SingleArray: TypeAlias = npt.NDArray[np.float32]
 IntArray: TypeAlias = npt.NDArray[np.int64]
 IndexArray: TypeAlias = npt.NDArray[np.intp]
-"""Places in another array, as NumPy itself makes them."""
+"""Array of indices into another array, as made by NumPy."""
 AnyIntArray: TypeAlias = npt.NDArray[np.integer]
-"""Any size."""
+"""Array of integers of any size."""
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
@@ -26,7 +28,7 @@ def rows_of(values: npt.NDArray[Any], count: int) -> npt.NDArray[Any]:
 
 
 def running_medians(values: AnyFloatArray | IntArray, count: int) -> FloatArray:
-    """(N - count + 1,): medians of ``count`` neighbouring values, an odd number; faster than by `numpy.median`."""
+    """Return medians (N - count + 1,) of ``count`` (odd) neighbouring values; faster than `numpy.median`."""
     rows = rows_of(np.asarray(values, np.float64), count)
     rows.sort(axis=0)
     return np.asarray(rows[count // 2])

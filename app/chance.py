@@ -1,4 +1,6 @@
-"""Chances and seeds that depend on nothing but what names them: the same on every machine and in every run."""
+"""Random numbers and seeds that are functions of names only, so that they are equal on every machine and in every
+run.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +11,17 @@ _BETWEEN = "\x1f"
 
 
 def chance(*parts: str | int) -> float:
-    """A number in [0, 1) for what these name: the same seed, player and score position give the same one."""
+    """Return a number in [0, 1) determined by its arguments, such as seed, player and score position."""
     return share_of(hashlib.blake2b(_BETWEEN.join(map(str, parts)).encode(), digest_size=8).digest())
 
 
 def seed_of(*parts: str | int) -> int:
-    """A seed for what these name, 0 to 2**31 - 1."""
+    """Return a seed determined by its arguments, 0 to 2**31 - 1."""
     return int(chance(*parts) * 2**31)
 
 
 def next_seed(name: str, seed: int) -> int:
-    """Another seed for who had this one: what every die throws. Thrown again, it is yet another."""
+    """Return the next seed of a series, for commands that generate another variation."""
     return seed_of("another", name, seed)
 
 
@@ -30,8 +32,9 @@ def performed_seed(seed: int, piece_seed: int) -> int:
 
 @lru_cache(maxsize=4096)
 def partial_digest(parts: tuple[str | int, ...]) -> hashlib.blake2b:
-    """The digest of what comes before the last part: thousands of places of a line have it in common. Copy it, add the
-    last part, and `share_of` is the chance of all."""
+    """Return the digest of all parts but the last, which thousands of positions share. Copy it and add the last part;
+    `share_of` then gives the same number as `chance`.
+    """
     return hashlib.blake2b(_BETWEEN.join([*map(str, parts), ""]).encode(), digest_size=8)
 
 

@@ -1,6 +1,6 @@
-"""Processes that this one starts, and what they send each other: typed messages, each after its length.
+"""Child processes and communication with them: typed messages, each preceded by its length.
 
-A child works until its input ends, so that it never outlives who started it. What limits it is in `app.child_limits`.
+A child works until its input ends, so that it never outlives its parent. Limits are in `app.child_limits`.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ T = TypeVar("T")
 
 
 class MessageChannel(Generic[T]):
-    """Typed messages to another process and back.
+    """Typed messages to and from another process.
 
     Parameters
     ----------
     kind : type
-        Of what is received; may be a union of tagged structs.
+        Type of received messages; may be a union of tagged structs.
     incoming, outgoing : binary stream
     """
 
@@ -45,25 +45,25 @@ class MessageChannel(Generic[T]):
         self.incoming, self.outgoing = incoming, outgoing
 
     def send(self, message: object) -> None:
-        """Send a message. Raises OSError where the other side has ended."""
+        """Send a message. Raises OSError if the other side has ended."""
         self.put(message)
         self.outgoing.flush()
 
     def put(self, message: object) -> None:
-        """Send a message with those that follow, at the next `send` or flush."""
+        """Add a message to those sent at the next `send` or flush."""
         data = _ENCODER.encode(message)
         self.outgoing.write(_LENGTH.pack(len(data)))
         self.outgoing.write(data)
 
     def receive(self) -> T:
-        """Wait for a message.
+        """Wait for a message and return it.
 
         Raises
         ------
         BrokenPipeError
             The other side has ended.
         msgspec.MsgspecError
-            It sent something else.
+            The other side sent something else.
         """
         (length,) = _LENGTH.unpack(self._exactly(_LENGTH.size))
         return self._decoder.decode(self._exactly(length))
@@ -81,9 +81,9 @@ class MessageChannel(Generic[T]):
 
 
 def channel_to_parent(kind: Any, limits: str) -> MessageChannel[Any]:
-    """Confine this process by a row of `app.child_limits.LIMITS`, and reach the one that started it.
+    """Set this process's limits to a row of `app.child_limits.LIMITS`, and return the channel to its parent.
 
-    What libraries print goes to standard error: it would be taken for an answer.
+    Output that libraries print is redirected to standard error, since it would be read as an answer.
     """
     confine_this_process(limits)
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
@@ -94,29 +94,29 @@ def channel_to_parent(kind: Any, limits: str) -> MessageChannel[Any]:
 
 
 class Child(MessageChannel[T]):
-    """A process that this one has started."""
+    """A process started by this one."""
 
     def end(self) -> None:
-        """End the process, even in the middle of its work."""
+        """End the process immediately."""
         raise NotImplementedError
 
 
 class StartedChild(Child[T]):
-    """One of our modules, run as a program.
+    """A module of this program run as a process.
 
     Parameters
     ----------
     kind : type
-        Of its answers.
+        Type of its answers.
     module : str
-        It works for what comes to its input.
+        Name of the module, which processes messages from its input.
     options
-        Of `subprocess.Popen`, above those of `own_process`.
+        Options of `subprocess.Popen`, in addition to those of `own_process`.
 
     Raises
     ------
     OSError
-        No process can be started.
+        The process cannot be started.
     """
 
     def __init__(self, kind: Any, module: str, **options: Any) -> None:
@@ -128,12 +128,12 @@ class StartedChild(Child[T]):
         super().__init__(kind, self.process.stdout, self.process.stdin)
 
     def end(self) -> None:
-        """End the process, even in the middle of its work."""
+        """End the process immediately."""
         self.process.kill()
         self.ended()
 
     def ended(self, within_s: float | None = None) -> int:
-        """The status of the process, whose input ends now; it is killed if it works on for longer."""
+        """End the process's input and return its exit status; kill it if it does not end in time."""
         self.hang_up()
         try:
             status = self.process.wait(within_s)
@@ -149,7 +149,7 @@ class StartedChild(Child[T]):
 def ended_on_request(
     process: subprocess.Popen[bytes], stop_requested: StopRequested, end: Callable[[], None]
 ) -> Iterator[None]:
-    """Call ``end`` once that is requested during the block, after which the process must have ended."""
+    """Call ``end`` if a stop is requested during the block. The process must end after that call."""
 
     def watch() -> None:
         while process.poll() is None:
@@ -167,23 +167,23 @@ def ended_on_request(
 
 
 class ForkedChild(Child[T]):
-    """A copy of this process, with all that it has loaded and made; only where `can_fork`.
+    """A copy of this process with all of its loaded data; only possible if `can_fork`.
 
     Parameters
     ----------
     kind : type
-        Of its answers.
+        Type of its answers.
     work : callable
-        What the copy does with a channel of this process's messages; then it ends.
+        Function that the copy runs with a channel to this process before it ends.
     asked : type
-        Of these messages.
+        Type of messages sent to the copy.
     others : sequence of Child
-        Started before: the copy lets go of what they read, so that they still see when this process ends.
+        Children started earlier: the copy closes its inputs from them, so that they notice the end of this process.
 
     Raises
     ------
     OSError
-        No process can be started.
+        The process cannot be started.
     """
 
     def __init__(
@@ -208,14 +208,14 @@ class ForkedChild(Child[T]):
         _close(there, here)
 
     def end(self) -> None:
-        """End the process, even in the middle of its work."""
+        """End the process immediately."""
         os.kill(self._id, signal.SIGKILL)
         os.waitpid(self._id, 0)
         _close(self.outgoing, self.incoming)
 
 
 def _in_copy(work: Callable[[], None]) -> NoReturn:
-    """Do the work of a copied process, and end it without what this process does at its own end."""
+    """Run a function in a copied process, and end that process without the exit handlers of this one."""
     status = 1
     try:
         os.setpgid(0, 0)
@@ -237,17 +237,17 @@ def _close(*streams: IO[bytes]) -> None:
 
 
 def can_fork() -> bool:
-    """Return whether a copy of this process can work: only on Linux, and where no other thread runs. It might hold a
-    lock, for which the copy would wait for ever."""
+    """Return whether this process can be copied: only on Linux and with a single thread, since another thread might
+    hold a lock that would block the copy forever.
+    """
     return sys.platform == "linux" and len(list(Path("/proc/self/task").iterdir())) == 1
 
 
 def own_process(module: str, *arguments: str) -> dict[str, Any]:
-    """Arguments of `subprocess` for one of our modules: the command, its environment and its process group.
+    """Return arguments of `subprocess` for a module of this program: command, environment and process group.
 
-    The child finds the packages that this process finds, wherever it is started, and none that happen to lie in the
-    folder where it is: what the user has downloaded is not run. Ctrl-C in the terminal is not sent to it: this process
-    ends it.
+    The child finds the same packages as this process and does not import from the current folder, which may contain
+    downloaded files. Ctrl-C in the terminal is not sent to it; this process ends it.
     """
     options: dict[str, Any] = {
         "args": [sys.executable, "-P", "-m", module, *arguments],
@@ -261,5 +261,5 @@ def own_process(module: str, *arguments: str) -> dict[str, Any]:
 
 
 def core_count() -> int:
-    """Processor cores that this process may use."""
+    """Return the number of processor cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,10 +1,10 @@
-"""The limits of every process that this program starts: memory, processor time, time on the clock and output.
+"""Limits of all child processes: memory, processor time, elapsed time and output.
 
-One row of `LIMITS` for each kind of child. A program of others (ffmpeg) is started through `limited_command`, which
-sets the limits before it runs; `confine` does the same where that needs the running process (Windows). Our own modules
-call `confine_this_process` first thing.
+There is a row of `LIMITS` for each kind of child. A foreign program (ffmpeg) is started through `limited_command`,
+which sets the limits before it runs; `confine` does the same where a running process is needed (Windows). Modules of
+this program call `confine_this_process` first.
 
-A limit is a part that is free and a part by the size of what is read: a small file that asks for much is damaged or
+A limit is the sum of a constant and a part proportional to the input's size: a small file that needs much is damaged or
 hostile.
 """
 
@@ -25,18 +25,18 @@ _GB: Final = 2**30
 
 @dataclass(frozen=True)
 class ChildLimits:
-    """Limits of a kind of child; None where there is none, with the reason in `LIMITS`.
+    """Limits of a kind of child; None for no limit, with the reason in `LIMITS`.
 
     Attributes
     ----------
     memory_bytes, memory_per_byte, most_memory_bytes : int
-        Address space: what is free, more for each byte that is read, and the most in all.
+        Address space in bytes: a constant, an addition for each byte read, and the maximum.
     cpu_s, cpu_s_per_mb : float
-        Processor time, in the same way.
+        Processor time in seconds: a constant, and an addition per megabyte read.
     wall_s : float
-        Time on the clock, after which this process ends the child.
+        Elapsed time in seconds after which this process ends the child.
     written_bytes : int
-        The largest file that it may write.
+        Size in bytes of the largest file that the child may write.
     """
 
     memory_bytes: int | None = None
@@ -89,14 +89,14 @@ LIMITS: Final[Mapping[str, ChildLimits]] = MappingProxyType(
 
 
 def limited_command(name: str, command: Sequence[str], size: int = 0) -> list[str]:
-    """The command that runs another one within its limits; the command itself on Windows, see `confine`.
+    """Return a command that runs another one within limits; on Windows the command itself, see `confine`.
 
     Parameters
     ----------
     name : str
         Of the row of `LIMITS`.
     size : int
-        Bytes of what it reads.
+        Size of the input in bytes.
     """
     if os.name != "posix":
         return list(command)
@@ -114,7 +114,7 @@ def limited_command(name: str, command: Sequence[str], size: int = 0) -> list[st
 
 
 def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> WindowsJob | None:
-    """Set the limits of a process that has just been started: on Windows, by a job; elsewhere `limited_command` did.
+    """Set the limits of a newly started process: on Windows by a job object; elsewhere `limited_command` has done so.
 
     Returns
     -------
@@ -124,7 +124,7 @@ def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> Windo
     Raises
     ------
     OSError
-        The system refuses.
+        The system refuses the limits.
     """
     if sys.platform != "win32":
         return None
@@ -137,7 +137,7 @@ def confine(name: str, process: subprocess.Popen[bytes], size: int = 0) -> Windo
 
 
 def confine_this_process(name: str, size: int = 0) -> None:
-    """Set the limits of this process, above what it uses already; on Windows its parent does, by `confine`."""
+    """Set the limits of this process in addition to its present use; on Windows its parent does so by `confine`."""
     if sys.platform == "win32":
         return
     import resource
@@ -167,7 +167,7 @@ def _lower(which: int, value: int) -> None:
 
 
 class _BasicLimits(ctypes.Structure):
-    """JOBOBJECT_BASIC_LIMIT_INFORMATION of winnt.h."""
+    """JOBOBJECT_BASIC_LIMIT_INFORMATION of the Windows API (winnt.h)."""
 
     _fields_ = (
         ("PerProcessUserTimeLimit", ctypes.c_int64),
@@ -183,7 +183,7 @@ class _BasicLimits(ctypes.Structure):
 
 
 class JobLimits(ctypes.Structure):
-    """JOBOBJECT_EXTENDED_LIMIT_INFORMATION of winnt.h."""
+    """JOBOBJECT_EXTENDED_LIMIT_INFORMATION of the Windows API (winnt.h)."""
 
     _fields_ = (
         ("BasicLimitInformation", _BasicLimits),
@@ -200,7 +200,7 @@ _EXTENDED_LIMITS: Final = 9
 
 
 def job_limits(memory: int | None, cpu_s: int | None) -> JobLimits:
-    """The limits of a job of Windows, whose processes end when its handle is closed."""
+    """Return the limits of a Windows job, whose processes end when its handle is closed."""
     limits = JobLimits()
     basic = limits.BasicLimitInformation
     basic.LimitFlags = _KILL_ON_CLOSE
@@ -214,7 +214,7 @@ def job_limits(memory: int | None, cpu_s: int | None) -> JobLimits:
 
 
 class WindowsJob:
-    """A job object of Windows: its processes keep its limits and end with this object.
+    """A Windows job object, whose processes have its limits and end with it.
 
     Parameters
     ----------
@@ -240,7 +240,7 @@ class WindowsJob:
             raise OSError("no job with limits can be made")
 
     def take(self, process: int) -> bool:
-        """Put a process, by its handle, into the job; false where the system refuses."""
+        """Add a process to the job by its handle; return false if the system refuses."""
         return bool(self._kernel32.AssignProcessToJobObject(self._handle, ctypes.c_void_p(process)))
 
     def __del__(self) -> None:

@@ -1,9 +1,9 @@
-"""Text in bytes whose encoding no one states: texts of MIDI files, and names of files.
+"""Text from bytes of unknown encoding: texts of MIDI files, and names of files.
 
-On Linux the name of a file is bytes. Those that are not UTF-8, as of files out of a Japanese zip archive, are lone
-surrogates in Python's paths (PEP 383): they open the file, and neither JSON, nor TOML, nor Qt, nor a terminal takes
-them. Those that are UTF-8 may hold line ends and escape sequences all the same. So paths are kept in files as `stored`
-writes them, and read back with `restored`; what a user reads, and what is named after a file, is `shown`.
+On Linux file names are bytes. In Python's paths, bytes that are not UTF-8 (as from Japanese zip archives) are lone
+surrogates (PEP 383), which open the file but cannot be written by JSON, TOML, Qt or terminals. Valid names may contain
+line ends and escape sequences. So files contain paths in the form of `stored`, read with `restored`; texts for users
+use `shown`.
 """
 
 from __future__ import annotations
@@ -15,10 +15,12 @@ from typing import Final
 from urllib.parse import quote_from_bytes, unquote_to_bytes
 
 PREFIX: Final = "bytes://"
-"""Begins a stored path that is not UTF-8; no other path begins so, because two slashes are one in a path."""
+"""Prefix of a stored path that is not UTF-8; no other path has it, because two slashes are one in a path."""
 
 HIDDEN: Final = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Characters that texts for users never hold: line ends, terminal commands, changes of direction, lone surrogates."""
+"""Characters that texts for users must not contain: line ends, terminal commands, changes of direction, lone
+surrogates.
+"""
 
 ENCODINGS: Final = (
     *("utf-8", "cp932", "euc_jp", "gb18030", "big5hkscs", "cp949", "cp1251", "koi8_r", "cp866", "cp1252", "mac_roman"),
@@ -32,10 +34,10 @@ _LONE_IN_WORD = re.compile(r"(?<=[a-z])[^\x00-\x7f](?![^\x00-\x7f])|(?<![^\x00-\
 
 
 def guessed(data: bytes) -> str:
-    """Text in UTF-8 if the bytes are valid UTF-8, else in CP932 (Japanese systems), else in Latin-1.
+    """Decode bytes as UTF-8 if valid, else as CP932 (Japanese systems), else as Latin-1.
 
-    Nearly every pair of bytes is valid CP932, so its reading is refused if it holds private characters or single ones
-    within Latin words.
+    Nearly every pair of bytes is valid CP932, so the result is rejected if it contains private characters, or single
+    Japanese characters within Latin words.
     """
     for encoding in ("utf-8", "cp932"):
         try:
@@ -49,7 +51,7 @@ def guessed(data: bytes) -> str:
 
 
 def is_encoding(name: str) -> bool:
-    """Return whether it is the name of an encoding that turns any bytes into text."""
+    """Return whether a name is that of an encoding that can decode any bytes."""
     try:
         # Looks it up, which an empty text does not; one that is for ASCII alone fails.
         b"ab\xff".decode(name, errors="replace")
@@ -59,8 +61,9 @@ def is_encoding(name: str) -> bool:
 
 
 def stored(path: str | os.PathLike[str]) -> str:
-    """A path as a file keeps it: itself where it is UTF-8, else ``bytes://`` and its bytes, percent-encoded where they
-    are not UTF-8. `restored` gives the path back."""
+    """Return a path in the form for files: unchanged if it is UTF-8, else ``bytes://`` and percent-encoded bytes.
+    `restored` is the inverse.
+    """
     text = os.fspath(path)
     if text.startswith(PREFIX):
         if restored(text) == text:
@@ -71,7 +74,7 @@ def stored(path: str | os.PathLike[str]) -> str:
 
 
 def restored(text: str) -> str:
-    """The path that was `stored`; as it stands where this system cannot have it."""
+    """Return the path of a text made by `stored`; unchanged if this system cannot represent it."""
     if not text.startswith(PREFIX):
         return text
     try:
@@ -82,8 +85,9 @@ def restored(text: str) -> str:
 
 
 def shown(path: str | os.PathLike[str]) -> str:
-    """A path, or any text with a path in it, for users to read and to name something by, on one line: names that are
-    not UTF-8 are guessed, and what is `HIDDEN` is escaped as in Python."""
+    """Return a path, or a text containing one, as a single line for users: names that are not UTF-8 are guessed, and
+    `HIDDEN` characters are escaped as in Python.
+    """
     text = os.fspath(path)
     if not is_text(text):
         text = "/".join(name if is_text(name) else guessed(_bytes(name)) for name in text.split("/"))
@@ -100,7 +104,7 @@ def is_text(path: str | os.PathLike[str]) -> bool:
 
 
 def _bytes(text: str) -> bytes:
-    """The bytes of a name, also of one that this system cannot have."""
+    """Return the bytes of a name, even if this system cannot represent it."""
     try:
         return os.fsencode(text)
     except UnicodeEncodeError:

@@ -1,7 +1,7 @@
-"""The error family and the messages of the whole program.
+"""Exceptions and messages of the whole program.
 
-Below the command line and the shell nothing is worded: a message is an id plus arguments, and the code that
-shows it words it (English templates in `app.messages`, which the editor translates).
+Code below the command line and the window contains no texts: a message is an id with arguments, and the code that shows
+it looks up the text (`app.messages`).
 """
 
 from __future__ import annotations
@@ -15,21 +15,21 @@ from app.encoding import shown
 
 Argument: TypeAlias = str | int | float | bool
 Progress: TypeAlias = Callable[[float], None]
-"""Called with the share 0..1 of work that is done, perhaps by its thread."""
+"""Function that is called with the completed share of work, 0..1, possibly by the thread that does the work."""
 StopRequested: TypeAlias = Callable[[], bool]
-"""Asked by work now and then; true stops it, with `Cancelled`."""
+"""Function that work calls regularly; if it returns true, the work stops with `Cancelled`."""
 
 
 class Message(msgspec.Struct, frozen=True, gc=False):
-    """Something to report to the user: a warning, a reason, a problem.
+    """A message for the user: a warning, a reason, a problem.
 
     Attributes
     ----------
     id : str
         Dotted, e.g. ``"midi.track_truncated"``; names the template.
     arguments : dict of str to str, int, float or bool
-        What the template is filled with (file, track, bar, note ...). Texts are made readable (`app.encoding.shown`):
-        the names of files are among them, and messages are stored, printed and shown.
+        Values for the template (file, track, bar, note and so on). Texts are made readable (`app.encoding.shown`),
+        since file names are among them and messages are stored, printed and displayed.
     """
 
     id: str
@@ -46,14 +46,14 @@ class Message(msgspec.Struct, frozen=True, gc=False):
 
 
 class AppError(Exception):
-    """An error the user can act on; anything else that escapes a parser is a bug.
+    """An error that the user can act on; any other exception raised by a parser is a bug.
 
     Parameters
     ----------
     id : str
         Message id, as in `Message`.
     **arguments
-        What the template is filled with.
+        Values for the message's template.
     """
 
     def __init__(self, id: str, /, **arguments: Argument) -> None:
@@ -63,25 +63,27 @@ class AppError(Exception):
 
 
 TOO_DEEP: Final = "lists or objects nested too deeply"
-"""A fault that a library reports in words about Python's stack."""
+"""Detail for errors that a library reports in terms of Python's stack."""
 
 
 def shortened(detail: object, most: int = 200) -> str:
-    """Shorten what a library says about a fault, for a message: it may quote any amount of the file."""
+    """Return a library's description of a fault, shortened for a message, since it may quote any amount of the file."""
     text = TOO_DEEP if isinstance(detail, RecursionError) else str(detail)
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 class FileError(AppError):
-    """A file that cannot be read or written; ``file`` is always among the arguments."""
+    """A file cannot be read or written; ``file`` is always among the arguments."""
 
 
 class MapError(AppError):
-    """A table (instrument map, metadata, preset, settings) that is not valid; names the file and the line or key."""
+    """A table (instrument map, metadata, preset, settings) is invalid; the message names the file and the line or
+    key.
+    """
 
 
 class UsageError(AppError):
-    """A request that makes no sense: an unknown player, parameter or range."""
+    """A request is invalid, as with an unknown player, parameter or range."""
 
 
 class Cancelled(AppError):
@@ -95,7 +97,7 @@ def raise_if_stopped(stop_requested: StopRequested) -> None:
 
 
 def stoppable(progress: Callable[[float], None], stop_requested: StopRequested) -> Callable[[float], None]:
-    """A report of progress that raises `Cancelled` if the work is to stop."""
+    """Return a progress function that raises `Cancelled` if the work must stop."""
 
     def report(share: float) -> None:
         raise_if_stopped(stop_requested)

@@ -1,4 +1,4 @@
-"""Results kept for as long as the same values ask for them."""
+"""Caches keyed by the identity of their inputs."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ Inputs = ParamSpec("Inputs")
 
 
 class IdentityCache(Generic[V]):
-    """Results of a pure function, each kept under its very inputs, compared by identity.
+    """Cached results of pure functions, whose inputs are compared by identity.
 
-    Immutable values are equal for ever once they are the same object, and comparing large ones would cost more than
-    making the result. The objects are held, so that an identity is never given to another one meanwhile.
+    Immutable values that are the same object remain equal, and comparing large values would cost more than computing
+    the result. The cache holds the inputs, so that no other object gets their identity.
 
     Parameters
     ----------
     size : int
-        Results kept; the one unused for longest goes first.
+        Number of results; the least recently used is dropped first.
     """
 
     def __init__(self, size: int) -> None:
@@ -31,17 +31,17 @@ class IdentityCache(Generic[V]):
         self._lock = Lock()
 
     def has(self, *inputs: object) -> bool:
-        """Return whether the result for these inputs is there."""
+        """Return whether the result for these inputs is cached."""
         with self._lock:
             return _identity(inputs, {}) in self._kept
 
     def step(self, function: Callable[Inputs, V], *inputs: Inputs.args, **named: Inputs.kwargs) -> V:
-        """``function(*inputs, **named)``, made if it is not there.
+        """Return ``function(*inputs, **named)`` from the cache, computing it if it is missing.
 
         Parameters
         ----------
         function : callable
-            Of its arguments alone. One that closes over anything else is refused: the key would not know of it.
+            Function of its arguments alone. Closures are refused, since the key would not include their variables.
         """
         return self._step(function, (), inputs, named)
 
@@ -52,8 +52,9 @@ class IdentityCache(Generic[V]):
         *inputs: Inputs.args,
         **named: Inputs.kwargs,
     ) -> V:
-        """``function(help, *inputs, **named)``, where ``help`` only saves or shows work: the result is the same with
-        any."""
+        """Return ``function(help, *inputs, **named)`` from the cache, where ``help`` only saves or reports work and
+        does not influence the result.
+        """
         return self._step(function, (help,), inputs, named)
 
     def _step(
@@ -86,14 +87,14 @@ def _identity(inputs: tuple[object, ...], named: dict[str, object]) -> tuple[int
 
 
 class LargeResults:
-    """Large results that can be made again, kept as far as all together stay below a bound of memory.
+    """Large recomputable results, dropped when their total size exceeds a bound.
 
-    Their holders are not held here.
+    Only weak references to the owners are held.
 
     Parameters
     ----------
     most_bytes : int
-        Of all results together. The one used last is kept however large it is.
+        Bound of the total size. The most recently used result is never dropped.
     """
 
     def __init__(self, most_bytes: int) -> None:
@@ -102,12 +103,12 @@ class LargeResults:
         self._lock = Lock()
 
     def use(self, forget: Callable[[], None], size_bytes: int) -> None:
-        """Note that a result of a size is used; those unused for longest are forgotten where all are too much.
+        """Register the use of a result of a size; drop the least recently used results if the total is too large.
 
         Parameters
         ----------
         forget : bound method
-            Gives back the memory of the result; known by its object, which is held weakly.
+            Method that frees the result; its object identifies the result and is held weakly.
         size_bytes : int
         """
         with self._lock:

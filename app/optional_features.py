@@ -1,7 +1,7 @@
-"""The table of what can be left out of the program: a row for each, which names the modules that bring it.
+"""The table of optional features, each with the modules that implement it.
 
-Without its row, and without the folders that are called like it (in `app`, `widgets`, `resources` and `tests`), the
-rest of the program is whole. Nothing else names those modules: whoever can be extended asks the table.
+Without its row and the folders of its name (in `app`, `widgets`, `resources` and `tests`), the rest of the program
+works. No other code refers to these modules: extensible code reads the table.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ class SubCommand:
     Attributes
     ----------
     module : str
-        Declares its arguments; loaded when they are read. Their help stands in a table in its folder.
+        Module that declares the arguments, loaded when they are read. A table in its folder contains the help.
     after : str
-        The command behind which the help lists it.
+        Command after which it is listed in the help.
     """
 
     module: str
@@ -33,21 +33,21 @@ class SubCommand:
 
 @dataclass(frozen=True)
 class Feature:
-    """A feature that can be left out of the program: the modules of its actions, lanes, sections and commands.
+    """An optional feature: the modules of its actions, lanes, sections and commands.
 
     Attributes
     ----------
     actions, actions_after : str
-        The module of its ``ACTIONS`` (empty, as all others: it has none), and the id of the action behind which they
-        stand.
+        Module with ``ACTIONS`` (empty if there is none, as for all fields), and id of the action after which they are
+        inserted.
     lanes, lanes_after : str
-        The module of its ``LANES``, and the id of the lane below which they stand.
+        Module with ``LANES``, and id of the lane below which they are inserted.
     players_section : str
-        The module of its ``SECTION`` in the panel of players: a widget with a signal ``sought``.
+        Module with ``SECTION``, a widget for the panel of players with a signal ``sought``.
     dances : str
-        The package that makes dances, as `app.performance.dances` asks for them; empty: it makes none.
+        Package that generates dances for `app.performance.dances`; empty if there is none.
     sub_commands : mapping
-        By name.
+        Sub-commands by name.
     """
 
     id: str
@@ -87,7 +87,7 @@ FEATURES: Final[tuple[Feature, ...]] = (
 
 
 def modules(column: str) -> Iterator[tuple[Feature, ModuleType]]:
-    """The modules that a column of the table names, loaded, with their rows."""
+    """Yield the rows with a module in a column of the table, and these modules."""
     for feature in FEATURES:
         name: str = getattr(feature, column)
         if name:
@@ -95,14 +95,14 @@ def modules(column: str) -> Iterator[tuple[Feature, ModuleType]]:
 
 
 def extended(own: Iterable[T], column: str, id_of: Callable[[T], str]) -> list[T]:
-    """A table with what features add to it: behind the row that each names.
+    """Return a table with the rows that features add after the rows they name.
 
     Parameters
     ----------
     own : iterable
         The table without features.
     column : str
-        ``"actions"`` or ``"lanes"``; the modules have the rows under this name in capitals.
+        ``"actions"`` or ``"lanes"``; the modules contain the rows under this name in capitals.
     id_of : callable
         The id of a row.
     """

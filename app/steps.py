@@ -1,8 +1,8 @@
-"""Pure functions that make values out of one another, each done again only where what it reads has changed.
+"""Pure functions computed from each other's results, each only if its inputs have changed.
 
-A step names what it reads: its parameters are results of other steps, or values that are given. Parameters that have
-defaults keep them unless `reading` names them. A parameter called ``before`` is the step's own result in the run
-before, or None: to save work, since the result must be the one it makes from None.
+The parameters of a step are names of other steps' results or of given values. Parameters with defaults keep them unless
+`reading` names them. A parameter ``before`` is the step's own result of the previous run, or None; it may only save
+work, since the result must be equal to that computed from None.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ BEFORE: Final = "before"
 
 
 class StepInputs(NamedTuple):
-    """A step with parameters named differently from the values that they read: names by parameter."""
+    """A step whose parameters have other names than the values: names of values by parameter."""
 
     function: Callable[..., object]
     names: Mapping[str, str | tuple[str, ...]]
 
 
 def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> StepInputs:
-    """Make a step of a function whose parameters of these names read what is named here; several names: a tuple.
+    """Return a step of a function with other names for some parameters' values; several names: a tuple.
 
     Raises
     ------
@@ -42,8 +42,8 @@ def reading(function: Callable[..., object], **names: str | tuple[str, ...]) -> 
 
 
 class StepTable:
-    """Steps by the names of their results, wired by the names of their parameters; a string is the path of an attribute
-    of another result (``clock="piece.clock"``).
+    """Steps by the names of their results, connected by the names of their parameters; a string is the path of an
+    attribute of another result (``clock="piece.clock"``).
 
     Attributes
     ----------
@@ -51,20 +51,20 @@ class StepTable:
     paths : dict of str to str
         Of the attributes.
     getters : dict of str to (str, callable)
-        The result that has each attribute, and what gets it from there.
+        For each attribute, the result that has it and a function that gets it.
     parameters, reads : dict of str to tuple
-        By step its parameters but `BEFORE`, and the name, or names, of what each reads.
+        For each step, its parameters other than `BEFORE`, and the name or names of the value of each.
     revised : frozenset of str
-        Steps that see their result of the run before.
+        Steps that receive their result of the previous run.
     given : frozenset of str
-        What no step makes.
+        Names that are not results of a step.
 
     Raises
     ------
     TypeError
-        A function closes over something or has parameters without names: what it reads would not be known.
+        A function is a closure or has parameters without names, so that its inputs cannot be known.
     graphlib.CycleError
-        Steps read one another in a circle.
+        Steps depend on each other in a circle.
     """
 
     def __init__(self, **steps: Callable[..., object] | StepInputs | str) -> None:
@@ -93,14 +93,14 @@ class StepTable:
         self.given: Final = frozenset(one for reads in names.values() for one in reads if one not in steps)
 
     def begin(self, before: StepResults | None = None, /, **given: object) -> StepResults:
-        """Make a run of these steps, each to be done when its result is asked for.
+        """Return a run of the steps, which are computed when their results are requested.
 
         Parameters
         ----------
         before : StepResults, optional
-            The run before, of these steps.
+            Previous run of the same steps.
         given : object
-            Every value of `given`; there may be more.
+            Every value of the attribute `given`; there may be more.
 
         Raises
         ------
@@ -120,9 +120,9 @@ class _Done(NamedTuple):
 
 
 class StepResults:
-    """Results of one run; results equal to those of the run before are the same objects.
+    """Results of one run; results equal to those of the previous run are the same objects.
 
-    A run is good for one thread at a time.
+    A run must be used by one thread at a time.
     """
 
     def __init__(self, steps: StepTable, given: Mapping[str, object], before: StepResults | None) -> None:
@@ -139,7 +139,7 @@ class StepResults:
             self._done, self._values = {}, dict(given)
 
     def of(self, function: Callable[..., T]) -> T:
-        """Return the result of the one step of a function."""
+        """Return the result of the only step with a function."""
         result: T = self[self._steps.names[function]]
         return result
 
@@ -172,17 +172,17 @@ class StepResults:
         return _Done(inputs, former if known is not None and former == result else result)
 
     def close(self) -> None:
-        """Forget the run before, so that runs do not hold one another for ever."""
+        """Drop the reference to the previous run, so that runs do not keep each other in memory."""
         self._before = {}
 
 
 class StepRuns:
-    """Runs of tables for what they are about, such as players: each goes on from the run of the same in former runs.
+    """Runs of tables by subject, such as players; each continues from the previous run of the same subject.
 
     Parameters
     ----------
     former : StepRuns, optional
-        Of a state before, or of any other: they save work, and change no result.
+        Runs of a previous or any other state; they save work without changing results.
     """
 
     def __init__(self, former: StepRuns | None = None) -> None:
@@ -190,7 +190,7 @@ class StepRuns:
         self._runs: dict[tuple[StepTable, str], StepResults] = {}
 
     def begin(self, table: StepTable, about: str = "", /, **given: object) -> StepResults:
-        """Make a run, as `StepTable.begin`; it takes the place of one of the same begun here."""
+        """Return a new run as `StepTable.begin`, replacing an earlier one of the same table and subject."""
         key = table, about
         self._runs[key] = results = table.begin(self._former.get(key), **given)
         return results
@@ -200,14 +200,14 @@ class StepRuns:
         return self._runs[table, about]
 
     def close(self) -> None:
-        """Forget the former runs, so that runs do not hold one another for ever."""
+        """Drop the references to previous runs, so that runs do not keep each other in memory."""
         self._former = {}
         for results in self._runs.values():
             results.close()
 
 
 def _are_equal(before: Collection[object], now: Collection[object]) -> bool:
-    """Return whether inputs are equal; the same objects, as nearly all are, are not compared."""
+    """Return whether inputs are equal; identical objects, which are the usual case, are not compared."""
     if len(before) != len(now):
         return False
     return all(map(is_, before, now)) or all(
@@ -227,7 +227,7 @@ def _each(named: str | tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _parameters(step: StepInputs) -> tuple[str, ...]:
-    """Return the parameters that read something."""
+    """Return the parameters that receive values."""
     if getattr(step.function, "__closure__", None):
         raise TypeError(f"{_name(step.function)} reads more than its parameters")
     parameters = inspect.signature(step.function).parameters.values()

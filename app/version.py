@@ -6,7 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 
 def program_version() -> str:
-    """The installed version; one that says so where the program runs from a checkout."""
+    """Return the installed version, or ``0+checkout`` if the program runs from a checkout."""
     try:
         return version("suisou")
     except PackageNotFoundError:

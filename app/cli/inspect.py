@@ -1,4 +1,4 @@
-"""``suisou inspect``: what a file holds and what its players will do."""
+"""``suisou inspect``: prints the contents of a file and the plans of its players."""
 
 from __future__ import annotations
 
@@ -49,12 +49,13 @@ from instrument_maps.model import InstrumentMap
 Spanning: TypeAlias = BreathEvent | CueEvent | ExpressionEvent | GestureEvent | MuteEvent | PoseEvent | StyleEvent
 
 COLLECTED_AFTER = 50_000
-"""Objects that are made between two looks for garbage: what a report is made of lasts until it is printed, and walking
-through it again and again takes a twelfth of the time."""
+"""Number of new objects that starts a garbage collection. A report's objects live until it is printed, and with the
+default a twelfth of the time goes into examining them again and again.
+"""
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_source_options(command)
     add_title_option(command)
     add_rate_option(command)
@@ -68,7 +69,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def inspect(arguments: argparse.Namespace) -> int:
-    """Print the file's plan and name the players who have none; the exit status."""
+    """Print the file's plan and the players without a plan, and return the exit status."""
     thresholds = gc.get_threshold()
     gc.set_threshold(COLLECTED_AFTER)
     try:
@@ -104,18 +105,19 @@ def inspection(
     with_ignored: bool = False,
     speech: Speech = ENGLISH,
 ) -> Table:
-    """Everything ``inspect --json`` prints: seconds are the performance's, beats are quarters from tick 0.
+    """Return everything that ``inspect --json`` prints. Seconds are those of the performance; beats are quarters from
+    tick 0.
 
     Parameters
     ----------
     contacts : bool
-        Whether all motion is generated to check what the bodies reach.
+        Whether to generate all motion in order to check contacts.
     without_limit : bool
-        Whether it is of every player at the usual rate, however long that takes.
+        Whether to check every player at the default frame rate, regardless of the time that this takes.
     with_ignored : bool
-        Whether ignored problems are among the warnings.
+        Whether to list ignored problems among the warnings.
     speech : Speech
-        Words reasons and names keys and pitches; that of JSON is `ENGLISH`.
+        Language of reasons, and notation of keys and pitches; `ENGLISH` for JSON.
     """
     project = performance.project
     score = project.score
@@ -153,7 +155,7 @@ def inspection(
 
 
 def _piece(performance: Performance) -> Table:
-    """The piece itself: its settings, its tempo and its markers."""
+    """Return the piece's settings, tempo and markers."""
     project = performance.project
     score, place = project.score, project.conducting
     return {
@@ -194,8 +196,9 @@ def _dancer(dancer: Dancer) -> Table:
 
 
 class _Reasons:
-    """Reasons as sentences that name notes by pitch, bar and beat, and keys by their names; many events have an equal
-    one."""
+    """Reasons as sentences with pitches, bars, beats and names of keys; cached, since many events have equal
+    reasons.
+    """
 
     def __init__(self, score: Score, part_id: str, instrument: InstrumentMap, speech: Speech) -> None:
         self._score, self._part_id, self._instrument, self._speech = score, part_id, instrument, speech
@@ -272,7 +275,7 @@ def _player(performance: Performance, player: Player, instrument: InstrumentMap,
 def _of_some_players(
     plan: PlayerPlan, clock: TempoMap, reason: _Reasons, origins: Mapping[Mark, str], source: str
 ) -> Table:
-    """Lists of what only some players have: marks, poses, mutes, styles, additive curves."""
+    """Return the lists that only some players have: marks, poses, mutes, styles, additive curves."""
     table: Table = {}
     if origins:
         table["marks"] = [_mark(mark) | {"source": origin} for mark, origin in origins.items()]
@@ -290,14 +293,14 @@ def _of_some_players(
 
 
 def _mark(mark: Mark) -> Table:
-    """Return a mark: its kind and its text, and the notes or ticks that it is at."""
+    """Return a mark's kind, text, and notes or ticks."""
     if not mark.note_id:
         return {"kind": mark.kind, "tick": mark.tick, "end_tick": mark.end_tick or None, "text": mark.text}
     return {"kind": mark.kind, "note": mark.note_id, "last_note": mark.last_note_id or None, "text": mark.text}
 
 
 def _tongued(event: TongueEvent | None, reason: _Reasons) -> Table:
-    """Text for the beginning of a note: slurred, or the stroke of the tongue and its reason."""
+    """Return the start of a note: slurred, or the tongue stroke and its reason."""
     if event is None:
         return {"articulation": "slurred", "tongue": "", "tongue_reason": ""}
     return {"articulation": event.articulation, "tongue": event.stroke, "tongue_reason": reason(event.reason)}
@@ -328,7 +331,7 @@ def _events(
     what: str,
     *fields: str,
 ) -> list[Table]:
-    """Events as tables: id and kind, times in seconds and beats, some of their fields, and the reason."""
+    """Return events as tables: id, kind, times in seconds and beats, some fields, and the reason."""
     return [
         span | {"reason": reason(event.reason)}
         for event, span in zip(events, _spans(events, clock, what, *fields), strict=True)
@@ -341,7 +344,7 @@ def _spans(
     what: str,
     *fields: str,
 ) -> list[Table]:
-    """Events as tables with their times, without the reason."""
+    """Return events as tables with their times but without reasons."""
     seconds = np.array([(event.start_s, event.end_s) for event in events]).reshape(-1, 2)
     beats = clock.ticks(seconds) / clock.ticks_per_quarter
     return [

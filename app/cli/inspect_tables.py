@@ -1,4 +1,4 @@
-"""Tables that ``suisou inspect`` prints for people."""
+"""Tables that ``suisou inspect`` prints as text."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from app.plan.kinds import BREATH_KINDS
 
 Table = dict[str, Any]
 FIRST, FIRST_WORDS = 10, 2
-"""Number of fingerings shown of each player, and of words."""
+"""Number of fingerings shown for each player, and number shown if labels have several words."""
 
 
 def tables(file: str, found: Table) -> list[str]:
-    """The report for people: one line per player, then what is not played and what to look at."""
+    """Return the report as text: one line per player, then notes that are not played, and warnings."""
     lines = [
         said(
             "inspect.piece",
@@ -77,7 +77,7 @@ def _row(player: Table) -> tuple[str, ...]:
 
 
 def _sources_row(player: Table) -> tuple[str, ...]:
-    """The number of facts by what they are from, the most common first."""
+    """Return the number of facts by source, the most common first."""
     facts = ([note["sources"][fact] for note in player["notes"]] for fact in FACTS)
     breaths = [breath["source"] for breath in player["breaths"] if BREATH_KINDS[breath["kind"]].draws_air]
     counts = (Counter(sources).most_common() for sources in (*facts, breaths))
@@ -87,7 +87,7 @@ def _sources_row(player: Table) -> tuple[str, ...]:
 
 
 def _fingerings(labels: list[str]) -> str:
-    """Labels of several words are distinguished by a comma, and are fewer."""
+    """Return labels as text; fewer and with commas if labels have several words."""
     if not any(" " in label for label in labels):
         return " ".join(labels)
     return ", ".join(labels[:FIRST_WORDS])

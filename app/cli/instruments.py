@@ -1,4 +1,4 @@
-"""``suisou instruments``: list the instrument maps, show the fingerings of one, or check one."""
+"""``suisou instruments``: lists the instrument maps, prints the fingerings of one, or checks a map file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class InvalidMapError(AppError):
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.set_defaults(run=list_maps)
     add_pitch_options(command, of_players=False)
     actions = add_actions(command)
@@ -33,8 +33,9 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def list_maps(arguments: argparse.Namespace) -> None:
-    """Print every map: id, name, concert range, transposition, what the player moves; then the user's own folder and
-    what is wrong in it."""
+    """Print every map (id, name, concert range, transposition, moving parts), then the user's own folder and the faults
+    in it.
+    """
     from instrument_maps.library import library
 
     known, speech = library(), spoken()
@@ -56,7 +57,7 @@ def list_maps(arguments: argparse.Namespace) -> None:
 
 
 def print_scale(arguments: argparse.Namespace) -> None:
-    """Print the fingerings of a chromatic scale. Raises MapError where there is no such instrument."""
+    """Print the fingerings of a chromatic scale. Raises MapError for an unknown instrument."""
     from instrument_maps.fingering_label import says_words
     from instrument_maps.fingering_words import fingering_words
     from instrument_maps.library import find_map
@@ -83,13 +84,15 @@ def print_scale(arguments: argparse.Namespace) -> None:
 
 
 def word_of_tag(tag: str) -> str:
-    """Reason to take an alternate fingering in the user's language; one of the user's own is shown as it is."""
+    """Return the reason for an alternate fingering in the user's language; a tag from the user's own map is returned
+    unchanged.
+    """
     id = f"fingering_tag.{tag}"
     return said(id) if id in WORDINGS else tag
 
 
 def transposition(semitones: int) -> str:
-    """Interval between written and sounding pitch: ``"+2"``, ``"as it sounds"``."""
+    """Return the interval from sounding to written pitch: ``"+2"``, ``"as it sounds"``."""
     return f"{semitones:+d}" if semitones else said("instruments.as_it_sounds")
 
 
@@ -99,7 +102,7 @@ def check_map(arguments: argparse.Namespace) -> None:
     Raises
     ------
     InvalidMapError
-        There are problems.
+        The map has problems.
     """
     from instrument_maps.load import check_map as problems_of
 

@@ -1,4 +1,6 @@
-"""``suisou metadata``: list styles, habits, expressions, gestures and rules; save, load and compare a piece's."""
+"""``suisou metadata``: lists styles, habits, expressions, gestures and rules; saves, loads and compares those of a
+piece.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,7 @@ class InvalidMetadataError(AppError):
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.add_argument("piece", type=Path, nargs="?", metavar="PIECE")
     what = command.add_mutually_exclusive_group()
     what.add_argument("--check", type=Path, metavar="FILE")
@@ -35,12 +37,12 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> None:
-    """Do what was asked.
+    """Run the requested action.
 
     Raises
     ------
     UsageError
-        ``metadata.no_piece``: something is asked of a piece, and there is none.
+        The action needs a piece and none was given.
     """
     asked = arguments.save or arguments.load or arguments.diff
     if asked and arguments.piece is None:
@@ -60,7 +62,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def list_all() -> None:
-    """Print every table: its name, its title, whether it is the user's own; then the folders and what is wrong."""
+    """Print every table (name, title, whether it is the user's own), then the folders and the faults."""
     from app.formats.user_folder import Shelf
     from metadata.library import FOLDERS, metadata_library
 
@@ -86,20 +88,20 @@ def list_all() -> None:
 
 
 def _described(folder: str, description: str, name: str) -> str:
-    """A description without languages in the user's language, where it is that of a bundled table."""
+    """Return a description in the user's language if it is that of a bundled table."""
     id = f"metadata.described_{folder}_{name}"
     return said(id) if id in WORDINGS and wording(id, "en") == description else description
 
 
 def check(file: Path) -> None:
-    """Validate one table by the folder that it is in.
+    """Validate a table as the kind that its folder's name indicates.
 
     Raises
     ------
     UsageError
-        ``metadata.no_kind``: the folder is called like no kind.
+        The folder's name is not that of a kind.
     AppError
-        What is wrong with it: of rules also that they name what is not there.
+        The table is invalid, or a rule refers to an unknown name.
     """
     from metadata.library import READERS
     from metadata.rules import RuleSet
@@ -115,7 +117,9 @@ def check(file: Path) -> None:
 
 
 def _unknown_names(rules: Iterable[Rule]) -> list[Message]:
-    """Expressions, gestures, styles and habits that rules name and that are not there: such a rule does nothing."""
+    """Return messages about expressions, gestures, styles and habits that rules name but that do not exist, so that
+    such a rule has no effect.
+    """
     from app.plan.rule_conditions import unknown_in
     from metadata.library import metadata_library
 
@@ -142,7 +146,7 @@ def save(piece: Path, file: Path) -> None:
 
 
 def load(piece: Path, file: Path) -> None:
-    """Take metadata into a piece."""
+    """Apply metadata to a piece."""
     from app.project.piece_metadata import load_metadata, with_metadata
     from app.project.storage import load as opened
     from app.project.storage import save as written
@@ -155,7 +159,7 @@ def load(piece: Path, file: Path) -> None:
 
 
 def diff(piece: Path, file: Path) -> None:
-    """Print the differences. Raises InvalidMetadataError ``metadata.differ`` where there are any."""
+    """Print the differences. Raises InvalidMetadataError if there are any."""
     from app.project.piece_metadata import differences, load_metadata, metadata_of
     from app.project.storage import load
 

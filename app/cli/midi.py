@@ -1,4 +1,4 @@
-"""``suisou midi``: the piece as a MIDI file."""
+"""``suisou midi``: writes the piece as a MIDI file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.errors import FileError
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_file_options(command)
     add_title_option(command)
     command.add_argument("--to", type=Path, required=True, metavar="FILE")
@@ -20,7 +20,7 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def write(arguments: argparse.Namespace) -> None:
-    """Write the file and say what it holds."""
+    """Write the file and print its contents."""
     from app.project.midi_out import export_midi
     from instrument_maps.library import library
 

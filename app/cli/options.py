@@ -1,4 +1,4 @@
-"""Options that several sub-commands share: the values they take, and the project that they name."""
+"""Options shared by several sub-commands, types of their values, and opening the given project."""
 
 from __future__ import annotations
 
@@ -34,28 +34,27 @@ from instrument_maps.model import InstrumentMap
 from metadata.library import metadata_library
 
 _MOST_SHOWN = 40
-"""Characters of a wrong number that its error repeats."""
+"""Number of characters of an invalid number that are quoted in its error."""
 
 N = TypeVar("N", int, float, Fraction)
 
 
 def bounded_number(least: N, most: N, quantity: str, parse: Callable[[str], N]) -> Callable[[str], N]:
-    """The type of an option that takes a number: every numeric option has one of these.
+    """Return the type of an option that takes a number within bounds; used for every numeric option.
 
     Parameters
     ----------
     least, most : number
-        Both allowed. Not-a-number and infinity never are.
+        Bounds, both allowed. NaN and infinity are always refused.
     quantity : str
-        Id of what the number is, for the error: "a number of seconds".
+        Text id that describes the number in errors, such as "a number of seconds".
     parse : callable
-        `int`, `float` or `exact_number`; raises ValueError for what is no number.
+        `int`, `float` or `exact_number`; raises ValueError for invalid text.
 
     Returns
     -------
     callable
-        For ``type=`` of `argparse`: raises ArgumentTypeError, which names the option, where the text is no such
-        number.
+        Function for ``type=`` of `argparse`; raises ArgumentTypeError for text that is no such number.
     """
 
     def parsed(text: str) -> N:
@@ -73,17 +72,17 @@ def bounded_number(least: N, most: N, quantity: str, parse: Callable[[str], N]) 
 
 
 def _cut(typed: str) -> str:
-    """The beginning of what was typed, for an error that repeats it."""
+    """Return the beginning of a typed text for an error that quotes it."""
     return typed if len(typed) <= _MOST_SHOWN else f"{typed[:_MOST_SHOWN]}..."
 
 
 def _plain(number: float | Fraction) -> str:
-    """A bound in a message: every digit of a whole number, a fraction as one."""
+    """Return a bound as text: a whole number with all digits, or a fraction."""
     return f"{number:g}" if isinstance(number, float) else str(number)
 
 
 LONGEST_S: Final = 24 * 3600.0
-"""A day: no piece and no recording is longer."""
+"""A day in seconds: the greatest length of a piece or recording."""
 
 frame_rate = bounded_number(*limits.FPS, "quantity.frame_rate", typed_rate)
 whole_number = bounded_number(0, 2**63 - 1, "quantity.whole_number", int)
@@ -99,11 +98,11 @@ AUTOMATIC: Final = "auto"
 NO_CONDUCTOR: Final = "none"
 USUAL_CONDUCTOR: Final = "usual"
 seconds = bounded_number(-LONGEST_S, LONGEST_S, "quantity.seconds", float)
-"""Seconds of the performance; negative before the first beat."""
+"""Type of an option in seconds of the performance, negative before the first beat."""
 
 
 def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callable[[str], tuple[int, int]]:
-    """The type of an option that takes width and height such as ``1600x1000``, each between these bounds."""
+    """Return the type of an option that takes a width and height such as ``1600x1000`` within bounds in pixels."""
 
     def parsed(text: str) -> tuple[int, int]:
         width, _, height = text.partition("x")
@@ -120,12 +119,12 @@ def picture_size(least_px: tuple[int, int], most_px: tuple[int, int]) -> Callabl
 
 
 def felt_beat(text: str) -> float | str:
-    """A beat in quarters; `AUTOMATIC`: metre and tempo say."""
+    """Return a beat in quarters, or `AUTOMATIC` for the beat of metre and tempo."""
     return AUTOMATIC if text.strip().casefold() == AUTOMATIC else _felt_quarters(text)
 
 
 def conductor(text: str) -> ConductorPlace | str:
-    """A place on the stage, `USUAL_CONDUCTOR` or `NO_CONDUCTOR`."""
+    """Return a place on the stage, `USUAL_CONDUCTOR` or `NO_CONDUCTOR`."""
     place = text.strip().casefold()
     if place in (NO_CONDUCTOR, USUAL_CONDUCTOR):
         return place
@@ -136,7 +135,7 @@ def conductor(text: str) -> ConductorPlace | str:
 
 
 def text_encoding(text: str) -> str:
-    """The name of an encoding that turns bytes into text."""
+    """Return the name of an encoding that converts bytes to text."""
     if not is_encoding(text):
         raise argparse.ArgumentTypeError(said("cli.no_encoding", typed=text))
     return text
@@ -148,7 +147,7 @@ def add_players_option(command: argparse.ArgumentParser) -> None:
 
 
 def add_file_options(command: argparse.ArgumentParser) -> None:
-    """Declare the file and how it is read."""
+    """Declare the file and the options for reading it."""
     command.add_argument("file", type=Path, metavar="FILE")
     command.add_argument("--encoding", type=text_encoding, metavar="NAME")
     command.add_argument("--assign", action="append", default=[], metavar='"PART=INSTRUMENT"')
@@ -160,7 +159,7 @@ def add_file_options(command: argparse.ArgumentParser) -> None:
 
 
 def add_source_options(command: argparse.ArgumentParser) -> None:
-    """Declare the file and everything that decides what its players do."""
+    """Declare the file and all options that influence its players."""
     add_file_options(command)
     settings = command.add_argument(
         "--set", dest="settings", action="append", default=[], metavar='"PLAYER.parameter=value"'
@@ -181,7 +180,7 @@ def add_ignored_option(command: argparse.ArgumentParser) -> None:
 
 
 def add_title_option(command: argparse.ArgumentParser) -> None:
-    """Declare the title, for commands whose result has one."""
+    """Declare the title, for commands that write one."""
     fill_help(command.add_argument("--title", metavar="TEXT"), most=limits.MOST_NAME)
 
 
@@ -191,21 +190,20 @@ def add_rate_option(command: argparse.ArgumentParser) -> None:
 
 
 def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
-    """The project that a file holds, or a MIDI file with its players cast; what the options say comes on top. What is
-    wrong with the user's own instruments is reported, and those are excluded; so are the parts of a MIDI file that
-    nothing gives an instrument, with the command that does.
+    """Return the project in a file, or a MIDI file with its players cast, with the options applied. Faulty instruments
+    of the user are reported and excluded, as are parts of a MIDI file without an instrument; the report includes a
+    command that assigns instruments to these parts.
 
     Parameters
     ----------
     if_empty : str
-        Message (``file``) of a command that needs players or dancers; empty: it does without.
+        Message id for a file without players or dancers; empty if the command does not need them.
 
     Raises
     ------
     AppError
-        Those of reading, and `UsageError` of what makes no sense, ``project.encoding`` (file),
-        ``project.written``, ``project.takes`` and ``project.assign`` (file) among them; `FileError` ``assign.parts``
-        (file, parts, command) and ``if_empty``.
+        The file cannot be read, the options do not fit it, no part has an instrument, or there are no players although
+        the command needs them.
     """
     known = library()
     maps = known.maps
@@ -230,7 +228,9 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
 
 
 def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
-    """The settings of the piece, with those that are typed; a command declares those that mean something to it."""
+    """Return the settings of the piece with the typed options applied; each command declares only the options relevant
+    to it.
+    """
     asked = {
         "title": getattr(arguments, "title", None),
         "fps": getattr(arguments, "fps", None),
@@ -264,7 +264,7 @@ def _saved_project(arguments: argparse.Namespace) -> Project:
 
 
 def _opened(arguments: argparse.Namespace, maps: Mapping[str, InstrumentMap]) -> tuple[Project, Message | None]:
-    """The project of a file, and a message about its parts without an instrument of ours."""
+    """Return the project of a file, and a message about its parts without a bundled instrument."""
     if is_project_file(arguments.file):
         return _saved_project(arguments), None
     contents, choices = read_contents(arguments.file, encoding=arguments.encoding), map_choices(maps.values())

@@ -1,4 +1,4 @@
-"""Parts of a MIDI file that have no instrument, and the options that give parts their instruments and pitches."""
+"""Parts of a MIDI file without an instrument, and options that assign instruments and pitches to parts."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from app.score.track_instrument import use_of
 from instrument_maps.model import InstrumentMap
 
 _SPECIAL: Final = re.compile(r'["$`\\!]')
-"""Characters that mean something between double quotes."""
+"""Characters with a special meaning between double quotes in a shell."""
 
 
 class Unassigned(NamedTuple):
-    """A part whose instrument is unknown: not played, or played by what its range fits.
+    """A part with an unknown instrument, which is not played or played by the instrument of the best fitting range.
 
     Attributes
     ----------
     part : str
-        What ``--assign`` calls it.
+        Name of the part for ``--assign``.
     map_id : str
-        The instrument whose range it fits best.
+        Instrument with the best fitting range.
     """
 
     part: str
@@ -47,8 +47,9 @@ class Unassigned(NamedTuple):
 def unassigned_parts(
     channels: Sequence[TrackChannel], rows: Sequence[ImportRow], maps: Sequence[MapChoice], of_others: bool = False
 ) -> tuple[Unassigned, ...]:
-    """The parts that neither the file nor the user gives an instrument, in the order of the file; ``of_others``: those
-    of instruments that no map plays, as of a piano."""
+    """Return the parts that have an instrument neither from the file nor from the user, in the order of the file; with
+    ``of_others``, the parts for instruments without a map, such as a piano.
+    """
     found = []
     for row, name in zip(rows, part_names(channels, rows), strict=True):
         played = [channels[index] for index in row.assignment.channels]
@@ -64,7 +65,7 @@ def unassigned_parts(
 
 
 def part_names(channels: Sequence[TrackChannel], rows: Sequence[ImportRow]) -> tuple[str, ...]:
-    """Names of the parts for ``--assign``: a row is called like its first stream."""
+    """Return the names of the parts for ``--assign``: the name of the first stream of each row."""
     return unique_names(stream_name(channels[row.assignment.channels[0]]) for row in rows)
 
 
@@ -75,7 +76,7 @@ def with_pitches(
     written: bool,
     maps: Mapping[str, InstrumentMap],
 ) -> Sequence[ImportRow]:
-    """The rows of an import with the pitches of some players taken as written or as sounding."""
+    """Return the rows of an import with the pitches of some players interpreted as written or as sounding."""
     parts = score_of_rows(contents, rows, maps).parts
     places = {parts[index].place for index in select_players(names, unique_names(part.name for part in parts))}
     return [
@@ -89,13 +90,13 @@ def with_pitches(
 def with_instruments(
     channels: Sequence[TrackChannel], rows: Sequence[ImportRow], texts: Sequence[str], maps: Sequence[str]
 ) -> Sequence[ImportRow]:
-    """The rows with the instruments that are assigned to parts as ``PART=INSTRUMENT``; a row is called like its first
-    stream.
+    """Return the rows of an import with instruments assigned by texts ``PART=INSTRUMENT``; a row has the name of its
+    first stream.
 
     Raises
     ------
     UsageError
-        ``assign.malformed`` (assignment), ``assign.instrument_unknown`` (instrument, possible), ``player.unknown``.
+        A text is malformed, or names an unknown instrument or part.
     """
     names = part_names(channels, rows) if texts else ()
     assigned = list(rows)
@@ -111,14 +112,14 @@ def with_instruments(
 
 
 def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], id: str = "assign.parts") -> Message:
-    """Message (file, parts, command) of which parts, and the command that was given with instruments for them.
+    """Return a message with the parts, and the command line that was given extended by instruments for them.
 
     Parameters
     ----------
     id : str
-        ``assign.parts``, or ``assign.others`` of parts for instruments that no map plays.
+        Message id: about parts without instruments, or about parts for instruments without a map.
     arguments : Namespace
-        With ``file``, and ``given``, the command line.
+        Arguments with ``file``, and ``given``, the command line.
     """
     added = [word for one in parts for word in _option(f"{one.part}={one.map_id}")]
     words = list(arguments.given)
@@ -131,15 +132,15 @@ def assign_message(arguments: argparse.Namespace, parts: Sequence[Unassigned], i
 
 
 def _option(value: str) -> tuple[str, ...]:
-    """``--assign`` with a value, which would be an option itself if it began a word with a hyphen."""
+    """Return ``--assign`` with a value, joined if the value begins with a hyphen and would be read as an option."""
     return (f"--assign={value}",) if value.startswith("-") else ("--assign", value)
 
 
 def _joined(words: Sequence[str]) -> str:
-    """Words as the shell of this system splits them again."""
+    """Return words joined so that the shell of this system splits them again."""
     return subprocess.list2cmdline(words) if os.name == "nt" else " ".join(map(_quoted, words))
 
 
 def _quoted(word: str) -> str:
-    """A word in the quotes that are easiest to read."""
+    """Return a word in the most readable quotes."""
     return f'"{word}"' if "'" in word and not _SPECIAL.search(word) else shlex.quote(word)

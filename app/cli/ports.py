@@ -1,4 +1,4 @@
-"""``suisou ports``: list the MIDI devices that are there."""
+"""``suisou ports``: lists the connected MIDI devices."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _ANSWER_WITHIN_S: Final = 15.0
 
 
 class NoDevice(AppError):
-    """There is no such device, or none at all."""
+    """The requested device does not exist, or there are no devices."""
 
 
 class PortMonitor:
@@ -40,7 +40,7 @@ class PortMonitor:
         self.link.close()
 
     def until(self, end_s: float) -> Iterator[News]:
-        """News until a moment of `time.monotonic`."""
+        """Yield news until a moment of `time.monotonic`."""
         while True:
             self._news.clear()
             yield from self.link.poll()
@@ -51,12 +51,12 @@ class PortMonitor:
             self._news.wait(min(left_s, 0.1))
 
     def ports(self) -> Ports:
-        """The devices that are there.
+        """Return the connected devices.
 
         Raises
         ------
         AppError
-            No MIDI system answers.
+            No MIDI system responds.
         """
         reason = Message("capture.no_system")
         for reported in self.until(time.monotonic() + _ANSWER_WITHIN_S):
@@ -68,13 +68,13 @@ class PortMonitor:
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.add_argument("--json", action="store_true")
     command.set_defaults(run=list_ports)
 
 
 def list_ports(arguments: argparse.Namespace) -> None:
-    """Print the devices. Raises AppError where no MIDI system answers."""
+    """Print the devices. Raises AppError if no MIDI system responds."""
     with PortMonitor() as listening:
         ports = listening.ports()
     taken_for = {name: recognised_controller(name) for name in ports.inputs}

@@ -1,4 +1,4 @@
-"""One line of progress on a terminal; silence elsewhere."""
+"""A line with the progress of work on a terminal; nothing is printed elsewhere."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from app.encoding import shown
 
 
 class Progress:
-    """Shows how far the work is, on one line that is written over.
+    """Prints the progress of work on a line that is overwritten.
 
     Parameters
     ----------
     stream : text stream
-        Usually standard error. Nothing is written where it is not a terminal.
+        Usually standard error. Nothing is written if it is not a terminal.
     """
 
     def __init__(self, stream: TextIO) -> None:
@@ -32,7 +32,7 @@ class Progress:
         self._last_s = -1.0
 
     def __call__(self, fraction: float, label: str) -> None:
-        """Show ``fraction`` (0..1) done of the work that ``label`` names; at most ten times a second."""
+        """Print the completed share ``fraction`` (0..1) of the work ``label``, at most ten times a second."""
         now_s = time.monotonic()
         if not self._active or (now_s - self._last_s < 0.1 and fraction < 1.0):
             return
@@ -43,7 +43,7 @@ class Progress:
         self._shown = line
 
     def clear(self) -> None:
-        """Take the line away."""
+        """Erase the line."""
         if self._shown:
             self._stream.write(f"\r{' ' * width(self._shown)}\r")
             self._stream.flush()
@@ -51,8 +51,9 @@ class Progress:
 
 
 def find_holds(performance: Performance, players: Iterable[Player]) -> None:
-    """Find out how players hold their instruments, where it is not known yet. It takes seconds for each, and minutes
-    for an instrument that can hardly be held: progress is shown on standard error."""
+    """Compute the grips of players on their instruments that are not known yet. This takes seconds for each, and
+    minutes for an instrument that can hardly be held; progress is printed on standard error.
+    """
     progress = Progress(sys.stderr)
     try:
         performance.hold(progress=lambda share: progress(share, said("cli.finding_grips")), players=players)

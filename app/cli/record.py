@@ -1,4 +1,4 @@
-"""``suisou record``: record from a MIDI device into a MIDI file."""
+"""``suisou record``: records from a MIDI device into a MIDI file."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ _bars = bounded_number(0, 16, "quantity.bars", int)
 
 
 class RecordError(AppError):
-    """Error of a recording that could not be made."""
+    """Error: a recording could not be made."""
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     command.add_argument("--port", metavar="NAME")
     command.add_argument("--to", type=Path, required=True, metavar="TAKE.mid")
     command.add_argument("--seconds", type=_seconds, metavar="S")
@@ -66,12 +66,12 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def record(arguments: argparse.Namespace) -> int:
-    """Record, and write the file; the exit status.
+    """Record, write the file, and return the exit status.
 
     Raises
     ------
     AppError
-        No device, nothing received, no writable file.
+        There is no device, nothing was received, or no file can be written.
     """
     target: Path = arguments.to
     journal = target.with_name(f"{target.name}.take-journal")
@@ -89,19 +89,19 @@ def record(arguments: argparse.Namespace) -> int:
 
 
 def second_place(target: Path) -> Path:
-    """A folder for a recording whose own folder takes nothing more."""
+    """Return another folder for a recording whose own folder is full or not writable."""
     return second_folder(target.parent, platformdirs.user_state_path("suisou", appauthor=False) / "recordings")
 
 
 def _beside_none(folder: Path, name: str) -> Path:
-    """A name in a folder that no file has."""
+    """Return a path in a folder that does not exist yet, from a name."""
     stem, _, suffix = name.partition(".")
     names = (name if number == 1 else f"{stem} ({number}).{suffix}" for number in count_from(1))
     return next(folder / one for one in names if not os.path.lexists(folder / one))
 
 
 def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
-    """Record into the journal until the time is over or Ctrl+C; where the journal is."""
+    """Record into a journal until the time is over or Ctrl+C is pressed, and return the path of the journal."""
     with PortMonitor() as listening:
         port = _open(listening, arguments.port)
         count_in_s = arguments.count_in * _BEATS_IN_BAR * 60.0 / arguments.tempo
@@ -134,20 +134,20 @@ def _listen(arguments: argparse.Namespace, journal: Path) -> Path:
 
 
 class _Moves:
-    """Follows the journal to a second place, and says so."""
+    """Follows the journal when it moves to another folder, and reports the move."""
 
     def __init__(self, journal: Path) -> None:
         self.journal = journal
 
     def follow(self, reported: Moved) -> None:
-        """Note the journal's new path, and report it."""
+        """Store the journal's new path, and report it."""
         former, self.journal = self.journal, Path(os.fsdecode(reported.path))
         files = {"file": str(former), "journal": str(self.journal)}
         warn(said("record.goes_on_elsewhere", reason=reported.reason, **files))
 
 
 def _open(listening: PortMonitor, requested: str) -> str:
-    """Open the device that is called so, or the only one whose name holds the text."""
+    """Open the device of a name, or the only one whose name contains the text."""
     inputs = listening.ports().inputs
     if not inputs:
         raise NoDevice("capture.no_ports")
@@ -184,7 +184,7 @@ def _count_in(listening: PortMonitor, bars: int, tempo: float, begin_ns: int, mo
 
 
 def _report_until(listening: PortMonitor, end_s: float, moves: _Moves) -> None:
-    """Say what happens to the device until a moment of `time.monotonic`."""
+    """Report the device's connection until a moment of `time.monotonic`."""
     for reported in listening.until(end_s):
         match reported:
             case Moved():
@@ -208,8 +208,9 @@ def _finished(listening: PortMonitor, moves: _Moves) -> None:
 
 
 def _write(target: Path, path: Path, tempo: float) -> int:
-    """Write the file from the journal, which goes once that is done; in a second place where its own takes nothing.
-    Returns the exit status."""
+    """Write the MIDI file from the journal, and delete the journal. If the folder takes no file, another one is used.
+    Returns the exit status.
+    """
     journal = read_journal(path)
     taken = passes(journal)
     if not taken or not journal.messages:
@@ -243,5 +244,5 @@ def _write(target: Path, path: Path, tempo: float) -> int:
 
 
 def _monotonic_s(ns: int) -> float:
-    """A moment of `time.perf_counter_ns` as one of `time.monotonic`."""
+    """Convert a moment of `time.perf_counter_ns` to one of `time.monotonic`."""
     return time.monotonic() + (ns - time.perf_counter_ns()) / 1e9

@@ -1,6 +1,6 @@
-"""The language in which the command line speaks, and how it names pitches: by its options, else by the system.
+"""Language and pitch notation of the command line: those of its options, else of the system.
 
-What scripts read stays in English whatever is chosen: JSON, statuses, names of options and files.
+Texts for scripts are always English: JSON, statuses, names of options and files.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from app.messages.pitches import PitchNames, named_pitch
 
 LANGUAGE, PITCH_NAMES, MIDDLE_C, PITCHES = "--language", "--pitch-names", "--middle-c", "--pitches"
 PITCH_CHOICES: Final = ("concert", "written")
-"""Pitches as they sound, or as the parts of transposing instruments have them."""
+"""Choices for pitches: sounding, or as written in the parts of transposing instruments."""
 PITCH_NAME_CHOICES: Final[tuple[PitchNames, ...]] = get_args(PitchNames)
 MIDDLE_C_OCTAVES: Final = {"C4": 4, "C3": 3}
-"""By name of middle C."""
+"""Octave number of middle C, by the name of middle C."""
 _JAPANESE: Final = ("ja", "japanese")
 _SAMPLE: Final = "あ"
 
 
 class InLanguages(Protocol):
-    """Words of a table by language."""
+    """Texts of a table by language."""
 
     @property
     def en(self) -> str:
@@ -41,7 +41,7 @@ class InLanguages(Protocol):
 
 @dataclass(frozen=True)
 class Speech:
-    """A language and names of pitches.
+    """Language and pitch notation.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Speech:
     middle_c_octave : int
         Octave of middle C.
     written : bool
-        Whether pitches of a player are named as the player's part has them.
+        Whether a player's pitches are written as in the player's part.
     """
 
     language: str = "en"
@@ -61,33 +61,33 @@ class Speech:
     written: bool = False
 
     def __call__(self, message: Message) -> str:
-        """The message as a sentence."""
+        """Return a message as a sentence."""
         semitones = int(message.arguments.get(TRANSPOSITION, 0))
         return text(message, self.language, lambda pitch: self.pitch(pitch, semitones))
 
     def name(self, words: InLanguages) -> str:
-        """Name in a table; the English one where it has no Japanese."""
+        """Return a name from a table; the English one if there is no Japanese one."""
         return (words.ja if self.language == "ja" else "") or words.en
 
     def pitch(self, pitch: float, transposition_semitones: int = 0) -> str:
-        """Name of a MIDI pitch of an instrument with this transposition (written minus sounding pitch)."""
+        """Return the name of a MIDI pitch on an instrument with a transposition (written minus sounding pitch)."""
         shown = pitch + (transposition_semitones if self.written else 0)
         return named_pitch(shown, self.names, self.language, self.middle_c_octave)
 
 
 ENGLISH: Final = Speech()
-"""Words of files and JSON."""
+"""Language and notation of files and JSON."""
 _SPOKEN: Final[list[Speech]] = [ENGLISH]
 
 
 def spoken() -> Speech:
-    """The speech of the command that runs."""
+    """Return the language and notation of the current command."""
     return _SPOKEN[-1]
 
 
 @contextmanager
 def speaking(speech: Speech) -> Iterator[None]:
-    """Speak so for the duration of a block."""
+    """Use a language and notation for the duration of a block."""
     _SPOKEN.append(speech)
     try:
         yield
@@ -96,7 +96,7 @@ def speaking(speech: Speech) -> Iterator[None]:
 
 
 def sentence(message: Message) -> str:
-    """A message in the language of the command line."""
+    """Return a message in the language of the command line."""
     return spoken()(message)
 
 
@@ -106,13 +106,14 @@ def said(id: str, **arguments: Argument) -> str:
 
 
 def error_sentence(error: AppError) -> str:
-    """An error in the language of the command line."""
+    """Return an error in the language of the command line."""
     return sentence(error.message)
 
 
 def requested_speech(arguments: Sequence[str]) -> Speech:
-    """The speech that a command line asks for, before anything else of it is read, since its errors are worded too;
-    what is no possible value counts for nothing and is refused later."""
+    """Return the language and notation requested by a command line, before it is parsed, so that parsing errors use
+    them; impossible values are ignored here and refused later.
+    """
     options = (LANGUAGE, PITCH_NAMES, MIDDLE_C, PITCHES)
     language, names, middle_c, pitches = (_value(arguments, option) for option in options)
     return Speech(
@@ -124,14 +125,14 @@ def requested_speech(arguments: Sequence[str]) -> Speech:
 
 
 def command_first(arguments: Sequence[str]) -> list[str]:
-    """The command line with a language that stands before the command behind everything."""
+    """Return the command line with a language option in front of the command moved to the end."""
     first = arguments[0] if arguments else ""
     taken = 2 if first == LANGUAGE else 1 if first.startswith(f"{LANGUAGE}=") else 0
     return [*arguments[taken:], *arguments[:taken]]
 
 
 def _value(arguments: Sequence[str], option: str) -> str:
-    """The last value of an option, behind it or behind its equals sign; empty where it is not given."""
+    """Return the last value of an option, after a space or an equals sign; empty if it is not given."""
     found = ""
     for place, argument in enumerate(arguments):
         if argument == "--":
@@ -144,9 +145,10 @@ def _value(arguments: Sequence[str], option: str) -> str:
 
 
 def system_language(environment: Mapping[str, str] = os.environ) -> str:
-    """Language of the system's locale, as POSIX and GNU gettext find it: LC_ALL, LC_MESSAGES or LANG, with LANGUAGE
-    before them unless that is C. English for every language that is not ours, and where standard output cannot show
-    Japanese."""
+    """Return the language of the system's locale, found as in POSIX and GNU gettext: LC_ALL, LC_MESSAGES or LANG,
+    preceded by LANGUAGE unless that is C. English if the language is not supported or standard output cannot show
+    Japanese.
+    """
     named = next(filter(None, map(environment.get, ("LC_ALL", "LC_MESSAGES", "LANG"))), "")
     listed = [] if named.partition(".")[0] in ("C", "POSIX") else environment.get("LANGUAGE", "").split(":")
     if not named:

@@ -11,18 +11,18 @@ from app.cli.terminal import warn
 
 DONE: Final = 0
 BAD_INPUT: Final = 1
-"""A file is wrong or cannot be written: nothing was done."""
+"""A file is faulty or cannot be written; nothing was done."""
 BAD_USE: Final = 2
 NO_DISPLAY: Final = 3
-"""The editor has nowhere to open, or a film cannot be drawn."""
+"""There is no display for the editor or for drawing a film."""
 PARTIAL: Final = 4
-"""Done, but players or pairs were excluded, or a take lies elsewhere than asked."""
+"""Finished, but players or pairs were excluded, or a take is in another folder than requested."""
 STOPPED: Final = 128 + signal.SIGINT
-"""Stopped with Ctrl-C."""
+"""Stopped by Ctrl-C."""
 
 
 def report_left_out(left_out: Iterable[tuple[str, str]]) -> int:
-    """Name the excluded players with the reasons, a line for each on stderr; the exit status."""
+    """Print the excluded players with the reasons on stderr, one per line, and return the exit status."""
     status = DONE
     for player, reason in left_out:
         warn(said("player.left_out", player=player, reason=reason))

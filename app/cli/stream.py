@@ -1,4 +1,4 @@
-"""``suisou stream``: play a piece to another program by the VMC protocol, without a window."""
+"""``suisou stream``: sends the motion of a piece to another program by the VMC protocol, without a window."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ _REPORT_S: Final = 1.0
 
 
 def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Declare the sub-command."""
+    """Declare the options."""
     add_source_options(command)
     add_players_option(command)
     command.add_argument("--host", type=_host, default=LOOPBACK)
@@ -70,19 +70,19 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 
 def _host(text: str) -> str:
-    """A computer's name or address."""
+    """Return a computer's name or address."""
     if not text.strip():
         raise argparse.ArgumentTypeError(said("cli.no_host"))
     return text.strip()
 
 
 def stream(arguments: argparse.Namespace) -> int:
-    """Send the piece, in time, and name the excluded players; the exit status.
+    """Send the piece in real time, print the excluded players, and return the exit status.
 
     Raises
     ------
     AppError
-        The file cannot be read, the computer cannot be reached.
+        The file cannot be read, or the computer cannot be reached.
     """
     from app.performance.cast import dancings_of, performers_of, require_players
     from app.performance.ensemble import Performance
@@ -138,7 +138,7 @@ def stream(arguments: argparse.Namespace) -> int:
 
 
 def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, Performer]) -> tuple[Performer, ...]:
-    """The visible instruments of a streamed musician other than the one being played."""
+    """Return the visible instruments of a streamed musician other than the one being played."""
     if not isinstance(one, Player):
         return ()
     return tuple(
@@ -147,7 +147,7 @@ def _beside(performance: Performance, one: Player | Dancer, made: Mapping[str, P
 
 
 def _first_frame(span: FrameSpan, from_s: float | None) -> int:
-    """The frame to begin with. Raises UsageError (``stream.from``) where the piece has none then."""
+    """Return the index of the first frame. Raises UsageError if the piece has no frame at that time."""
     if from_s is None:
         return 0
     first = round((from_s - span.first_frame_s) * float(span.fps))
@@ -157,7 +157,7 @@ def _first_frame(span: FrameSpan, from_s: float | None) -> int:
 
 
 class _Streamed:
-    """A player or dancer, their motion, and how they are sent."""
+    """A player or dancer with motion and format of the messages."""
 
     def __init__(
         self,

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from app.export.unreal.run import UnrealExport
 
 _MEASURES, _DANCE_MEASURES = 9, 3
-"""Number of columns behind a player's notes and a dancer's steps."""
+"""Number of columns after a player's notes, and after a dancer's steps."""
 
 
 def summary(report: Report, folder: Path) -> list[str]:
-    """The table of measures, what was written, what is not played and what to look at."""
+    """Return the table of measures, the written files, notes that are not played, and warnings."""
     lines = [
         said(
             "export_report.files",
@@ -52,7 +52,7 @@ def _from_start(time_s: float) -> str:
 
 
 def share_of_keys(report: Report) -> float:
-    """Return how many keys were written, of those that would be on every frame."""
+    """Return the number of written keys divided by the number of keys with one on every frame."""
     counts = [player.keys for player in report.players] + [dancer.keys for dancer in report.dancers]
     counts += [double.keys for player in report.players for double in player.doubles]
     known = [count for count in counts if count is not None]
@@ -67,12 +67,12 @@ _SKELETONS: Final[dict[SkeletonChoice, str]] = {
 
 
 def project_summary(written: UnrealExport, project: UnrealProject, skeleton: SkeletonChoice, chosen: bool) -> list[str]:
-    """The tree of what is in an Unreal project now, on which skeleton, and what `summary` says of it.
+    """Return the files of an Unreal project after an export as a tree, the skeleton, and `summary`.
 
     Parameters
     ----------
     chosen : bool
-        Whether the skeleton was; otherwise it is said how another is.
+        Whether the user chose the skeleton; otherwise the option for choosing one is printed.
     """
     plan, report = written.plan, written.report
     known = project.version is not None
@@ -101,7 +101,7 @@ def project_summary(written: UnrealExport, project: UnrealProject, skeleton: Ske
 
 
 def tree(paths: Iterable[PurePosixPath], mark: Callable[[PurePosixPath], str] = lambda path: "") -> list[str]:
-    """Files as a tree, two blanks a level; folders have a slash."""
+    """Return files as a tree indented by two spaces a level; folders end with a slash."""
     lines: list[str] = []
     before: tuple[str, ...] = ()
     for path in paths:
@@ -116,7 +116,7 @@ def tree(paths: Iterable[PurePosixPath], mark: Callable[[PurePosixPath], str] = 
 
 
 def _judgement(report: Report) -> list[str]:
-    """The table of measures, what is not played and what to look at."""
+    """Return the table of measures, notes that are not played, and warnings."""
     lines: list[str] = []
     if any(player.measures is not None for player in report.players):
         played: list[PlayerReport | DoubleReport] = []
@@ -146,8 +146,7 @@ def _judgement(report: Report) -> list[str]:
 
 
 def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:
-    """Warnings to look at, after an empty line, and the number of ignored problems that are not among them; nothing if
-    there are none of either."""
+    """Return warnings after an empty line, and the number of ignored problems; empty if there are none."""
     lines = [said("export_report.look_at"), *(f"  {warning}" for warning in warnings)] if warnings else []
     if ignored:
         lines.append(f"{said('problem.ignored', count=ignored)} (--ignored)")
@@ -155,13 +154,14 @@ def look_at(warnings: Sequence[str], ignored: int = 0) -> list[str]:
 
 
 def heads(id: str) -> tuple[str, ...]:
-    """Heads of columns, which stand in one text with lines between them."""
+    """Return the column headings in a text that separates them by vertical bars."""
     return tuple(said(id).split("|"))
 
 
 def columns(rows: Iterable[tuple[str, ...]], of_numbers: bool = True, names: int = 1) -> list[str]:
-    """Rows as columns two spaces apart; all but the first ``names`` are ``of_numbers``, on the right of their
-    columns."""
+    """Return rows as columns two spaces apart; columns after the first ``names`` are aligned right if they are
+    ``of_numbers``.
+    """
     table = [tuple(map(shown, row)) for row in rows]
     widths = [max(width(row[column]) for row in table) for column in range(len(table[0]))]
     placed = [on_left] * names + [on_right if of_numbers else on_left] * (len(widths) - names)

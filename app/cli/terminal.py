@@ -1,8 +1,8 @@
-"""Output of the command line, in one place; only `app.cli.progress` has a line of its own.
+"""Output of the command line in one place; only `app.cli.progress` prints otherwise.
 
-Names of files and texts in them come from anywhere. An escape sequence in one would be obeyed by the terminal, and a
-newline would begin what looks like a line of the program's own; so whatever is printed is lines, and what is not
-visible in one is escaped (`app.encoding.shown`).
+Names of files and texts in them come from anywhere. The terminal would execute an escape sequence in them, and a line
+feed would start a line that looks like the program's. So everything printed consists of lines, and invisible characters
+in them are escaped (`app.encoding.shown`).
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from app.encoding import HIDDEN, shown
 
 
 def say(*lines: str, stream: TextIO | None = None) -> None:
-    """Print lines, on standard output unless another stream is named."""
+    """Print lines on standard output or another stream."""
     for line in lines:
         print(shown(line), file=stream, flush=stream is not None)
 
 
 def warn(sentence: str) -> None:
-    """Print what went wrong or deserves attention, on standard error."""
+    """Print an error or warning on standard error."""
     say(f"suisou: {sentence}", stream=sys.stderr)
 
 
 def say_json(value: Any) -> None:
-    """Print a value as JSON, which every reader takes back exactly; what a terminal would obey is escaped in it."""
+    """Print a value as JSON with terminal control characters escaped."""
     text = json.dumps(value, ensure_ascii=False)
     # Of ASCII JSON escapes all but one itself: megabytes need not be searched.
     if not text.isascii() or "\x7f" in text:
@@ -40,15 +40,16 @@ def say_json(value: Any) -> None:
 
 
 def count(number: int, *, is_last: bool) -> None:
-    """Print a number of a count-in behind the ones before, with the terminal's bell."""
+    """Print a number of a count-in after the previous ones, with the terminal's bell."""
     bell = "\a" if sys.stdout.isatty() else ""
     print(f"{bell}{number}", end="\n" if is_last else " ", flush=True)
 
 
 @contextmanager
 def interrupted_by(number: signal.Signals) -> Iterator[None]:
-    """Let a signal (Ctrl-C, or a request to end) end what is done here by KeyboardInterrupt, so that nothing
-    half-written stays."""
+    """Convert a signal (Ctrl-C, or a request to end) to KeyboardInterrupt within a block, so that no half-written file
+    remains.
+    """
     before = signal.signal(number, signal.default_int_handler)
     try:
         yield

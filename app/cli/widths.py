@@ -1,4 +1,4 @@
-"""Widths of text in a terminal, where Japanese characters take two columns: padding, and lines of a given width."""
+"""Widths of text in a terminal, where Japanese characters take two columns: padding and line breaking."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import unicodedata
 from typing import Final
 
 _WORDS: Final = re.compile(r"\s+|[!-\u2e7f\ufb00-\ufdff\ufe70-\ufefe]+|[ァ-ヺー]{1,12}|.", re.DOTALL)
-"""Blanks, words of narrow characters, words in katakana, single wide characters."""
+"""Units of line breaking: blanks, words of narrow characters, katakana words, single wide characters."""
 _NOT_FIRST: Final = frozenset(":;,.!?)、。，．・：；！？）」』】〕～ーぁぃぅぇぉっゃゅょァィゥェォッャュョ々")
-"""Characters that begin no line (JIS X 4051)."""
+"""Characters that must not begin a line (JIS X 4051)."""
 _NOT_LAST: Final = frozenset("（「『【〔")
-"""Characters that end no line."""
+"""Characters that must not end a line."""
 
 
 def width(text: str) -> int:
-    """Number of columns that a text takes: two for a character that is wide in East Asian typography."""
+    """Return the number of columns of a text: two for each wide East Asian character."""
     if text.isascii():
         return len(text)
     return sum(
@@ -25,25 +25,26 @@ def width(text: str) -> int:
 
 
 def on_left(text: str, columns: int) -> str:
-    """The text with blanks behind it up to a number of columns."""
+    """Return a text padded on the right to a number of columns."""
     return text + " " * (columns - width(text))
 
 
 def on_right(text: str, columns: int) -> str:
-    """The text with blanks before it up to a number of columns."""
+    """Return a text padded on the left to a number of columns."""
     return " " * (columns - width(text)) + text
 
 
 def cut(text: str, columns: int) -> str:
-    """The beginning of a text that fits into a number of columns."""
+    """Return the longest beginning of a text that fits into a number of columns."""
     while width(text) > columns:
         text = text[:-1]
     return text
 
 
 def wrapped(text: str, columns: int) -> list[str]:
-    """Break a text into lines of a given number of columns, at blanks and between Japanese characters; punctuation
-    stays with the character before it. A word longer than a line has a line of its own."""
+    """Break a text into lines of at most a number of columns, at blanks and between Japanese characters; punctuation
+    stays with the preceding character. A word longer than a line gets a line of its own.
+    """
     lines, line = list[str](), ""
     for piece in _unbroken(" ".join(text.split())):
         if line and width(line + piece.rstrip()) > columns:
@@ -54,7 +55,7 @@ def wrapped(text: str, columns: int) -> list[str]:
 
 
 def _unbroken(text: str) -> list[str]:
-    """Pieces of a text between which a line may end."""
+    """Return the pieces of a text between which a line may break."""
     pieces: list[str] = []
     for word in _WORDS.findall(text):
         joined = pieces and not word.isspace() and (word[0] in _NOT_FIRST or pieces[-1][-1] in _NOT_LAST)

@@ -1,4 +1,4 @@
-"""Messages in words: the templates of an id (`app.messages.wordings`), filled with a message's arguments."""
+"""Texts of messages: the template of an id (`app.messages.wordings`) filled with a message's arguments."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ PITCHES: Final[dict[str, tuple[str, ...]]] = {
     "score.doubling": ("pitch",),
     "midi.stuck_notes": ("pitch",),
 }
-"""Arguments that are MIDI numbers of pitches: they are named, in the editor as its user chose."""
+"""Arguments of messages that are MIDI pitches; they are shown in the notation that the user chose."""
 
 TRANSPOSITION: Final = "transposition_semitones"
-"""Argument that a message about a player may have: written minus sounding pitch of the player's instrument."""
+"""Name of the argument with the written minus the sounding pitch of a player's instrument in semitones."""
 
 FINGERINGS: Final[dict[str, tuple[str, ...]]] = {
     **dict.fromkeys(("fingering.trill", "fingering.speed"), ("label", "first")),
@@ -58,13 +58,13 @@ FINGERINGS: Final[dict[str, tuple[str, ...]]] = {
         ("label",),
     ),
 }
-"""Arguments that are labels of fingerings: `instrument_maps.fingering_words` says them in words."""
+"""Arguments of messages that are labels of fingerings, which `instrument_maps.fingering_words` expresses in words."""
 
 DETAILS: Final = frozenset({"detail", "reason"})
-"""Arguments that `app.messages.details` words."""
+"""Arguments whose words are in `app.messages.details`."""
 
 TEXTS: Final = frozenset({"mark", "parameter", "variant", "beside", "presentation", "aspect", "scale"})
-"""Arguments that may be ids of texts themselves."""
+"""Arguments that may be text ids."""
 
 
 class _Filling(Formatter):
@@ -87,7 +87,9 @@ class _Filling(Formatter):
 
 
 def _after(value: str, literal: str) -> str:
-    """The words behind a value: a space where Japanese follows Latin letters or digits, none between Japanese."""
+    """Return the text after a value, with a space between Japanese and Latin letters or digits, and none within
+    Japanese.
+    """
     words = literal.removeprefix(" ")
     if _JAPANESE_START.match(words):
         if _LATIN_END.search(value):
@@ -98,7 +100,7 @@ def _after(value: str, literal: str) -> str:
 
 
 def _before(text: str, literal: str, value: str) -> str:
-    """The text with a value behind its last words; as `_after`."""
+    """Return the text followed by a value; spaces as in `_after`."""
     words = text.removesuffix(" ")
     if _JAPANESE_END.search(literal.removesuffix(" ")):
         if _LATIN_START.match(value):
@@ -115,16 +117,17 @@ _FILLING = _Filling()
 
 
 def filled(template: str, arguments: Mapping[str, object]) -> str:
-    """A template with its arguments; ``{count:note|notes}`` is the first word where the count is 1, else the second.
+    """Return a template filled with arguments; ``{count:note|notes}`` becomes the first word if the count is 1, else
+    the second.
 
-    A language without a plural leaves such a field out. Around what is filled into Japanese there is a space where
-    Latin letters or digits meet it, and none where it is Japanese, whatever the template has.
+    Languages without a plural omit such a field. Values in Japanese text are surrounded by spaces if Latin letters or
+    digits meet Japanese, and by none otherwise, regardless of the template.
     """
     return _FILLING.vformat(template, (), arguments)
 
 
 def text(message: Message, language: str = "en", named: Callable[[float], str] = pitch_name) -> str:
-    """The message as a sentence, English unless another of `LANGUAGES` is asked for; ``named`` names pitches."""
+    """Return a message as a sentence in one of `LANGUAGES`; ``named`` returns names of pitches."""
     arguments = dict(message.arguments)
     for name in PITCHES.get(message.id, ()):
         arguments[name] = named(float(arguments[name]))
@@ -147,7 +150,7 @@ def text(message: Message, language: str = "en", named: Callable[[float], str] =
 
 
 def touch_name(part: str, language: str) -> str:
-    """The words for a part of a hand such as ``left.index.side``, as maps name it; what is unknown stays as it is."""
+    """Return the words for a part of a hand such as ``left.index.side``; unknown names are returned unchanged."""
     side, _, rest = part.partition(".")
     name, _, place = rest.partition(".")
     ids = f"touch_side.{side}", f"touch_part.{name}", f"touch_place.{place or 'pad'}"
@@ -158,11 +161,11 @@ def touch_name(part: str, language: str) -> str:
 
 
 def _finger_name(finger: str, language: str) -> str:
-    """The words for a finger as maps name it; what is unknown stays as it is."""
+    """Return the words for a finger named as in instrument maps; unknown names are returned unchanged."""
     id = f"touch_part.{finger}"
     return wording(id, language) if id in WORDINGS else finger
 
 
 def error_text(error: AppError) -> str:
-    """Text of an error, as an English sentence."""
+    """Return the text of an error as an English sentence."""
     return text(error.message)

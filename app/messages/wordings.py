@@ -1,4 +1,4 @@
-"""The tables of texts: every id with its English and its Japanese, in TOML files beside what shows them."""
+"""The tables of texts: the English and Japanese of every id, in TOML files beside the code that uses them."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Final, TypeAlias
 
 Wording: TypeAlias = tuple[str, str]
-"""A text in each of `LANGUAGES`."""
+"""A text in each of `LANGUAGES`, in order."""
 
 LANGUAGES: Final = {"en": "English", "ja": "日本語"}
-"""By code: the name in the language itself; the wordings are in this order."""
+"""Name of each language in the language itself, by code; wordings have this order."""
 
 
 def read_tables(folder: Path, name: str) -> dict[str, Wording]:
-    """Read the wordings of a folder and of the folders in it, by id: all ``name.toml`` and ``name/*.toml``."""
+    """Read the texts of a folder and its subfolders by id: all ``name.toml`` and ``name/*.toml``."""
     return {
         id: (wording["en"], wording["ja"])
         for depth in ("", "*/")
@@ -25,14 +25,16 @@ def read_tables(folder: Path, name: str) -> dict[str, Wording]:
 
 
 WORDINGS: Final = read_tables(Path(__file__).parents[1], "messages")
-"""Every message of the program by id: its templates, filled with the message's arguments."""
+"""Templates of all messages of the program by id."""
 
 CORRECTION: Final = "correction_kind."
-"""Before the tag of a correction (`app.plan.by_hand.corrections.kind`), the id of its kind in words."""
+"""Prefix of the ids that name kinds of corrections; followed by the tag of the correction
+(`app.plan.by_hand.corrections.kind`).
+"""
 CORRECTIONS: Final = tuple(id.removeprefix(CORRECTION) for id in WORDINGS if id.startswith(CORRECTION))
-"""The tags that have words."""
+"""Tags of corrections whose kind has a name."""
 
 
 def wording(id: str, language: str) -> str:
-    """The template of a message in one of `LANGUAGES`."""
+    """Return the template of a message in one of `LANGUAGES`."""
     return WORDINGS[id][list(LANGUAGES).index(language)]

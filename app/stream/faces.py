@@ -1,4 +1,4 @@
-"""Names of face shapes at the receiver: ARKit's names in either spelling, or the presets of VRM 0."""
+"""Names of face shapes for the receiver of a stream: ARKit's names in two spellings, or the presets of VRM 0."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ import numpy as np
 from app.arrays import FloatArray
 
 FaceNames = Literal["arkit", "arkit_capital", "vrm"]
-"""``jawOpen``; ``JawOpen``, as clips for perfect sync are often named; ``A``, ``Blink_L`` and the like."""
+"""Names of face shapes: ``jawOpen``; ``JawOpen``, common for "perfect sync" clips; ``A``, ``Blink_L`` and so on (VRM
+0).
+"""
 FACE_NAMES: Final[tuple[FaceNames, ...]] = ("arkit", "arkit_capital", "vrm")
 
 VRM_PRESETS: Final[Mapping[str, Mapping[str, float]]] = {
@@ -25,17 +27,17 @@ VRM_PRESETS: Final[Mapping[str, Mapping[str, float]]] = {
     # The whole face changes with it: half of it says as much as two brows.
     "Angry": {"browDownLeft": 0.25, "browDownRight": 0.25},
 }
-"""Weights of ARKit's shapes for a face without finer shapes; sums are cut at 1."""
+"""Weights of ARKit's shapes in each preset of VRM 0; sums are limited to 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class FaceLayout:
-    """The names that are sent, and how their values come from the weights of morphs.
+    """Names of the sent face shapes, and the calculation of their values from morph weights.
 
     Attributes
     ----------
     shares : (len(names), len(morphs)) float64 or None
-        None: each name is one morph.
+        Weight of each morph in each value; None if each name is that of one morph.
     """
 
     names: tuple[str, ...]
@@ -43,14 +45,14 @@ class FaceLayout:
     shares: FloatArray | None = None
 
     def values(self, weights: Mapping[str, float]) -> FloatArray:
-        """The values 0..1 that are sent, in the order of the names."""
+        """Return the values 0..1 to send, in the order of the names."""
         own = np.array([weights.get(morph, 0.0) for morph in self.morphs])
         values: FloatArray = np.clip(own if self.shares is None else self.shares @ own, 0.0, 1.0)
         return values
 
 
 def face_layout(naming: FaceNames, morphs: Sequence[str]) -> FaceLayout:
-    """Layout for sending a face with these morphs, which have ARKit's names."""
+    """Return the layout for a face with morphs named as in ARKit."""
     if naming == "arkit":
         return FaceLayout(tuple(morphs), tuple(morphs))
     if naming == "arkit_capital":

@@ -1,7 +1,7 @@
-"""Messages of OSC in bundles that fit a network's packets, their numbers filled in again for every frame.
+"""OSC messages in bundles that fit into network packets; only their numbers are replaced for each frame.
 
-The bytes are built by python-osc, once; what changes from frame to frame are floats, whose places are known since a
-message ends with them. Building them again for each frame would take forty times as long.
+The bytes are built once by python-osc. Only floats change from frame to frame, and these are at the end of each
+message; building messages anew for each frame would take forty times as long.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from pythonosc.osc_message_builder import OscMessageBuilder
 from app.arrays import AnyFloatArray, IndexArray
 
 MOST_BYTES: Final = 1400
-"""Largest bundle: an Ethernet packet, with room for tunnels."""
+"""Largest size of a bundle in bytes: an Ethernet packet with space for tunnels."""
 _BUNDLE_HEAD: Final = 16
-"""Bytes of an OSC bundle's head: its mark and its time."""
+"""Bytes of the head of an OSC bundle: its mark and its time."""
 _LENGTH: Final = 4
-"""Before each message."""
+"""Bytes of the length before each message."""
 _WORD: Final = 4
 
 
@@ -33,9 +33,9 @@ class Head:
     Attributes
     ----------
     fixed : tuple of str or int
-        Its first arguments, the same in every frame.
+        First arguments, equal in every frame.
     floats : int
-        How many follow.
+        Number of floats after them.
     """
 
     address: str
@@ -44,7 +44,7 @@ class Head:
 
 
 class Packets:
-    """A frame's messages as bundles, in their order."""
+    """Messages of a frame as bundles in their order."""
 
     def __init__(self, heads: Sequence[Head]) -> None:
         self.floats = sum(head.floats for head in heads)
@@ -72,12 +72,12 @@ class Packets:
         self._bundles.append((bundle.build().dgram, np.array(words, np.intp), slice(first, first + sum(floats))))
 
     def filled(self, values: AnyFloatArray) -> list[bytes]:
-        """The datagrams of a frame.
+        """Return the datagrams of a frame.
 
         Parameters
         ----------
         values : (floats,)
-            Of all messages, in their order.
+            Floats of all messages in their order.
         """
         result = []
         for datagram, words, span in self._bundles:

@@ -1,4 +1,4 @@
-"""Datagrams to a program that listens, here or elsewhere; nothing ever waits for it."""
+"""Sending of datagrams to a program on this or another computer, without waiting for it."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ SocketAddress: TypeAlias = tuple[str, int] | tuple[str, int, int, int]
 
 
 class StreamError(AppError):
-    """Error: nothing can be sent to the address."""
+    """Error: data cannot be sent to the address."""
 
 
 @dataclass(frozen=True)
 class Address:
-    """IP address of a computer whose name was resolved, and a port of it.
+    """IP address and port of a computer whose name was resolved.
 
     Attributes
     ----------
     host : str
-        As it was asked for.
+        Name or address as given by the user.
     family : int
-        Of the Internet's addresses.
+        Address family, IPv4 or IPv6.
     """
 
     host: str
@@ -41,7 +41,7 @@ class Address:
     at: SocketAddress
 
     def port(self, port: int) -> Address:
-        """Another port of the same computer."""
+        """Return the address with another port."""
         return Address(self.host, self.family, (self.at[0], port, *self.at[2:]))
 
 
@@ -50,13 +50,13 @@ class SendOutcome(Enum):
 
     SENT = "sent"
     DROPPED = "dropped"
-    """The system has no room: this frame is not sent, and not kept either."""
+    """The system's buffer was full, and the frame was discarded."""
     NO_RECEIVER = "no_receiver"
-    """It went out, but no one listens there."""
+    """The frame was sent, but no program listens at the port."""
 
 
 def is_loopback(host: str) -> bool:
-    """Return whether what is sent to this host stays on this computer."""
+    """Return whether data sent to this host stays on this computer."""
     if host.strip().casefold() == "localhost":
         return True
     try:
@@ -66,19 +66,19 @@ def is_loopback(host: str) -> bool:
 
 
 def checked_port(port: int) -> int:
-    """The port. Raises StreamError (``stream.port``) where it is none that a program may listen on."""
+    """Return the port. Raises StreamError if no program may listen on it."""
     if not LEAST_PORT <= port <= MOST_PORT:
         raise StreamError("stream.port", port=port, least=LEAST_PORT, most=MOST_PORT)
     return port
 
 
 def find_address(host: str, port: int) -> Address:
-    """Look a computer up; may take seconds where it has a name.
+    """Return the address of a computer. Resolving its name may take seconds.
 
     Raises
     ------
     StreamError
-        ``stream.host_unknown``, ``stream.port``.
+        The name is unknown, or the port is invalid.
     """
     requested = host.strip()
     if not requested:
@@ -94,7 +94,7 @@ def find_address(host: str, port: int) -> Address:
 
 
 def reaches_many(address: Address) -> bool:
-    """Return whether an address is that of many computers: multicast, or the broadcast address of a network."""
+    """Return whether an address reaches many computers: multicast, or the broadcast address of a network."""
     found = ipaddress.ip_address(address.at[0])
     if (getattr(found, "ipv4_mapped", None) or found).is_multicast:
         return True
@@ -116,12 +116,12 @@ class Sender:
     Parameters
     ----------
     broadcast : bool
-        Whether the address may be that of many computers.
+        Whether addresses of many computers are allowed.
 
     Raises
     ------
     StreamError
-        ``stream.not_sent``: there is no way there; ``stream.to_many``: it reaches many and must not.
+        There is no route to the address, or it reaches many computers although this is not allowed.
     """
 
     def __init__(self, address: Address, broadcast: bool = False) -> None:
@@ -139,7 +139,7 @@ class Sender:
             raise self._not_sent(error) from error
 
     def send(self, datagrams: Iterable[bytes]) -> SendOutcome:
-        """Send a frame, or what there is room for. Raises StreamError (``stream.not_sent``)."""
+        """Send a frame, as far as the system's buffer allows. Raises StreamError if that fails."""
         outcome = SendOutcome.SENT
         for datagram in datagrams:
             try:
@@ -154,7 +154,7 @@ class Sender:
         return outcome
 
     def close(self) -> None:
-        """Send no more."""
+        """Close the connection."""
         self._socket.close()
 
     def _not_sent(self, error: OSError) -> StreamError:

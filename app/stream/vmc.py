@@ -1,8 +1,7 @@
-"""A performer's pose as messages of the VMC protocol (https://protocol.vmc.info), the performer's part of it.
+"""A performer's pose as messages of the VMC protocol's sending side (https://protocol.vmc.info).
 
-A receiver shows one character for each port. It gets the local rotation of every bone that the character has, as from
-a T-pose in which all bones are unturned; the face; and of a player the instrument as a tracker, for a
-model to be attached.
+A receiver shows one character for each port. It receives the local rotation of every bone relative to a T-pose in which
+all rotations are zero, the face, and for players the instrument as a tracker, to which a model can be attached.
 """
 
 from __future__ import annotations
@@ -25,23 +24,23 @@ if TYPE_CHECKING:
 
 
 PORT: Final = 39539
-"""Usual port of a receiver."""
+"""Default port of a receiver."""
 LOADED = 1
-"""A character is there, and moves."""
+"""Value of the state message: the model is loaded."""
 _TRANSFORM = 7
-"""Position and rotation."""
+"""Number of floats of a position and a rotation."""
 IN_THE_MIDDLE = StagePosition(0.0, 0.0, 0.0)
 
 
 class Sent:
-    """A performer in the form that is sent: bones with their names, face and instrument.
+    """A performer in the form that is sent: bones with names, face and instrument.
 
     Parameters
     ----------
     instrument : str or None
-        Name of its tracker; None: the performer holds none.
+        Name of the instrument's tracker; None if the performer holds no instrument.
     doubles : tuple of str
-        Names of the trackers of other instruments that the performer changes to.
+        Names of trackers of other instruments that the performer changes to.
     """
 
     def __init__(
@@ -85,16 +84,16 @@ class Sent:
     def datagrams(
         self, pose: Pose, time_s: float, stage: StagePosition = IN_THE_MIDDLE, beside: Sequence[Pose] = ()
     ) -> list[bytes]:
-        """The packets of a pose.
+        """Return the packets of a pose.
 
         Parameters
         ----------
         time_s : float
-            Since the stream began.
+            Time since the beginning of the stream in seconds.
         stage : StagePosition, optional
-            Where the performer stands; in the middle, facing the audience, unless said.
+            The performer's place; by default the middle, facing the audience.
         beside : sequence of Pose
-            The same body with each of the other instruments.
+            Poses of the same body with each of the other instruments.
         """
         root_m = np.array([stage.x_m, 0.0, stage.z_m])
         root = np.array([0.0, np.sin(stage.turn_rad / 2.0), 0.0, np.cos(stage.turn_rad / 2.0)])
@@ -107,7 +106,7 @@ class Sent:
         return self._packets.filled(np.concatenate([*values, self._face.values(pose.morphs)]))
 
     def _local(self, pose: Pose) -> tuple[AnyFloatArray, AnyFloatArray]:
-        """Positions and rotations of the bones, each in the frame of the bone above it that is sent."""
+        """Return positions and rotations of the bones, each relative to the nearest sent bone above it."""
         rotations = quaternion.normalize(pose.rotations[self._joints])
         positions_m = self._offsets_m.copy()
         positions_m[self._hips_place] = pose.hips_m
@@ -122,7 +121,7 @@ class Sent:
 
 
 def _transforms(positions_m: AnyFloatArray, rotations: AnyFloatArray) -> AnyFloatArray:
-    """Position and rotation of each, one after the other, in Unity's space."""
+    """Return positions and rotations in Unity's coordinate system, alternating."""
     return np.concatenate([unity_positions(positions_m), unity_rotations(rotations)], axis=1).ravel()
 
 
@@ -134,17 +133,17 @@ _THUMB = {"ThumbMetacarpal": "ThumbProximal", "ThumbProximal": "ThumbIntermediat
 
 
 def unity_positions(positions_m: AnyFloatArray) -> FloatArray:
-    """Positions (..., 3) in Unity's space, metres."""
+    """Convert positions (..., 3) in metres to Unity's coordinate system."""
     return np.asarray(positions_m * _UNITY_POSITION + 0.0, np.float64)
 
 
 def unity_rotations(rotations: AnyFloatArray) -> FloatArray:
-    """Rotations (..., 4), xyzw, in Unity's space."""
+    """Convert rotations (..., 4), xyzw, to Unity's coordinate system."""
     return np.asarray(rotations * _UNITY_ROTATION, np.float64)
 
 
 def unity_bone(joint: str) -> str:
-    """The name in `HumanBodyBones` of a VRM 1.0 joint."""
+    """Return the name in Unity's `HumanBodyBones` of a VRM 1.0 joint."""
     for side in ("left", "right"):
         if joint.startswith(side):
             part = joint.removeprefix(side)

@@ -1,6 +1,7 @@
-"""Details of messages in words: faults of files, tables and projects, and reasons of the system (`japanese.toml`).
+"""Words for details of messages: faults of files, tables and projects, and errors of the operating system
+(`japanese.toml`).
 
-The words of a library that the table lacks stay as they are.
+Words of a library that are missing in the table remain unchanged.
 """
 
 from __future__ import annotations
@@ -26,19 +27,19 @@ Label: TypeAlias = Callable[[str, str], str]
 
 @cache
 def _japanese() -> tuple[dict[str, str], tuple[tuple[re.Pattern[str], str], ...]]:
-    """Read reasons of the system by its own words, and patterns of details, with their Japanese."""
+    """Read the Japanese words for errors of the operating system, and for patterns of details."""
     table = tomllib.loads(Path(__file__).with_name("japanese.toml").read_text(encoding="utf-8"))
     reasons = {os.strerror(getattr(errno, name, -1)): words for name, words in table["system"].items()}
     return reasons, tuple((re.compile(pattern), words) for pattern, words in table["patterns"].items())
 
 
 def detail_text(detail: str, language: str, label: Label = lambda kind, name: name) -> str:
-    """The detail of a message in a language.
+    """Return the detail of a message in a language.
 
     Parameters
     ----------
     label : callable
-        The name of a correction as the user knows it, by its kind and its name in the file.
+        Returns a correction's name for the user from its kind and its name in the file.
     """
     place = _WHERE.fullmatch(detail)
     if place is not None and any(place.groups()[1:]):
@@ -58,5 +59,5 @@ def detail_text(detail: str, language: str, label: Label = lambda kind, name: na
 
 
 def _labelled(quoted: str, label: Callable[[str], str]) -> str:
-    """A quoted name with what the user knows it by, in the same quotes."""
+    """Return a quoted name replaced by its name for the user, in the same quotes."""
     return f"{quoted[0]}{label(quoted[1:-1])}{quoted[-1]}"
