@@ -1,1 +1,1 @@
-"""Sound without a window: synthesiser, decoding, offset; `playback` alone touches Qt."""
+"""Sound: synthesiser, decoding and alignment; only `playback` needs Qt."""

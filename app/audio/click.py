@@ -1,4 +1,4 @@
-"""The metronome, a track of clicks on the beats of the score, and a tone to test the audio output."""
+"""The metronome (clicks on the beats of the score), and a tone to test the audio output."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _CLICK_S: Final = 0.035
 
 
 def click_track(project: Project, start_s: float, end_s: float) -> MixTrack:
-    """Clicks on every beat of a span that is counted aloud (`MetreMap.counted`), the first of a bar higher.
+    """Return clicks on every counted beat of a span (`MetreMap.counted`), with a higher pitch on the first of a bar.
 
     Parameters
     ----------
     start_s, end_s : float
-        Seconds of the performance; from before the first note if the pre-roll is to be counted.
+        Seconds of the performance; the start may precede the first note to count the pre-roll.
     """
     tempo_map, metre_map = project.score.tempo_map, project.metre_map
     first, last = (metre_map.bar_of_tick(int(np.floor(tempo_map.ticks(at_s)))) for at_s in (start_s, end_s))
@@ -35,7 +35,7 @@ def click_track(project: Project, start_s: float, end_s: float) -> MixTrack:
 
 
 def steady_clicks(times_s: Iterable[float], high: int) -> MixTrack:
-    """Clicks at times, the first ones higher."""
+    """Return clicks at given times, with a higher pitch for the first ones."""
     return MixTrack(
         AudioSegment(round(at_s * RATE_HZ), _click(_BAR_HZ if index < high else _BEAT_HZ))
         for index, at_s in enumerate(times_s)
@@ -56,7 +56,7 @@ _FADE_S: Final = 0.02
 
 
 def beep_track() -> MixTrack:
-    """A tone of the tuning pitch at 0 s."""
+    """Return a tone of the tuning pitch at 0 s."""
     times_s = np.arange(round(BEEP_S * RATE_HZ)) / RATE_HZ
     fade = np.minimum(1.0, np.minimum(times_s, BEEP_S - times_s) / _FADE_S)
     return MixTrack([AudioSegment(0, np.round(np.sin(2 * np.pi * _HZ * times_s) * fade * 12000).astype(np.int16))])

@@ -1,7 +1,7 @@
-"""The device's clock, made smooth: the picture moves evenly though the device counts in steps.
+"""Smoothed clock of a sound device, so that the picture moves evenly.
 
-A device says how much it has played in steps of some milliseconds, late by a varying amount. The clock of the machine
-is even, but runs at another rate. So the time is the machine's, moved by a slow average of the difference.
+A device reports the played time in steps of some milliseconds, with varying delay. The computer's clock is even but has
+another rate. So the result is the computer's time plus a slow average of the difference.
 """
 
 from __future__ import annotations
@@ -10,23 +10,23 @@ from collections.abc import Callable
 from typing import Final
 
 _AVERAGED: Final = 150
-"""Observations in the average: long against the jitter, short against the drift of two crystals."""
+"""Number of observations in the average: many compared with the jitter, few compared with the drift of two crystals."""
 _JUMP_S: Final = 0.04
-"""A difference that has moved by more is no jitter: the device stood still, or was suspended."""
+"""Change of the difference in seconds that is no jitter: the device paused or was suspended."""
 _SHIFT_S: Final = 0.01
 _SHIFTED: Final = 8
-"""Observations in a row, all off by more to the same side, that count as a shift and not as jitter."""
+"""Number of consecutive observations off to the same side that count as a shift and not as jitter."""
 _AHEAD_S: Final = 0.03
-"""The time is never further ahead of what the device has said."""
+"""Greatest lead in seconds over the time that the device has reported."""
 
 
 class DeviceClock:
-    """Seconds of sound that were played since the device was started.
+    """Seconds of sound played since the device was started.
 
     Parameters
     ----------
     now : callable
-        A monotonic clock in seconds, `time.perf_counter`.
+        Function that returns a monotonic time in seconds.
     """
 
     def __init__(self, now: Callable[[], float]) -> None:
@@ -39,7 +39,7 @@ class DeviceClock:
         self._time_s = 0.0
 
     def observe(self, processed_s: float) -> None:
-        """Take note that the device has played this much."""
+        """Add an observation: the device has played this many seconds."""
         if processed_s == self._processed_s:
             return
         moved_first = self._processed_s == 0.0
@@ -55,7 +55,9 @@ class DeviceClock:
         self._offset_s += away_s / self._count
 
     def time_s(self) -> float:
-        """The position that sounds now; never goes back, and stands until the device begins to play."""
+        """Return the position of the audible sound in seconds; it never decreases, and is constant until the device
+        begins to play.
+        """
         if self._offset_s is None:
             return 0.0
         time_s = min(self._now() + self._offset_s, self._processed_s + _AHEAD_S)

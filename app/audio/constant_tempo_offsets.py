@@ -1,4 +1,4 @@
-"""Likely places of a score in a recording at a constant tempo: the chroma of both is correlated at every offset."""
+"""Likely positions of a score in a recording at a constant tempo, by correlating the chroma of both at every offset."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from app.errors import Progress
 Spectrum: TypeAlias = ComplexArray
 
 TEMPO_RATIOS: Final = (0.94, 1.06)
-"""A recording may be this much slower or faster than the score."""
+"""Least and greatest tempo of a recording relative to the score's."""
 _CANDIDATES: Final = 4
 _APART_S: Final = 1.0
 LEAST_APART_S: Final = 0.1
-"""Alignments nearer to one another than this are the same."""
+"""Positions closer than this number of seconds are equal."""
 _LEAST_OVERLAP: Final = 0.35
-"""Share of the shorter of the two that must overlap."""
+"""Least overlap as a share of the shorter of score and recording."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class RecordingPlace:
     Attributes
     ----------
     start_s : float
-        Second of the recording at which the score's second 0 lies; may be negative.
+        Second of the recording at the score's second 0; may be negative.
     ratio : float
         The recording's tempo divided by the score's.
     """
@@ -41,12 +41,14 @@ class RecordingPlace:
 
 
 def is_other(one: RecordingPlace, other: RecordingPlace) -> bool:
-    """Return whether two places are more than a rounding apart."""
+    """Return whether two positions differ by more than rounding."""
     return abs(one.start_s - other.start_s) > LEAST_APART_S
 
 
 def usual_ratios(expected: ExpectedSound) -> list[float]:
-    """The tempi within `TEMPO_RATIOS`, so close that a wrong one puts no chord next to another at the piece's ends."""
+    """Return the tempo ratios within `TEMPO_RATIOS`, close enough that an error shifts no chord by a chord at the
+    piece's ends.
+    """
     length_s = float(expected.end_s.max())
     step = float(np.clip(0.25 / max(length_s, 1.0), 4e-4, 5e-3))
     half = int(np.ceil((TEMPO_RATIOS[1] - 1.0) / step))
@@ -56,12 +58,12 @@ def usual_ratios(expected: ExpectedSound) -> list[float]:
 def places(
     recorded: RecordedSound, expected: ExpectedSound, ratios: Sequence[float], progress: Progress = lambda share: None
 ) -> list[RecordingPlace]:
-    """Find the likeliest places, those first that are most alike; they lie a second apart.
+    """Return the likeliest positions, the best first; they are a second apart.
 
     Parameters
     ----------
     ratios : sequence of float
-        Tempi that are tried, as `RecordingPlace.ratio`.
+        Tempo ratios to try, as `RecordingPlace.ratio`.
     progress : callable
         Called with the share 0..1 that is done.
     """
@@ -87,7 +89,7 @@ def places(
 def _correlate(
     recorded: FloatArray, expected_chroma: FloatArray, energy: FloatArray, spectra: dict[int, Spectrum]
 ) -> tuple[IntArray, FloatArray]:
-    """Likeness (-1..1) of score and recording at every lag of the recording, weighted by how much of them overlaps."""
+    """Return the similarity (-1..1) of score and recording at every lag, weighted by their overlap."""
     frames, length = recorded.shape[1], expected_chroma.shape[1]
     from scipy import fft  # heavy, and only here
 
@@ -109,7 +111,7 @@ def _correlate(
 
 
 def _peaks(values: FloatArray) -> list[int]:
-    """The highest few values that lie apart."""
+    """Return the indices of the few highest separate peaks."""
     rest = values.copy()
     apart = round(_APART_S / CHROMA_S)
     result = []

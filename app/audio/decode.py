@@ -1,6 +1,6 @@
-"""Recordings: WAV, FLAC, OGG and MP3 files, and the sound of films, as samples at the rate everything is mixed at.
+"""Decoding of recordings (WAV, FLAC, OGG and MP3 files, and the sound of films) to samples at the rate of the mix.
 
-The reader is chosen by what is in a file, whatever its name.
+The decoder is chosen by the file's content and not by its name.
 """
 
 from __future__ import annotations
@@ -23,20 +23,22 @@ from app.formats.media_kind import MediaKind, media_kind
 from app.formats.mpeg_audio import MpegAudio, mpeg_audio
 
 MOST_HOURS: Final = 4
-"""Longer recordings would fill the memory: an hour takes 0.7 GB."""
+"""Longest recording in hours; an hour takes 0.7 GB of memory."""
 FREE_S: Final = 600.0
 LEAST_BYTES_PER_S: Final = 500.0
-"""A file may hold `FREE_S` seconds of sound, plus one second for every this many bytes of its size. Real speech
-needs more bytes than that; silence can be packed into a hundredth of it, so a small file could fill the memory."""
+"""Least bytes per second of sound: a file may contain `FREE_S` seconds, plus one second for each such number of bytes.
+Real sound needs more; silence can take a hundredth of this, so that a small file could fill the memory.
+"""
 FREE_VALUES: Final = 2**26
 VALUES_PER_BYTE: Final = 256
-"""Samples, of all channels together, that a file may hold for each byte of its size: a few bytes can stand for
-65,536 samples of each of eight channels."""
+"""Greatest number of samples in all channels per byte of a file, since a few bytes can stand for 65,536 samples in each
+of eight channels.
+"""
 MOST_CHANNELS: Final = 64
 LEAST_RATE_HZ, MOST_RATE_HZ = 1000, 768_000
 _BLOCK: Final = 1 << 16
 _UNKNOWN: Final = 2**63 - 1
-"""Length of a file that libsndfile does not know, such as one of many Ogg streams."""
+"""Length that libsndfile reports if it is unknown, as for some Ogg streams."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +48,7 @@ class AudioRecording:
     Attributes
     ----------
     samples : int16 array, shape (n, 2)
-        At `RATE_HZ`.
+        Samples at `RATE_HZ`.
     """
 
     path: str
@@ -60,11 +62,11 @@ class AudioRecording:
 
 
 class _Forward(soundfile.SoundFile):  # type: ignore[misc]
-    """A sound file that is read in order: soundfile would seek after each block, which MP3 files do inexactly."""
+    """A sound file read in order without seeking, since soundfile seeks after each block, which is inexact for MP3."""
 
     @property
     def is_seekable(self) -> bool:
-        """Return whether its length is known."""
+        """Return whether the file's length is known."""
         return bool(super().seekable())
 
     def seekable(self) -> bool:
@@ -74,19 +76,19 @@ class _Forward(soundfile.SoundFile):  # type: ignore[misc]
 def decode(
     path: str, progress: Progress = lambda share: None, stop_requested: StopRequested = lambda: False
 ) -> AudioRecording:
-    """Read a recording.
+    """Decode a recording.
 
     Parameters
     ----------
     progress : callable
-        Called with the share 0..1 that is read.
+        Called with the share 0..1 that has been read.
     stop_requested : callable
-        Asked now and then; true ends the work.
+        Called regularly; true cancels decoding.
 
     Raises
     ------
     FileError
-        The file cannot be read, has no sound, or is longer than `MOST_HOURS`.
+        The file cannot be read, contains no sound, or is longer than `MOST_HOURS`.
     Cancelled
     """
     kind = media_kind(path)
@@ -105,7 +107,7 @@ def decode(
 
 
 def _most_s(size: int) -> float:
-    """Seconds that a file of a size may hold."""
+    """Return the greatest number of seconds allowed for a file of a size."""
     return FREE_S + size / LEAST_BYTES_PER_S
 
 
@@ -117,15 +119,18 @@ def _check_length(path: str, seconds: float, most_s: float) -> None:
 
 
 def _check_said(path: str, file: _Forward, most_s: float) -> None:
-    """Refuse at once what the file itself says is too long. Headers may be wrong; but Ogg has none, its length is where
-    the last page ends, and what the file's size allows is no mistake."""
+    """Refuse a file whose stated length is too long. Headers may be wrong, so they only count if the file's size
+    agrees; Ogg has no header, and its length is the position of the last page.
+    """
     said_s = file.frames / file.samplerate
     if file.frames < _UNKNOWN and (file.format == "OGG" or said_s <= most_s):
         _check_length(path, said_s, most_s)
 
 
 def _headless(path: str) -> MpegAudio | None:
-    """MPEG audio without a header, whose length libsndfile guesses: it may leave out the end, and say too much."""
+    """Return MPEG audio without a header (None for other files), whose length libsndfile guesses, omitting the end or
+    stating too much.
+    """
     with open_file(path) as stream:
         if not os.fstat(stream.fileno()).st_size:
             return None
@@ -141,7 +146,7 @@ def _breaks_off(path: str, seconds: float) -> tuple[Message, ...]:
 
 
 def _by_ffmpeg(path: str, delay_s: float | None, progress: Progress, stop_requested: StopRequested) -> Samples:
-    """The sound of a film, or of a file that only ffmpeg reads."""
+    """Decode the sound of a film, or of a file that only ffmpeg can read."""
     with open_file(path) as stream:
         most_s = _most_s(os.fstat(stream.fileno()).st_size)
     check = partial(_check_length, path, most_s=most_s)
@@ -193,7 +198,7 @@ def _read(path: str, file: _Forward, size: int, progress: Progress, stop_request
 
 
 def _stereo(block: Block) -> Block:
-    """Two channels: one is played on both sides; channels beside left and right are added to both."""
+    """Return two channels: a mono channel is doubled; further channels are added to left and right."""
     if block.shape[1] == 1:
         return np.ascontiguousarray(np.repeat(block, 2, axis=1))
     if block.shape[1] == 2:
@@ -203,5 +208,5 @@ def _stereo(block: Block) -> Block:
 
 
 def _detail(error: Exception) -> str:
-    """Message of the library, without the path that our message names already."""
+    """Return the library's error message without the path, which is in the program's message already."""
     return str(error).rsplit(": ", 1)[-1].rstrip(".")

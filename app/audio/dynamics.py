@@ -1,10 +1,10 @@
-"""Loudness of a recording while players play, as a curve of their dynamics.
+"""Curves of the players' dynamics from the loudness of a recording.
 
-Loudness is measured as broadcasters do (ITU-R BT.1770: a shelf and a high pass before the power), smoothed beyond
-vibrato. In a recording of all players the number of those who sound is taken out of it, as a quiet tutti may be louder
-than a loud solo; in one of a player alone what single pitches have more than others. What is left is put on the scale
-of controllers so that the piece as a whole keeps its middle, and its quiet and loud places keep their distance, as far
-as there is room for it.
+Loudness is measured as in broadcasting (ITU-R BT.1770: a shelf and a high pass before the power), smoothed to exclude
+vibrato. In a recording of all players the effect of the number of sounding notes is removed, since a soft tutti may be
+louder than a loud solo; in a recording of a single player, the effect of single pitches. The rest is mapped to
+controller values so that the piece's average is kept, as is the distance of soft and loud passages as far as the range
+allows.
 """
 
 from __future__ import annotations
@@ -22,23 +22,24 @@ from app.score.model import ControllerCurve, Part, Score
 
 STEP_S: Final = 0.02
 _SMOOTH_S: Final = 0.08
-"""Standard deviation of the smoothing: slower than a vibrato, faster than a crescendo."""
+"""Standard deviation of the smoothing in seconds: slower than a vibrato, faster than a crescendo."""
 _STEPS: Final = 200
-"""Filtered at once."""
+"""Number of steps filtered at a time."""
 _FLOOR_DB: Final = -70.0
 _MIDDLE: Final = 0.62
-"""Level of the middle of a piece: mezzoforte."""
+"""Controller level (0..1) of a piece's average: mezzoforte."""
 _PER_DB: Final = 0.025
-"""Share of the scale of controllers for a decibel, if there is room: 10 dB, twice as loud, are a quarter of it."""
+"""Share of the controller's range per decibel, if the range suffices: 10 dB (twice as loud) are a quarter."""
 _QUIETEST, _LOUDEST = 0.2, 0.95
-"""Quiet and loud places (one in twenty is beyond) lie within these."""
+"""Controller levels between which all but one in twenty soft and loud values lie."""
 _LEAST, _MOST = 0.1, 1.0
 _SHARE: Final = 0.05
 _SELDOM_S: Final = 4.0
-"""Total sounding time in seconds at which half of a pitch's measured difference in loudness from the other pitches
-is believed; less for rarer pitches."""
+"""Sounding time in seconds of a pitch at which half of its measured deviation in loudness is used; less for rarer
+pitches.
+"""
 _RESOLUTION: Final = 127
-"""Steps of a MIDI controller."""
+"""Number of steps of a MIDI controller."""
 
 
 @dataclass(frozen=True)
@@ -48,20 +49,20 @@ class RecordingLoudness:
     Attributes
     ----------
     level_db : (N,) float64
-        Every `STEP_S` from the first sample on.
+        Loudness in decibels every `STEP_S` from the first sample on.
     """
 
     level_db: FloatArray
 
     def at(self, seconds: FloatArray) -> FloatArray:
-        """Value between the steps; silence beyond the ends."""
+        """Return interpolated loudness in decibels; silence beyond the ends."""
         at_s = STEP_S * np.arange(len(self.level_db))
         result: FloatArray = np.interp(seconds, at_s, self.level_db, left=_FLOOR_DB, right=_FLOOR_DB)
         return result
 
 
 def loudness(samples: Samples, rate_hz: int) -> RecordingLoudness:
-    """Return how loud a recording is, moment by moment.
+    """Return the loudness of a recording over time.
 
     Parameters
     ----------
@@ -93,23 +94,23 @@ def dynamics(
     stems: Mapping[str, RecordingLoudness],
     parts: Collection[str],
 ) -> dict[str, ControllerCurve]:
-    """Curves of the dynamics, by part.
+    """Return curves of the dynamics by part id.
 
     Parameters
     ----------
     score : Score
-        As it lies on the recording: its second 0 is at ``-offset_s`` of it.
+        Score aligned with the recording: its second 0 is at second ``-offset_s`` of the recording.
     mix : RecordingLoudness or None
-        Of everybody; parts without a stem get their dynamics from it.
+        Loudness of all players; used for parts without a stem.
     stems : mapping of str to RecordingLoudness
-        By part, of recordings that begin with that of everybody.
+        Loudness of recordings of single parts by part id, which begin at the same time.
     parts : collection of str
-        Of which parts.
+        Ids of the parts to compute.
 
     Raises
     ------
     AppError
-        ``audio.nothing_to_compare``: nothing sounds where the score has notes.
+        The recording is silent wherever the score has notes.
     """
     sounding = {part.id: _Sounding.of(part, score) for part in score.parts if part.id in parts and part.notes}
     if not sounding:
@@ -133,7 +134,9 @@ def dynamics(
 
 
 def _weighting(rate_hz: int) -> FloatArray:
-    """Second-order sections of K-weighting at any rate: the filters of BT.1770, by the bilinear transform."""
+    """Return the second-order sections of K-weighting (the filters of BT.1770) at any rate, by the bilinear
+    transform.
+    """
     k = np.tan(np.pi * 1681.974450955533 / rate_hz)
     gain, quality = 10.0 ** (3.999843853973347 / 20.0), 0.7071752369554196
     band = gain**0.4996667741545416
@@ -147,12 +150,12 @@ def _weighting(rate_hz: int) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Sounding:
-    """Times at which a part sounds: a grid of seconds of the score, and where in it a note is."""
+    """Grid of seconds of the score, and the times on it at which a part sounds."""
 
     at_s: FloatArray
     sounds: BoolArray
     pitch: IntArray
-    """Pitch of the note that began last."""
+    """Pitch of the most recent note."""
 
     @classmethod
     def of(cls, part: Part, score: Score) -> _Sounding:
@@ -165,7 +168,7 @@ class _Sounding:
         return cls(at_s, _count(start_s, end_s, at_s) > 0, pitches[last])
 
     def curve(self, score: Score, values: FloatArray, audible: BoolArray) -> ControllerCurve:
-        """Steps of a controller; in a rest it moves on to the value of the next note."""
+        """Return the steps of a controller; during a rest it changes to the value of the next note."""
         from scipy.ndimage import gaussian_filter1d
 
         values = np.interp(self.at_s, self.at_s[audible], values[audible])
@@ -179,7 +182,7 @@ class _Sounding:
 
 
 def _together(score: Score, at_s: FloatArray) -> IntArray:
-    """Return how many notes sound at once."""
+    """Return the number of notes that sound at each time."""
     seconds, notes = score.tempo_map.seconds, [note for part in score.parts for note in part.notes]
     return _count(
         np.sort(seconds(np.array([note.onset_tick for note in notes], np.float64))),
@@ -196,8 +199,9 @@ def _count(start_s: FloatArray, end_s: FloatArray, at_s: FloatArray) -> IntArray
 
 
 def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> FloatArray:
-    """Return how much louder each pitch sounds than the others whatever is played, as instruments and rooms have it:
-    the mean over the piece, drawn to 0 where a pitch sounds seldom."""
+    """Return each pitch's deviation in loudness caused by instrument and room: the mean over the piece, shrunk to 0 for
+    rare pitches.
+    """
     about = levels - np.median(levels[audible])
     count = np.bincount(pitch[audible], minlength=128) * STEP_S
     total = np.bincount(pitch[audible], about[audible], minlength=128) * STEP_S
@@ -206,7 +210,7 @@ def _of_pitches(pitch: IntArray, levels: FloatArray, audible: BoolArray) -> Floa
 
 
 def _scaled(levels: FloatArray, audible: BoolArray) -> FloatArray:
-    """Decibels on the scale of controllers."""
+    """Convert decibels to the controller's range."""
     low, middle, high = np.quantile(levels[audible], [_SHARE, 0.5, 1.0 - _SHARE])
     slope = min(
         _PER_DB, (_MIDDLE - _QUIETEST) / max(middle - low, 1e-6), (_LOUDEST - _MIDDLE) / max(high - middle, 1e-6)

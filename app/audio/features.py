@@ -1,7 +1,7 @@
-"""Features of a sound, moment by moment: pitch classes (chroma), beginnings of tones (onsets), and tuning.
+"""Features of a sound over time: chroma (energy of the twelve pitch classes), onset strength and tuning.
 
-Usual features of music analysis, as far as `offset` needs them. librosa has them too, but cannot be installed without
-numba, LLVM and scikit-learn: 270 MB.
+These are standard features of music analysis, as far as `offset` needs them. librosa has them too, but requires numba,
+LLVM and scikit-learn: 270 MB.
 """
 
 from __future__ import annotations
@@ -17,24 +17,24 @@ Sound = SingleArray
 
 _A4_HZ: Final = 440.0
 _PITCHED_HZ: Final = (60.0, 5000.0)
-"""Range of fundamentals and low harmonics of winds; other peaks say nothing about the tuning."""
+"""Frequency range of fundamentals and low harmonics of wind instruments; other peaks are useless for the tuning."""
 _CENTRE_HZ: Final = 880.0
 _OCTAVES: Final = 2.0
-"""Pitch classes are reported by the middle of the range: standard deviation of the weights around its centre."""
+"""Standard deviation in octaves of the weights of frequencies around the middle of the range."""
 _SPREAD: Final = 0.6
-"""Standard deviation in semitones of how a line of the spectrum counts for the pitch classes near it."""
+"""Standard deviation in semitones of the weight of a spectral line for the pitch classes near it."""
 _BANDS: Final = 64
 _LOWEST_BAND_HZ: Final = 40.0
 _COMPRESSION: Final = 1e4
-"""Band energies are compared by their logarithm, down to this part of the mean energy."""
+"""Factor by which band energies are scaled before their logarithm is taken, relative to the mean energy."""
 _TUNED_FRAME: Final = 8192
-"""Samples of a spectrum that the tuning is found from."""
+"""Samples of a spectrum from which the tuning is determined."""
 _FRAMES: Final = 1024
-"""Transformed at once; all of an hour would not fit into memory."""
+"""Number of frames transformed at a time, since those of an hour exceed the memory."""
 
 
 def tuning(sound: Sound, rate_hz: int) -> float:
-    """Return how far a sound lies from 440 Hz: the circular mean over the peaks of its spectra.
+    """Return the deviation of a sound's tuning from 440 Hz: the circular mean over the peaks of its spectra.
 
     Parameters
     ----------
@@ -58,15 +58,15 @@ def tuning(sound: Sound, rate_hz: int) -> float:
 
 
 def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> FloatArray:
-    """Energy of each pitch class, C first.
+    """Return the energy of each pitch class, C first.
 
     Parameters
     ----------
     sound : float32 array, shape (n,)
     size, hop : int
-        Samples of a spectrum, and from one to the next; the first is centred on the first sample.
+        Samples of a spectrum, and distance of spectra; the first is centred on the first sample.
     tuned : float
-        Semitones above 440 Hz, as `tuning` finds them.
+        Semitones above 440 Hz, as returned by `tuning`.
 
     Returns
     -------
@@ -84,13 +84,13 @@ def chroma(sound: Sound, rate_hz: int, size: int, hop: int, tuned: float) -> Flo
 
 
 def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArray:
-    """Return how much louder it has become since the frame before, over bands as wide as the ear's: the spectral flux.
+    """Return the increase in loudness since the previous frame, summed over auditory bands (spectral flux).
 
     Parameters
     ----------
     sound : float32 array, shape (n,)
     size, hop : int
-        Samples of a spectrum, and from one to the next; the first is centred on the first sample.
+        Samples of a spectrum, and distance of spectra; the first is centred on the first sample.
 
     Returns
     -------
@@ -111,7 +111,10 @@ def onset_strength(sound: Sound, rate_hz: int, size: int, hop: int) -> FloatArra
 
 
 def _spectra(sound: Sound, size: int, hop: int) -> Iterator[FloatArray]:
-    """Power spectra, shape (frames, size // 2 + 1), some frames at a time."""
+    """Yield power spectra, shape (frames, size
+
+    2 + 1), some frames at a time.
+    """
     padded = np.pad(sound, size // 2)
     frames = np.lib.stride_tricks.sliding_window_view(padded, size)[::hop]
     window = np.hanning(size + 1)[:-1].astype(np.float32)

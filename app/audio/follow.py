@@ -1,9 +1,8 @@
-"""Times of every beat of a score in a recording that keeps its own tempo.
+"""Times of every beat of a score in a recording with varying tempo.
 
-Three steps, each finer: dynamic time warping of the chroma of both (`app.audio.warping`); then the onsets of the score,
-chord by chord, are put on those of the recording so that the tempo between them stays as even as the onsets allow; then
-beats are read off, smoothed over their neighbours, as musicians play. All of it goes through the beats that were pinned
-by hand.
+There are three steps, each finer: dynamic time warping of the chroma of both (`app.audio.warping`); alignment of the
+score's onsets with the recording's so that the tempo between them is as even as the onsets allow; and interpolation of
+the beats, smoothed over their neighbours. All steps respect the beats pinned by the user.
 """
 
 from __future__ import annotations
@@ -40,49 +39,53 @@ from app.score.metre_map import MetreMap
 from app.score.model import Score
 
 _NEIGHBOURS_BEATS: Final = 1.0
-"""A beat is read off the onsets this far on both sides."""
+"""Distance in beats on both sides of a beat within which onsets determine its time."""
 _ALONG_BEATS: Final = 4
-"""Number of beats around a pinned one that share its distance from the place that was read off."""
+"""Number of beats around a pinned beat to which its correction is extended."""
 _OF_PINS: Final = 1e6
-"""Weight of a pinned beat among beats that exclude one another."""
+"""Weight of a pinned beat among beats that exclude each other."""
 _LOCAL_S: Final = 2.5
-"""Half the width over which a beat's confidence is measured."""
+"""Half the width in seconds of the window in which a beat's confidence is measured."""
 _EVEN_BEATS: Final = 4
 _USUAL_UNEVEN: Final = 0.4
-"""Largest usual deviation of the tempo over `_EVEN_BEATS` beats from that of the whole, as a natural logarithm: 1.5
-times as fast or slow."""
+"""Greatest usual deviation of the tempo over `_EVEN_BEATS` beats from the average, as a natural logarithm: a factor of
+1.5.
+"""
 _SQUEEZED: Final = -0.6
-"""Deviation of the tempo (natural logarithm, over `_EVEN_BEATS` beats) below which the recording is taken to leave
-these beats out: they have little more than half their time."""
+"""Deviation of the tempo (natural logarithm, over `_EVEN_BEATS` beats) below which these beats are considered missing
+in the recording, since little more than half their time is there.
+"""
 RECOGNISED: Final = 0.4
-"""Mean confidence below which the recording is taken for that of another piece."""
+"""Mean confidence below which the recording is considered to be of another piece."""
 _SOME_RECOGNISED: Final = 0.75
-"""The same limit where the recording has only few of the beats: these few could be found wherever the music is most
-alike, so more is asked for."""
+"""Same limit if the recording contains only few of the beats; it is higher because few beats match similar music
+anywhere.
+"""
 _SHARES: Final = (0.3, 0.7)
-"""Few and most of the beats."""
+"""Shares of the beats that count as few and as most."""
 _WHOLE: Final = 0.8
-"""Mean confidence below which it is looked whether the recording has only a part of the piece."""
+"""Mean confidence below which the recording is examined for containing only a part of the piece."""
 _SURE: Final = 0.6
-"""Mean confidence below which other tones are tried."""
+"""Mean confidence below which other timbres are tried."""
 _PARTIAL: Final = 0.97
 """Largest share of the piece that counts as a part of it."""
 _PART_RECOGNISED: Final = 0.6
-"""The limit `RECOGNISED` for a recording of only a part of the piece, which is found wherever it is most alike."""
+"""The limit `RECOGNISED` for a recording of a part of the piece; higher, since the most similar part is chosen."""
 _SHORT_S: Final = (10.0, 20.0)
 _SHORT_RECOGNISED: Final = 0.2
-"""Added to `_PART_RECOGNISED` for parts no longer than the first of `_SHORT_S`, and less of it up to the second. Of
-eight pieces, 8 s of another one reached 0.76."""
+"""Addition to `_PART_RECOGNISED` for parts not longer than the first value of `_SHORT_S`, decreasing up to the second.
+Among eight pieces, 8 s of another piece reached 0.76.
+"""
 _ALONE_RECOGNISED: Final = 0.2
-"""Added to `_PART_RECOGNISED`, times the share of the recording that is not the piece."""
+"""Addition to `_PART_RECOGNISED`, multiplied by the share of the recording that is not the piece."""
 _SURER: Final = 0.05
-"""A place at a constant tempo is taken where it is surer by this than what the warping found."""
+"""Advantage in confidence at which a position at a constant tempo is preferred to the result of the warping."""
 _AS_SURE: Final = 0.01
-"""A part is taken even where the whole is more sure by this: its ends are found better."""
+"""Disadvantage in confidence up to which a part is preferred to the whole, since its ends are found more exactly."""
 
 
 def beats_of(metre_map: MetreMap, end_tick: int, pinned: Iterable[int] = ()) -> IntArray:
-    """The felt beats of a piece, the first at tick 0, and what else is pinned."""
+    """Return the felt beats of a piece, the first at tick 0, and the pinned ticks."""
     ticks = metre_map.felt_between(0, max(end_tick, 1))
     return np.unique(np.concatenate(([0], ticks[ticks > 0], np.array([*pinned], np.int64))))
 
@@ -96,25 +99,24 @@ def follow(
     stop_requested: StopRequested = lambda: False,
     pinned: Mapping[int, float] | None = None,
 ) -> Following:
-    """Find when every beat of a score sounds in a recording.
+    """Find the time of every beat of a score in a recording.
 
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
     beat_ticks : (N,) int64
-        Rising; the beats to be found, N at least 2.
+        Ascending ticks of the beats to find; at least 2.
     progress : callable
         Called with the share 0..1 that is done.
     stop_requested : callable
-        Asked now and then; true ends the work.
+        Called regularly; true cancels the work.
     pinned : mapping of int to float, optional
-        Seconds of the recording by tick, of beats that were put there by hand; both rise.
+        Seconds of the recording by tick for beats placed by the user; both ascend.
 
     Raises
     ------
     AppError
-        ``audio.nothing_to_compare``: the recording is silent, or the score has no notes;
-        ``audio.not_followed`` (percent): it is rather a recording of another piece.
+        The recording is silent, the score has no notes, or the recording seems to be of another piece.
     Cancelled
     """
     reached = stoppable(progress, stop_requested)
@@ -137,7 +139,7 @@ def follow(
 
 @dataclass(frozen=True)
 class _Prepared:
-    """A score and a recording of it, as they are compared."""
+    """A score and a recording, prepared for the comparison."""
 
     score: Score
     expected: ExpectedSound
@@ -148,7 +150,7 @@ class _Prepared:
 
 
 def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Following | None, RunnerUp | None]:
-    """Return what is likeliest, however sure, and the second likeliest place."""
+    """Return the likeliest alignment regardless of its confidence, and the second likeliest."""
     shapes, recorded = prepared.shapes, prepared.recorded
     result = _followed(prepared, slice(0, shapes.shape[1]))
     reached(0.4)
@@ -165,10 +167,10 @@ def _found(prepared: _Prepared, reached: Callable[[float], None]) -> tuple[Follo
 
 
 def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Following | None, RunnerUp | None]:
-    """The surest of what the warping found and of the likeliest places at a constant tempo; and the runner-up among
-    these.
+    """Return the most confident of the warping's result and the likeliest positions at a constant tempo, and the
+    runner-up.
 
-    A warping may slip by a note where all are alike; a line cannot.
+    A warping may slip by a note among equal notes; a constant tempo cannot.
     """
     if len(prepared.pins.score_s):
         return chosen, None
@@ -192,12 +194,12 @@ def _with_lines(prepared: _Prepared, chosen: Following | None) -> tuple[Followin
 
 
 def _margin(following: Following) -> float:
-    """By how much the mean confidence is above the one at which it is a recording of this piece."""
+    """Return the mean confidence minus the limit above which it is a recording of this piece."""
     return following.mean_confidence - float(np.interp(following.share, _SHARES, (_SOME_RECOGNISED, RECOGNISED)))
 
 
 def _line(prepared: _Prepared, place: RecordingPlace) -> Warped:
-    """An alignment at a constant tempo."""
+    """Return an alignment at a constant tempo."""
     length_s = prepared.shapes.shape[1] * CHROMA_S
     ends_s = np.array([0.0, length_s])
     there_s = place.start_s + ends_s / place.ratio
@@ -208,13 +210,13 @@ def _line(prepared: _Prepared, place: RecordingPlace) -> Warped:
 
 
 def _ratio_of(prepared: _Prepared, following: Following) -> float:
-    """The recording's tempo divided by the score's, in the middle of all beats."""
+    """Return the median tempo of the recording divided by the score's."""
     beat_s = prepared.score.tempo_map.seconds(following.ticks.astype(np.float64))
     return float(np.median(np.diff(beat_s) / np.diff(following.recording_s)))
 
 
 def _later_s(one: Following, other: Following) -> float:
-    """Return how much later beats are, in the middle of all."""
+    """Return the median delay of the beats in seconds between two alignments."""
     return float(np.median(one.recording_s - other.recording_s))
 
 
@@ -223,7 +225,7 @@ def _as_sure_as(whole: Following | None) -> float:
 
 
 def _part_limit(played: Sequence[Passage], recorded: RecordedSound) -> float:
-    """Mean confidence below which passages are rather those of another piece."""
+    """Return the mean confidence below which passages are considered to be of another piece."""
     lengths_s = [one.recording_end_s - one.recording_start_s for one in played]
     short = float(np.interp(max(lengths_s, default=0.0), _SHORT_S, (_SHORT_RECOGNISED, 0.0)))
     sounding = np.linalg.norm(recorded.chroma, axis=0)
@@ -234,7 +236,7 @@ def _part_limit(played: Sequence[Passage], recorded: RecordedSound) -> float:
 
 
 def _parts(played: Sequence[Passage], frames: int, pins: Pins) -> tuple[slice, tuple[Jump, ...]]:
-    """The frames of the score that a recording has, and where it jumps between them."""
+    """Return the range of the score's frames that a recording contains, and its jumps between them."""
     if not played:
         return slice(0, frames), ()
     first, last = round(played[0].start_s / CHROMA_S), round(played[-1].end_s / CHROMA_S)
@@ -246,7 +248,7 @@ def _parts(played: Sequence[Passage], frames: int, pins: Pins) -> tuple[slice, t
 
 
 def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> Following | None:
-    """Follow a recording that has some frames of the score at most, and jumps; None where nothing is alike."""
+    """Follow a recording of a range of the score with jumps; None if nothing is similar."""
     recorded = prepared.recorded
     start_s, end_s = part.start * CHROMA_S, part.stop * CHROMA_S
     pins = prepared.pins.within(start_s, end_s)
@@ -263,7 +265,7 @@ def _followed(prepared: _Prepared, part: slice, jumps: Sequence[Jump] = ()) -> F
 
 
 def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
-    """The beats near a rough alignment, by the onsets of the recording."""
+    """Return the beats near a rough alignment, determined by the recording's onsets."""
     score, recorded, expected = prepared.score, prepared.recorded, prepared.expected
     times, found = on_onsets(expected, recorded, prepared.shapes, rough, pins)
     beat_s = score.tempo_map.seconds(prepared.beat_ticks.astype(np.float64))
@@ -285,7 +287,7 @@ def _refined(prepared: _Prepared, rough: Warped, pins: Pins) -> Following:
 def _present(
     times: FloatArray, found: FloatArray, rough: Warped, recorded: RecordedSound
 ) -> tuple[FloatArray, FloatArray]:
-    """Pairs of score onset and recorded onset, without those that the recording leaves out."""
+    """Return pairs of score onset and recorded onset, without those missing in the recording."""
     there = (found >= 0.0) & (found < recorded.length_s)
     for span in rough.missing:
         there &= (times < span.start) | (times >= span.end)
@@ -293,15 +295,16 @@ def _present(
 
 
 def _pins(score: Score, pinned: Mapping[int, float]) -> Pins:
-    """Pins in the analysis's own units."""
+    """Return pinned beats in the units of the analysis."""
     return Pins(
         score.tempo_map.seconds(np.array([*pinned], np.float64)), np.array([*pinned.values()], np.float64) - EARLY_S
     )
 
 
 def _beats(beat_s: FloatArray, times: FloatArray, found: FloatArray, warped: Warped, pins: Pins) -> FloatArray:
-    """Times at which the beats sound: read off the onsets around each beat, else off the warping; at least
-    `LEAST_GAP_S` apart, and pinned beats exactly where they are pinned."""
+    """Return the times of the beats, at least `LEAST_GAP_S` apart: pinned times, else by the onsets around each beat,
+    else by the warping.
+    """
     result = warped.at(beat_s)
     # What the onsets say beside the warping, so that between them its tempo goes on.
     aside = found - warped.at(times)
@@ -335,8 +338,9 @@ def _confidence(
     times: FloatArray,
     found: FloatArray,
 ) -> FloatArray:
-    """Confidence of each beat, 0..1: whether the sound around it matches the score rather than the score transposed,
-    and whether notes begin where they should."""
+    """Return the confidence of each beat, 0..1: whether the sound around it is more similar to the score than to the
+    transposed score, and whether onsets are at the expected times.
+    """
     frames = np.arange(shapes.shape[1])
     at = np.interp((frames + 0.5) * CHROMA_S, beat_s, recording_s, left=-1.0, right=-1.0) / CHROMA_S
     inside = (at >= 0) & (at < recorded.chroma.shape[1])
@@ -361,7 +365,9 @@ def _confidence(
 
 
 def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
-    """Around each beat the natural logarithm of how long beats last, against the score and the whole recording."""
+    """Return the natural logarithm of the beats' length around each beat relative to the score and the average of the
+    recording.
+    """
     wide = min(_EVEN_BEATS, len(beat_s) - 1)
     lengths = (recording_s[wide:] - recording_s[:-wide]) / np.maximum(beat_s[wide:] - beat_s[:-wide], 1e-6)
     places = np.clip(np.arange(len(beat_s)) - wide // 2, 0, len(lengths) - 1)
@@ -370,7 +376,9 @@ def _lengths(beat_s: FloatArray, recording_s: FloatArray) -> FloatArray:
 
 
 def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, ...]:
-    """Seconds of the score for which the recording has hardly any time: it leaves them out, whatever sounds there."""
+    """Return the spans of the score in seconds that have hardly any time in the recording and are therefore considered
+    missing.
+    """
     places = np.flatnonzero(lengths < _SQUEEZED)
     if not len(places):
         return ()
@@ -383,7 +391,7 @@ def _squeezed(beat_s: FloatArray, lengths: FloatArray) -> tuple[UnmatchedSpan, .
 
 
 def _joined(spans: Iterable[UnmatchedSpan]) -> tuple[UnmatchedSpan, ...]:
-    """In order, those that touch as one."""
+    """Return spans in order with touching ones joined."""
     result: list[UnmatchedSpan] = []
     for span in sorted(spans, key=lambda one: one.start):
         if result and span.start <= result[-1].end + MISSING_S:

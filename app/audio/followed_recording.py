@@ -1,4 +1,4 @@
-"""Beats, dynamics and offset that a recording gives a piece, found beside the document and applied in one edit."""
+"""Beats, dynamics and offset that a recording gives to a piece, computed in the background and applied in one edit."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from app.score.model import ControllerCurve, Score
 
 @dataclass(frozen=True)
 class FollowOptions:
-    """Choices of what is applied from a recording besides the beats.
+    """Properties taken from a recording in addition to its beats.
 
     Attributes
     ----------
     notes : bool
-        Single notes whose beginnings are clear move too.
+        Whether single notes with clear onsets are shifted too.
     dynamics : bool
-        Its loudness becomes the players' dynamics.
+        Whether the loudness becomes the players' dynamics.
     stems : mapping of str to str
-        By player id the path of a recording of that player alone, which begins with that of everybody; players without
-        one get their dynamics from the recording of everybody.
+        Path of a recording of a single player by player id, with the same start as the main recording; other players'
+        dynamics are taken from the main recording.
     """
 
     notes: bool = False
@@ -49,7 +49,7 @@ class Followed:
     curves : mapping of str to ControllerCurve
         Dynamics by part.
     shifts_s : mapping of str to float
-        How much later than on their beats notes begin, by id.
+        Delay in seconds of notes against their beats, by note id.
     """
 
     following: Following
@@ -66,21 +66,22 @@ def listen(
     stop_requested: StopRequested = lambda: False,
     begins_s: float = 0.0,
 ) -> Followed:
-    """Find in a recording what is requested.
+    """Compute the requested properties from a recording.
 
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
         At `RATE_HZ`.
     path : path-like
-        Of the recording.
+        Path of the recording.
     begins_s : float
-        The second of the recording that the samples begin with; of the stems it is the same.
+        Second of the recording, and of the stems, at which the samples begin.
 
     Raises
     ------
     AppError
-        Those of `follow`, of `decode` for the stems, of `dynamics` and of `follow_recording`.
+        The recording cannot be followed or gives no dynamics, a stem cannot be decoded, or the result cannot be
+        applied.
     Cancelled
     """
     beats_share = 0.6 if options.dynamics or options.notes else 1.0
@@ -117,7 +118,7 @@ def _curves(
     options: FollowOptions,
     reached: Callable[[float], None],
 ) -> dict[str, ControllerCurve]:
-    """The dynamics of all parts."""
+    """Return the dynamics of all parts."""
     parts = {player.id: player.part_id for player in project.players}
     stems: dict[str, RecordingLoudness] = {}
     for number, (player_id, stem) in enumerate(options.stems.items()):
@@ -128,6 +129,6 @@ def _curves(
 
 
 def take_over(project: Project, followed: Followed, path: str | os.PathLike[str]) -> Project:
-    """The piece as the recording has it. Raises UsageError: see `follow_recording`."""
+    """Return the project with the recording's properties applied. Raises UsageError: see `follow_recording`."""
     project = follow_recording(project, followed.following, path)
     return set_dynamics(shift_onsets(project, followed.shifts_s), followed.curves)

@@ -1,4 +1,4 @@
-"""Mix of a project: its recording, its players and percussion by the synthesiser, the metronome."""
+"""Mix of a project: its recording, or players and percussion by the synthesiser, and the metronome."""
 
 from __future__ import annotations
 
@@ -20,18 +20,23 @@ from app.score.model import Score
 from instrument_maps.library import all_maps
 
 _LEVEL: Final = 4.5
-"""The soundfont's tones are some 30 dB below full scale; an ensemble of any size comes to about -18."""
+"""Gain of the synthesiser, since its tones are about 30 dB below full scale; ensembles of any size then reach about -18
+dB.
+"""
 PERCUSSION: Final = ""
-"""Stands for the percussion where there is the id of a player."""
+"""Key of the percussion in mappings by player id."""
 _PERCUSSION_LEVEL: Final = 0.5
-"""Level of the percussion relative to the players: a kit's loudest strokes are far above a wind's tone."""
+"""Level of the percussion relative to the players, since the loudest strokes of a drum kit far exceed a wind
+instrument.
+"""
 _SIDE: Final = 0.6
-"""Pan of the outermost player; 1 is one channel alone."""
+"""Pan of the outermost player; 1 is a single channel."""
 
 
 def project_to_hear(score: Score) -> Project:
-    """A project in which every part of a score sounds, for listening only: its players have neither instruments nor
-    characters."""
+    """Return a project that plays every part of a score, for listening only: its players lack instruments and
+    characters.
+    """
     place = StagePosition(0.0, 0.0, 0.0)
     return Project(
         score, tuple(Player(part.id, part.name, part.id, "", "", PlayerParameters(), place) for part in score.parts)
@@ -39,23 +44,23 @@ def project_to_hear(score: Score) -> Project:
 
 
 def player_phrases(project: Project, player: Player) -> tuple[RenderedPhrase, ...]:
-    """Phrases that the synthesiser renders for a player, also where the instrument's map is missing."""
+    """Return the phrases that the synthesiser renders for a player, even if the instrument's map is missing."""
     part = project.part(player)
     return phrases(part, project.score.tempo_map, program_of(part, all_maps().get(player.instrument_id)))
 
 
 def percussion_phrases(project: Project) -> tuple[RenderedPhrase, ...]:
-    """Return what the synthesiser renders for the percussion that no player plays."""
+    """Return the phrases that the synthesiser renders for percussion without a player."""
     return drum_phrases(project.score.percussion, project.score.tempo_map)
 
 
 def player_tracks(project: Project, pieces: Mapping[str, Iterable[AudioSegment]]) -> tuple[MixTrack, ...]:
-    """The audible players.
+    """Return the tracks of the audible players.
 
     Parameters
     ----------
     pieces : mapping of str to iterable of AudioSegment
-        What is rendered, by player id; also `PERCUSSION`.
+        Rendered sound by player id or `PERCUSSION`.
     """
     return tuple(
         MixTrack(pieces[player_id], *gains) for player_id, gains in player_gains(project).items() if player_id in pieces
@@ -63,7 +68,9 @@ def player_tracks(project: Project, pieces: Mapping[str, Iterable[AudioSegment]]
 
 
 def player_gains(project: Project) -> dict[str, tuple[float, float]]:
-    """Gains of left and right of the audible players: those soloed if any is, else those not muted and `PERCUSSION`."""
+    """Return left and right gains of the audible players: soloed ones if there are any, else `PERCUSSION` and all that
+    are not muted.
+    """
     players = project.players
     soloed = any(player.soloed for player in players)
     width_m = max((abs(player.stage.x_m) for player in players), default=0.0)
@@ -79,19 +86,19 @@ def player_gains(project: Project) -> dict[str, tuple[float, float]]:
 
 
 def recording_track(recording: AudioRecording, offset_s: float) -> MixTrack:
-    """The recording as a track of the mix, shifted by its offset."""
+    """Return a recording as a track of the mix, shifted by its offset."""
     return MixTrack([AudioSegment(round(offset_s * RATE_HZ), recording.samples)])
 
 
 def place_gains(x_m: float, width_m: float) -> tuple[float, float]:
-    """Gains of left and right for a place on the stage, at equal power; both 1 in the middle.
+    """Return left and right gains at equal power for a place on the stage; both are 1 in the middle.
 
     Parameters
     ----------
     x_m : float
-        Place on the stage; +X is at the right of a listener in front of it.
+        Sideways position in metres; +X is at the right of a listener facing the stage.
     width_m : float
-        Half the width of the ensemble.
+        Half the width of the ensemble in metres.
     """
     side = _SIDE * x_m / width_m if width_m > 0.0 else 0.0
     angle = (min(max(side, -1.0), 1.0) + 1.0) * np.pi / 4.0
@@ -106,18 +113,19 @@ def mixdown(
     progress: Progress = lambda share: None,
     stop_requested: StopRequested = lambda: False,
 ) -> Block:
-    """The sound of a span of the performance, as films and files get it: the recording, else the synthesiser.
+    """Return the sound of a span of the performance for films and files: the recording if there is one, else the
+    synthesiser.
 
     Parameters
     ----------
     project : Project
-        Muted players are silent.
+        Project whose muted players are silent.
     start_s, end_s : float
         Seconds of the performance; may be negative.
     progress : callable
         Called with the share 0..1 that is done.
     stop_requested : callable
-        Asked now and then; true ends the work.
+        Called regularly; true cancels the work.
 
     Returns
     -------
@@ -149,7 +157,7 @@ def mixdown(
 def _synthesised(
     project: Project, start_s: float, end_s: float, progress: Progress, stop_requested: StopRequested
 ) -> Mix:
-    """The phrases of players and percussion that sound within a span."""
+    """Return the mix of phrases of players and percussion within a span."""
     synthesiser = Synthesiser()
     everything = [(player.id, player_phrases(project, player)) for player in project.players]
     requested = [

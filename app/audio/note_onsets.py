@@ -1,7 +1,7 @@
-"""Onsets of single notes in a recording, where they can be heard: by the rise of their own partials.
+"""Onsets of single notes in a recording, found by the rise of partials that no other note has.
 
-A note is looked for near where its beat puts it. What it is not sure of stays there: where its partials rise little, or
-at several moments alike, or sound already in another part.
+A note is searched for near the time of its beat. It stays there if the result is uncertain: if its partials rise
+little, at several moments alike, or sound in another part already.
 """
 
 from __future__ import annotations
@@ -22,38 +22,38 @@ _STEP_S: Final = _HOP / ANALYSIS_RATE_HZ
 _SIZE: Final = 2048
 _PARTIALS: Final = 6
 _REACH_S: Final = 0.09
-"""Seconds around the time that a note's beat gives, within which its onset is looked for."""
+"""Distance in seconds from the time by the beat within which an onset is searched for."""
 _EDGE_S: Final = 0.03
-"""Length of the sound after a moment that is compared with the sound before it."""
+"""Length in seconds of the sound after a moment that is compared with the sound before it."""
 _USUAL_S: Final = 0.05
-"""Standard deviation of where notes are expected."""
+"""Standard deviation in seconds of the expected time."""
 _LEAST_RISE: Final = 1.5
-"""Natural logarithm of how much stronger partials get at a clear beginning."""
+"""Natural logarithm of the least increase of partials at a clear onset."""
 _UNIQUE: Final = 0.75
-"""Another moment, apart from it, must rise less than this part of it."""
+"""A second moment must rise by less than this share of the best one."""
 _BESIDE_S: Final = 0.12
-"""Notes that sound within this time of each other share partials."""
+"""Notes closer than this time in seconds share partials."""
 _APART: Final = 0.9
-"""Semitones between partials that are not the same."""
+"""Least distance in semitones of different partials."""
 _LEAST_PARTIALS: Final = 2
 _LEAST_NOTES: Final = 8
-"""Notes of a part that are needed to know how softly its instrument speaks."""
+"""Least number of notes of a part needed to estimate its instrument's onset delay."""
 
 
 def note_onsets(
     samples: Samples, rate_hz: int, score: Score, offset_s: float, progress: Progress = lambda share: None
 ) -> dict[str, float]:
-    """Return how much later than in the score notes begin, seconds, by note id; only of those that are clear.
+    """Return the delay in seconds of notes against the score by note id, only for those that are clear.
 
     Parameters
     ----------
     samples : int16 array, shape (n, channels)
     score : Score
-        As it lies on the recording.
+        Score aligned with the recording.
     offset_s : float
         Second of the score at which the samples begin.
     progress : callable
-        Called now and then with the share 0..1 that is done.
+        Called regularly with the completed share 0..1.
     """
     sound = analysis_sound(samples, rate_hz)
     middle = len(sound) // 2
@@ -78,7 +78,7 @@ def note_onsets(
 
 
 def _own_partials(pitch: float, others: FloatArray) -> FloatArray:
-    """Frequencies of the partials of a note that none of the others has."""
+    """Return the frequencies of a note's partials that the other notes lack."""
     numbers = np.arange(1, _PARTIALS + 1)
     own = pitch + 12.0 * np.log2(numbers)
     theirs = others[:, None] + 12.0 * np.log2(np.arange(1, 2 * _PARTIALS + 1))
@@ -99,7 +99,7 @@ def _without_lateness(score: Score, shifts: dict[str, float]) -> dict[str, float
 
 
 def _shift(sound: Sound, at_s: float, hz: FloatArray, floor: float) -> float | None:
-    """Return where these frequencies begin to sound, around a moment; None where that is not clear."""
+    """Return the time difference at which frequencies begin to sound around a moment; None if it is unclear."""
     reach = round((_REACH_S + 2 * _EDGE_S) / _STEP_S)
     centre = round(at_s * ANALYSIS_RATE_HZ)
     first = centre - reach * _HOP - _SIZE // 2
@@ -123,7 +123,7 @@ def _shift(sound: Sound, at_s: float, hz: FloatArray, floor: float) -> float | N
 
 
 def _rise(level: FloatArray) -> FloatArray:
-    """(n,): how much more comes just after a frame than just before it, mean over the columns."""
+    """Return the increase (n,) from just before to just after each frame, averaged over the columns."""
     width = max(round(_EDGE_S / _STEP_S), 1)
     sums = np.concatenate((np.zeros((1, level.shape[1])), np.cumsum(level, axis=0)))
     mean = (sums[width:] - sums[:-width]) / width

@@ -1,8 +1,8 @@
-"""Offset of a recording against the score, by chroma and onsets.
+"""Offset of a recording from the score, found by chroma and onsets.
 
-The recording may begin earlier or later than the score, end elsewhere, be tuned differently, and be a few per cent
-faster or slower. What the score should sound like is made from its notes. The chroma of both is correlated at every
-offset for a grid of tempi; the best places are then made exact by letting the expected onsets lie on the recording's.
+The recording may begin and end at other times than the score, be tuned differently, and be a few per cent faster or
+slower. The expected sound of the score is computed from its notes. The chroma of both is correlated at every offset for
+a grid of tempi; the best offsets are refined by aligning expected and recorded onsets.
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ from app.score.beat_following import RunnerUp
 from app.score.model import Score
 
 _SURE: Final = 0.6
-"""Confidence below which other tones are tried."""
+"""Confidence below which other timbres are tried."""
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A recording's place.
+    """Position of a recording.
 
     Attributes
     ----------
     offset_s : float
-        Performance time at which its first sample sounds.
+        Performance time of its first sample in seconds.
     tempo_ratio : float
-        Its tempo divided by the score's.
+        Tempo of the recording divided by the score's.
     confidence : float
-        0..1; below 0.5 it is rather another piece.
+        Confidence, 0..1; below 0.5 it is probably another piece.
     runner_up : RunnerUp or None
-        None where no other place is alike at all.
+        Second best position; None if no other is similar.
     """
 
     offset_s: float
@@ -65,7 +65,7 @@ def estimate_offset(
     progress: Progress = lambda share: None,
     stop_requested: StopRequested = lambda: False,
 ) -> Estimate:
-    """Find where a recording stands.
+    """Find the position of a recording.
 
     Parameters
     ----------
@@ -73,12 +73,12 @@ def estimate_offset(
     progress : callable
         Called with the share 0..1 that is done.
     stop_requested : callable
-        Asked now and then; true ends the work.
+        Called regularly; true cancels the work.
 
     Raises
     ------
     AppError
-        ``audio.nothing_to_compare``: the recording is silent, or the score has no notes.
+        The recording is silent, or the score has no notes.
     Cancelled
     """
     reached = stoppable(progress, stop_requested)
@@ -107,9 +107,9 @@ def _estimated(recorded: RecordedSound, expected: ExpectedSound, reached: Callab
 
 
 def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: RecordingPlace) -> tuple[RecordingPlace, float]:
-    """The exact place near a rough one, and the mean onset strength there in spreads.
+    """Return the exact position near a rough one, and the mean onset strength there in standard deviations.
 
-    Round by round the onsets may lie less and less beside the recording's.
+    In each round the onsets must agree more closely with the recording's.
     """
     times, counts = np.unique(np.round(expected.onset_s, 3), return_counts=True)
     weights = np.sqrt(counts.astype(np.float64))
@@ -147,7 +147,7 @@ def _by_onsets(recorded: RecordedSound, expected: ExpectedSound, rough: Recordin
 
 
 def _likeness(recorded: RecordedSound, expected: ExpectedSound, place: RecordingPlace) -> float:
-    """Likeness of both chroma at the present offset, against the score transposed: 0 for another piece."""
+    """Return the similarity of both chroma at an offset minus that with the transposed score: 0 for another piece."""
     lag = int(np.floor(place.start_s / CHROMA_S))
     expected_chroma = score_chroma(expected, place.ratio, place.start_s / CHROMA_S - lag)
     first, last = max(lag, 0), min(lag + expected_chroma.shape[1], recorded.chroma.shape[1])

@@ -1,4 +1,4 @@
-"""Beginnings of notes in a recording, near a rough alignment, with a tempo as even as the onsets allow."""
+"""Onsets of notes in a recording near a rough alignment, with a tempo as even as they allow."""
 
 from __future__ import annotations
 
@@ -11,37 +11,38 @@ from app.audio.score_sound import CHROMA_S, ONSET_S, ExpectedSound, RecordedSoun
 from app.audio.warping import Pins, Warped
 
 FINAL_WIDTH_S: Final = 0.03
-"""Width of an onset's edge in the last round."""
+"""Width of an onset's edge in the last round, in seconds."""
 _ROUNDS: Final = ((0.1, 0.4, 0.01, 100.0, 1.0), (FINAL_WIDTH_S, 0.12, 0.004, 60.0, 0.0))
-"""For each round: width of an onset's edge, reach and step of the shifts in seconds, cost of an uneven tempo, weight of
-the pitch classes that sound after the onset."""
+"""For each round: width of an onset's edge, reach and step of the shifts in seconds, cost of uneven tempo, weight of
+the pitch classes after the onset.
+"""
 LEAST_GAP_S: Final = 0.02
-"""The least time from one onset or beat to the next."""
+"""Least distance in seconds of onsets or beats."""
 _HEARD_S: Final = 0.4
-"""Pitch classes are compared in the middle of a chord, or of this much of a long one."""
+"""Length in seconds to which a long chord is cut; pitch classes are compared in its middle."""
 _CHUNK: Final = 2000
-"""Onsets compared in one step; all of an hour would take too much memory."""
+"""Number of onsets compared at a time, since those of an hour exceed the memory."""
 
 
 def on_onsets(
     expected: ExpectedSound, recorded: RecordedSound, shapes: FloatArray, rough: Warped, pins: Pins
 ) -> tuple[FloatArray, FloatArray]:
-    """Find when the notes of a score begin in a recording.
+    """Find the onsets of a score's notes in a recording.
 
-    The strength of onsets alone does not tell a run of equal notes from the same run one note later, so the first round
-    also compares the pitch classes that sound after each onset.
+    Onset strength alone cannot distinguish a run of equal notes from the run shifted by one note; so the first round
+    also compares the pitch classes after each onset.
 
     Parameters
     ----------
     shapes : (12, n) float64
         Chroma of the score, a frame every `CHROMA_S`.
     rough : Warped
-        An alignment that is right within the reach of the first round.
+        Alignment that is correct within the reach of the first round.
 
     Returns
     -------
     times, found : (N,) float64
-        Seconds of the score at which notes begin or that are pinned, and when each is in the recording; both rise.
+        Seconds of the score with onsets or pins, and the corresponding seconds of the recording; both ascend.
     """
     fixed = np.round(pins.score_s, 3)
     times, counts = np.unique(np.concatenate((np.round(expected.onset_s, 3), fixed)), return_counts=True)
@@ -74,7 +75,7 @@ def chroma_similarity(
     times, found : (N,) float64
         Seconds of the score, rising, and of the recording.
     shifts : (S,) float64
-        Seconds that are added to the latter.
+        Seconds added to ``found``.
     shapes, chroma : (12, n) float64
         Of the score and of the recording, a frame every `CHROMA_S`.
 
@@ -99,7 +100,7 @@ def chroma_similarity(
 
 
 def _even_path(strength: FloatArray, shifts: FloatArray, gaps_s: FloatArray, uneven: float) -> IntArray:
-    """Shift of each onset, so that strong places are chosen and neighbours shift alike: Viterbi's algorithm.
+    """Return the shift of each onset that maximises strength and evenness of shifts (Viterbi's algorithm).
 
     Parameters
     ----------
@@ -107,12 +108,12 @@ def _even_path(strength: FloatArray, shifts: FloatArray, gaps_s: FloatArray, une
     shifts : (S,) float64
         Seconds.
     gaps_s : (N - 1,) float64
-        From each onset to the next: the shorter, the more it costs to shift them differently.
+        Distance of adjacent onsets in seconds: the shorter, the higher the cost of different shifts.
 
     Returns
     -------
     (N,) int64
-        Places in ``shifts``.
+        Indices of ``shifts``.
     """
     apart = uneven * (shifts[:, None] - shifts[None, :]) ** 2
     best = strength[0]

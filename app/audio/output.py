@@ -1,6 +1,6 @@
-"""The system's default sound output, by miniaudio: WASAPI, Core Audio, PulseAudio (PipeWire's too) or ALSA.
+"""The system's default sound output through miniaudio: WASAPI, Core Audio, PulseAudio (also PipeWire's) or ALSA.
 
-Where the default output changes while it plays, WASAPI, Core Audio and PulseAudio move the sound to the new one.
+If the default output changes during playback, WASAPI, Core Audio and PulseAudio switch the sound to the new one.
 """
 
 from __future__ import annotations
@@ -28,16 +28,18 @@ _BACKENDS: Final = tuple(
     miniaudio.Backend[name] for name in ("WASAPI", "DSOUND", "WINMM", "COREAUDIO", "PULSEAUDIO", "ALSA")
 )
 _PERIOD_MS: Final = 40
-"""The device fetches as much at once; less would run dry where the interpreter is busy elsewhere."""
+"""Duration in milliseconds of the sound fetched at a time; less would cause gaps while the interpreter is busy."""
 _PERIODS: Final = 2
 _STALLED_S: Final = 3.0
-"""A device fetches many times a second; a Bluetooth one may need a second or two to wake up."""
+"""Seconds without a fetch after which a device is considered lost; Bluetooth devices may need a second or two to
+start.
+"""
 _NATIVE_HZ: Final = 0
-"""The device's own rate: miniaudio's resampler is linear, 27 dB above its own noise at 8 kHz."""
+"""Value for the device's own rate, since miniaudio resamples linearly, with noise only 27 dB below a tone at 8 kHz."""
 
 
 def open_output() -> Sink | None:
-    """The system's default output, ready to be written to; None where there is none, or none that can be opened."""
+    """Return the system's default output, ready for writing; None if there is none or it cannot be opened."""
     with _quiet_alsa():
         try:
             return OutputSink(_BACKENDS)
@@ -46,12 +48,12 @@ def open_output() -> Sink | None:
 
 
 class OutputSink:
-    """An output of the system.
+    """A sound output of the system.
 
     Parameters
     ----------
     backends : tuple of miniaudio.Backend
-        The first that is there is used.
+        Backends to try in order.
 
     Raises
     ------
@@ -71,7 +73,7 @@ class OutputSink:
         _playing.add(self)
 
     def free(self) -> int:
-        """Samples that may be written now, at `RATE_HZ`."""
+        """Return the number of samples at `RATE_HZ` that may be written now."""
         return max(round((BUFFER_S - self._queue.waiting_s()) * RATE_HZ), 0)
 
     def write(self, block: Block) -> None:
@@ -81,19 +83,19 @@ class OutputSink:
         self._queue.put(block)
 
     def processed_s(self) -> float:
-        """Seconds that were played since the start."""
+        """Return the seconds played since the start."""
         return self._queue.played_s()
 
     def set_volume(self, gain: float) -> None:
-        """0..1, linear."""
+        """Set the volume as a linear factor, 0..1."""
         self._queue.gain = gain
 
     def failed(self) -> bool:
-        """Return whether the device went away; miniaudio does not notice that the sound server did."""
+        """Return whether the device was lost; miniaudio does not notice the end of the sound server."""
         return not self._device.is_started or self._queue.unfetched_s() > _STALLED_S
 
     def stop(self) -> None:
-        """Be silent at once."""
+        """Stop the sound immediately."""
         self._device.close()
         _playing.discard(self)
 
@@ -103,25 +105,25 @@ _playing: Final[set[OutputSink]] = set()
 
 @atexit.register
 def _stop_all() -> None:
-    """Stop all devices at exit; otherwise the interpreter and the device's thread would wait for each other."""
+    """Stop all devices at exit; otherwise the interpreter and the device's thread would block each other."""
     for sink in tuple(_playing):
         sink.stop()
 
 
 class Queue:
-    """Sound between the thread that writes it and the device's own, which fetches it.
+    """Queue of sound between the writing thread and the device's thread.
 
     Parameters
     ----------
     delay_s : float
-        Time from when the device fetches sound until that begins to sound.
+        Delay in seconds from the device's fetching of sound to its being audible.
     now : callable
-        A monotonic clock in seconds.
+        Function that returns a monotonic time in seconds.
 
     Attributes
     ----------
     gain : float
-        Factor of what is fetched from now on.
+        Factor for sound fetched from now on.
     """
 
     def __init__(self, rate_hz: int, delay_s: float, now: Callable[[], float] = time.perf_counter) -> None:
@@ -143,7 +145,7 @@ class Queue:
             self._put += len(block)
 
     def fetch(self, count: int) -> Block:
-        """The next ``count`` samples, with silence where there are too few."""
+        """Return the next ``count`` samples, padded with silence."""
         out = np.zeros((count, 2), np.float32)
         done = 0
         with self._lock:
@@ -160,7 +162,7 @@ class Queue:
         return out * np.float32(self.gain)
 
     def frames(self) -> Generator[SingleArray | bytes, int, None]:
-        """`fetch` as the generator that miniaudio sends counts to, begun."""
+        """Return `fetch` as a started generator to which miniaudio sends counts."""
         generator = self._frames()
         next(generator)
         return generator
@@ -171,17 +173,17 @@ class Queue:
             count = yield self.fetch(count)
 
     def played_s(self) -> float:
-        """Seconds of the queued sound that were played."""
+        """Return the seconds of queued sound that were played."""
         with self._lock:
             return self._played() / self._rate_hz
 
     def waiting_s(self) -> float:
-        """Seconds that were queued and not played yet."""
+        """Return the seconds of queued sound that were not played yet."""
         with self._lock:
             return (self._put - self._played()) / self._rate_hz
 
     def unfetched_s(self) -> float:
-        """Seconds since the device fetched anything."""
+        """Return the seconds since the device last fetched sound."""
         return self._now() - self._fetched_s
 
     def _played(self) -> float:
@@ -193,7 +195,7 @@ class Queue:
 
 
 class _Device(miniaudio.PlaybackDevice):  # type: ignore[misc]
-    """miniaudio's device, with what it keeps to itself: its state, its own rate, and its context's end."""
+    """Miniaudio's device with access to its private state, rate and context."""
 
     def __init__(self, backends: tuple[miniaudio.Backend, ...]) -> None:
         try:
@@ -213,7 +215,7 @@ class _Device(miniaudio.PlaybackDevice):  # type: ignore[misc]
 
     @property
     def is_started(self) -> bool:
-        """True if it plays; not after it was taken away."""
+        """True if the device plays; false after it was disconnected."""
         return (
             self._device is not None
             and self.callback_generator is not None
@@ -221,7 +223,9 @@ class _Device(miniaudio.PlaybackDevice):  # type: ignore[misc]
         )
 
     def close(self) -> None:
-        """Stop, and let go of everything: 1.71 keeps a connection to the sound server (pyminiaudio issue 86)."""
+        """Close the device and its connection to the sound server, which version 1.71 keeps open (pyminiaudio issue
+        86).
+        """
         super().close()
         context, self._context = getattr(self, "_context", miniaudio.ffi.NULL), miniaudio.ffi.NULL
         if context != miniaudio.ffi.NULL:
@@ -234,7 +238,9 @@ _say_nothing = _AlsaHandler(lambda file, line, function, error, text: None)
 
 @contextlib.contextmanager
 def _quiet_alsa() -> Iterator[None]:
-    """ALSA prints forty lines where there is no sound card; a missing output is reported by us."""
+    """Suppress ALSA's forty lines of output on systems without a sound card, since the program reports a missing output
+    itself.
+    """
     try:
         set_handler = ctypes.CDLL("libasound.so.2").snd_lib_error_set_handler if sys.platform == "linux" else None
     except OSError:

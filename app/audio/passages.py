@@ -1,9 +1,9 @@
-"""Passages of a score that a recording plays in turn: it may begin anywhere, repeat bars or leave some out.
+"""Passages of a score in the order in which a recording plays them: it may begin anywhere, and repeat or omit bars.
 
-Dynamic programming over the frames of the recording: from each to the next the score goes on by a frame, stands still,
-skips one, or jumps to any other place, which costs as much as half a second that is alike. So a jump is found without
-knowing where repeats are written. After C. Fremerey, M. Mueller, M. Clausen, "Handling repeats and jumps in
-score-performance synchronization" (ISMIR 2010).
+Dynamic programming over the frames of the recording: from each to the next, the score advances by a frame, stays, skips
+one, or jumps to any other position at the cost of half a second of similarity. So jumps are found without notated
+repeats. After C. Fremerey, M. Mueller, M. Clausen, "Handling repeats and jumps in score-performance synchronization"
+(ISMIR 2010).
 """
 
 from __future__ import annotations
@@ -17,22 +17,22 @@ from app.arrays import FloatArray, IntArray
 from app.audio.score_sound import CHROMA_S
 
 _JUMP: Final = 6.0
-"""Cost of a jump, in frames that are wholly alike."""
+"""Cost of a jump as a number of perfectly similar frames."""
 _UNEVEN: Final = 0.25
-"""Cost of standing still, and of skipping a frame, on the same scale."""
+"""Cost of staying and of skipping a frame, in the same unit."""
 _LEAST_S: Final = 3.0
-"""Shorter passages are chance."""
+"""Passages shorter than this number of seconds are ignored as chance."""
 _LEAST_ALIKE: Final = 0.6
-"""Passages less alike than this part of the most alike one are chance."""
+"""Passages less similar than this share of the most similar one are ignored as chance."""
 _PLAYED: Final = (1, 0, 2)
-"""Frames of the score from one frame of the recording to the next, in the order of preference."""
+"""Advances in frames of the score per frame of the recording, in order of preference."""
 _JUMPED: Final = 3
-"""Number that stands for any other step than those of `_PLAYED`."""
+"""Index of a jump, after those of `_PLAYED`."""
 
 
 @dataclass(frozen=True)
 class Passage:
-    """Seconds of the score and of the recording that belong together from end to end."""
+    """Corresponding seconds of the score and of the recording, from start to end."""
 
     start_s: float
     end_s: float
@@ -41,7 +41,7 @@ class Passage:
 
 
 def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S) -> tuple[Passage, ...]:
-    """Passages of a score that are played, in order; of a repeat, the first time only.
+    """Return the played passages of a score in order; of a repeat only the first time.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S
     Returns
     -------
     tuple of Passage
-        Rising in both.
+        Passages that ascend in score and recording.
     """
     if not len(score) or not len(recording):
         return ()
@@ -76,7 +76,7 @@ def passages(score: FloatArray, recording: FloatArray, frame_s: float = CHROMA_S
 
 
 def _path(score: FloatArray, recording: FloatArray) -> IntArray:
-    """Frame of the score for every frame of the recording."""
+    """Return the frame of the score for every frame of the recording."""
     count = len(score)
     places = np.arange(count)
     how = np.empty((len(recording), count), np.int8)
@@ -102,8 +102,9 @@ def _path(score: FloatArray, recording: FloatArray) -> IntArray:
 
 
 def _rising(runs: list[tuple[int, int]], path: IntArray) -> list[tuple[int, int]]:
-    """Runs of the recording that go on in the score and together are longest; what was played already is cut off their
-    beginnings."""
+    """Return the ascending runs of the recording with the greatest total length, without the beginnings that were
+    played already.
+    """
     # By the last run: length, runs as they are cut.
     found: list[tuple[int, list[tuple[int, int]]]] = []
     for first, last in runs:

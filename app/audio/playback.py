@@ -1,4 +1,4 @@
-"""Plays a mix through the machine's sound device; the picture asks it where the sound is."""
+"""Playback of a mix on the sound device, and the current position for the picture."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ from app.audio.track import RATE_HZ, Mix
 
 _FEED_MS: Final = 10
 _GRAIN_S: Final = 0.09
-"""Length of the grain that sounds while scrubbing."""
+"""Length in seconds of the sound played while scrubbing."""
 _GRAINS_REST_MS: Final = 3000
-"""Milliseconds for which the device stays open after a short preview sound: opening it takes a while."""
+"""Milliseconds for which the device stays open after a short preview sound, since opening it takes time."""
 _LEAST_S: Final = 1e-3
 _HOPELESS_S: Final = 1.0
 _RETRY_S: Final = 2.0
-"""Interval at which a missing device is looked for."""
+"""Interval in seconds at which a missing device is tried again."""
 
 
 class Playback(QObject):
-    """Plays from any moment, at another speed, in a loop, or a moment at a time.
+    """Plays a mix from any moment, at other speeds, in a loop, or in short pieces while scrubbing.
 
-    Without a device it plays silently in time. All times are seconds of the performance.
+    Without a device, time advances silently. All times are seconds of the performance.
 
     Parameters
     ----------
     open_sink : callable
-        Gives the device that the system plays on, ready to be written to; None where there is none.
+        Returns the system's output, ready for writing; None if there is none.
     now : callable
-        A monotonic clock in seconds.
+        Returns a monotonic time in seconds.
 
     Signals
     -------
@@ -88,11 +88,11 @@ class Playback(QObject):
 
     @property
     def mix(self) -> Mix:
-        """The mix that is played."""
+        """The mix being played."""
         return self._mix
 
     def set_mix(self, mix: Mix) -> None:
-        """Play this, from the next sample on."""
+        """Set the mix, effective from the next sample on."""
         self._mix = self._reader.mix = mix
 
     def set_span(self, start_s: float, end_s: float) -> None:
@@ -100,17 +100,17 @@ class Playback(QObject):
         self._span_s = (start_s, end_s)
 
     def set_loop(self, loop_s: tuple[float, float] | None) -> None:
-        """Play a range over and over; None: on to the end."""
+        """Set a range to repeat; None to play on to the end."""
         self._loop_s = loop_s
         self._reader.set_loop(loop_s)
 
     def set_speed(self, speed: float) -> None:
-        """0.25..2; the pitch stays."""
+        """Set the speed as a factor, 0.25..2; the pitch does not change."""
         self._speed = speed
         self._reader.set_speed(speed)
 
     def set_volume(self, volume: float) -> None:
-        """0..1 as the ear judges it."""
+        """Set the perceived volume, 0..1."""
         self._gain = volume**2
         for sink in (self._sink, self._grains):
             if sink is not None:
@@ -129,7 +129,7 @@ class Playback(QObject):
         return self._silent
 
     def play(self, from_s: float | None = None) -> None:
-        """Play from a moment, else from where it stands; from the beginning where that is the end."""
+        """Start playing at a moment, else at the current position, or at the beginning if that is the end."""
         start_s = self.position_s() if from_s is None else from_s
         if self._loop_s is not None and start_s >= self._loop_s[1] - _LEAST_S:
             start_s = self._loop_s[0]
@@ -143,7 +143,7 @@ class Playback(QObject):
             self.playing_changed.emit(True)
 
     def stop(self) -> None:
-        """Stand where the sound is now."""
+        """Stop at the current position."""
         if self._sink is None:
             return
         self._position_s = self.position_s()
@@ -153,7 +153,7 @@ class Playback(QObject):
         self.playing_changed.emit(False)
 
     def seek(self, position_s: float) -> None:
-        """Go to a moment, without stopping if it plays."""
+        """Move to a moment; playback continues if it is running."""
         if self._sink is None:
             self._position_s = position_s
             return
@@ -162,7 +162,7 @@ class Playback(QObject):
         self.feed()
 
     def scrub(self, position_s: float) -> None:
-        """Go to a moment and play a grain of it, unless playing."""
+        """Move to a moment, and play a short piece of sound unless playback is running."""
         self.seek(position_s)
         if self._sink is not None:
             return
@@ -184,7 +184,7 @@ class Playback(QObject):
             self._grains.write(self._mix.read(round(position_s * RATE_HZ) - count // 2, count) * window)
 
     def position_s(self) -> float:
-        """The moment that sounds now; it never waits."""
+        """Return the position of the audible sound in seconds, without waiting."""
         if self._sink is None:
             return self._position_s
         self._clock.observe(self._sink.processed_s())
@@ -203,7 +203,7 @@ class Playback(QObject):
         return min(position_s, self._loop_s[1]) if self._in_loop(position_s) and self._loop_s else position_s
 
     def feed(self) -> None:
-        """Give the device what it has room for; called often while playing."""
+        """Write as much sound as the device accepts; called regularly during playback."""
         sink = self._sink
         if sink is None:
             return
@@ -229,7 +229,7 @@ class Playback(QObject):
             self._position_s = self._span_s[1]
 
     def _begin(self, start_s: float, sink: Sink | None = None, may_sound: bool = True) -> None:
-        """Fill a device that was opened, else open one, or play silently."""
+        """Fill an open device, else open one, or play silently."""
         if self._sink is not None:
             self._sink.stop()
         self._begun_s = self._now()

@@ -1,4 +1,4 @@
-"""Reads a mix in order, at another speed if requested, over and over in a loop; says which moment each sample is of."""
+"""Sequential reader of a mix with variable speed and loops, which reports the performance time of its output."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ from app.audio.stretch import HOP, TimeStretcher
 from app.audio.track import RATE_HZ, Block, Mix
 
 Mark = tuple[int, float, float]
-"""(sample of the output, second of the performance that it is of, seconds of the performance per second of output)."""
+"""Output sample index, performance time in seconds of that sample, and performance seconds per second of output."""
 
 _FADE: Final = 96
-"""Samples over which a jump is faded, so that it does not crack."""
+"""Number of samples over which a jump is faded to avoid a click."""
 _LEAST_LOOP: Final = RATE_HZ // 50
-"""Shorter is a tone, not a loop."""
+"""Least length of a loop in samples; shorter ones would sound as a tone."""
 
 
 class Reader:
-    """The next sound.
+    """Reads the sound that follows.
 
     Parameters
     ----------
     mix : Mix
-        May be replaced at any time; what is read afterwards is of the new one.
+        Mix, which may be replaced at any time.
     position_s : float
-        Where to begin, seconds of the performance.
+        Start position in seconds of the performance.
     speed : float
-        0.25..2; the pitch stays.
+        Speed factor, 0.25..2; the pitch does not change.
     loop_s : (float, float), optional
     silent : bool
-        Only the time is requested.
+        Whether only time is needed and no sound.
     """
 
     def __init__(
@@ -53,29 +53,30 @@ class Reader:
         self.seek(position_s)
 
     def seek(self, position_s: float) -> None:
-        """Go on elsewhere."""
+        """Continue at another position."""
         self._begin(round(position_s * RATE_HZ))
 
     def set_speed(self, speed: float) -> None:
-        """Go on at another speed."""
+        """Set the speed factor from now on."""
         if speed != self._speed:
             at = self._position()
             self._speed = speed
             self._begin(at)
 
     def set_loop(self, loop_s: tuple[float, float] | None) -> None:
-        """Go over this range again and again, from when its end is reached."""
+        """Set the range that is repeated when its end is reached."""
         loop = None if loop_s is None else (round(loop_s[0] * RATE_HZ), round(loop_s[1] * RATE_HZ))
         self._loop = loop if loop is not None and loop[1] - loop[0] >= _LEAST_LOOP else None
 
     def read(self, count: int) -> tuple[Block, list[Mark]]:
-        """The next samples.
+        """Return the next samples.
 
         Returns
         -------
         block : float32 array, shape (count, 2)
         marks : list of Mark
-            Where the moment does not follow from the mark before; samples are counted from the first one ever read.
+            Marks of the moments that do not follow from the previous mark; samples are counted from the first one ever
+            read.
         """
         parts, missing = [], count
         while missing:
@@ -88,7 +89,7 @@ class Reader:
         return (np.concatenate(parts) if parts else self._waiting[:0]), marks
 
     def _begin(self, at: int) -> None:
-        """Read on from a sample; discards what was rendered ahead and not read yet."""
+        """Continue reading at a sample, discarding sound rendered ahead."""
         self._made -= len(self._waiting)
         self._waiting = self._waiting[:0]
         # A frame of the stretch sounds around its middle: what the first one begins with lies as much earlier.
@@ -120,7 +121,7 @@ class Reader:
         return self._stretch.step(self._speed)
 
     def _position(self) -> int:
-        """The sample of the performance that is made next."""
+        """Return the performance sample that is processed next."""
         if self._speed == 1.0 or self.silent:
             return self._at - len(self._waiting) if self._speed == 1.0 else self._at
         stream = round(self._stretch.position) + self._lead
@@ -130,7 +131,7 @@ class Reader:
         return at + stream - start
 
     def _input_all(self, count: int) -> Block:
-        """Return this many samples of the mix, across the end of a loop if necessary."""
+        """Return a number of samples of the mix, across the end of a loop if necessary."""
         parts = []
         while count:
             part = self._input(count)
@@ -139,7 +140,7 @@ class Reader:
         return np.concatenate(parts) if parts else np.zeros((0, 2), np.float32)
 
     def _input(self, count: int) -> Block:
-        """The mix from here on; at most to the end of the loop."""
+        """Return samples of the mix at the current position, at most up to the end of the loop."""
         ends = self._loop is not None and self._at < self._loop[1] <= self._at + count
         if self._loop is not None and ends:
             count = self._loop[1] - self._at

@@ -1,6 +1,6 @@
-"""Phrases rendered by a process of their own: the synthesiser lets no other Python run, and would stop the window.
+"""Synthesiser in a process of its own, since it blocks Python and would freeze the window.
 
-The child is this module, run as a program: it receives MIDI files and sends their sound.
+The child process runs this module: it receives MIDI files and sends their sound.
 """
 
 from __future__ import annotations
@@ -18,14 +18,13 @@ from app.audio.track import Samples
 from app.child import MessageChannel, StartedChild, channel_to_parent
 
 _NICENESS: Final = 5
-"""The window has priority where the processor is busy."""
+"""Unix niceness of the process, so that the window has priority."""
 
 
 class RenderProcess:
-    """Renders in a child that is started with the first phrase.
+    """Renders in a child process that is started with the first phrase.
 
-    Where no process can be started, or it was killed, phrases are rendered here: they sound the same, and the window
-    is less smooth.
+    If no process can be started or it was killed, phrases are rendered in this process, with equal sound.
     """
 
     def __init__(self) -> None:
@@ -34,7 +33,7 @@ class RenderProcess:
         self._has_child = True
 
     def __call__(self, midi: bytes) -> Samples:
-        """A MIDI file as sound: int16, mono. One at a time; may be called from any thread."""
+        """Return a MIDI file as sound: int16, mono. Phrases are rendered one at a time; any thread may call."""
         with self._lock:
             if self._has_child:
                 try:
@@ -52,7 +51,7 @@ class RenderProcess:
 
 
 def main() -> None:
-    """Render whatever is asked for."""
+    """Render all requested MIDI files."""
     channel: MessageChannel[bytes] = channel_to_parent(bytes, "render")
     if hasattr(os, "nice"):
         os.nice(_NICENESS)

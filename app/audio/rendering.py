@@ -1,4 +1,4 @@
-"""A MIDI file as sound, by midirenderer and the bundled soundfonts."""
+"""Rendering of MIDI files by midirenderer with the bundled soundfonts."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from app.score.channel_sound import DRUM_CHANNEL
 
 FOLDER: Final = Path(__file__).parents[2] / "resources" / "soundfont"
 _FIRST_STATUS: Final = 23
-"""Byte of the first event's status in a file of one track, after the chunks' heads and a delta of 0."""
+"""Index of the status byte of the first event in a file of one track, after the chunk heads and a delta of 0."""
 
 
 @cache
 def soundfont(of_drums: bool = False) -> bytes:
-    """The bundled soundfont of winds, or of the drum kit."""
+    """Return the bundled soundfont of wind instruments, or of the drum kit."""
     return (FOLDER / ("drums.sf2" if of_drums else "winds.sf2")).read_bytes()
 
 
 def rendered(midi: bytes) -> Samples:
-    """A MIDI file as sound: int16, mono, without the silence at its end.
+    """Return a MIDI file as sound: int16, mono, without silence at the end.
 
-    A file of one track whose first event, at tick 0, is on channel 10 is the drum kit's.
+    A file of one track whose first event is at tick 0 on channel 10 is played by the drum kit.
 
-    It takes some 20 ms for a phrase, during which midirenderer 0.1.3 lets no other Python of this process run.
+    Takes about 20 ms for a phrase, during which midirenderer 0.1.3 blocks all Python code of the process.
     """
     wave = midirenderer.render_wave_from(soundfont(midi[_FIRST_STATUS] & 15 == DRUM_CHANNEL), midi)
     stereo, rate_hz = soundfile.read(io.BytesIO(wave), dtype="int16", always_2d=True)

@@ -16,22 +16,22 @@ from app.score.model import Score
 
 ANALYSIS_RATE_HZ: Final = 22050
 _BLOCK: Final = 1 << 20
-"""Samples that are mixed to one channel at once."""
+"""Number of samples mixed to one channel at a time."""
 _CHROMA_HOP: Final = 2048
 CHROMA_S: Final = _CHROMA_HOP / ANALYSIS_RATE_HZ
 _ONSET_HOP: Final = 220
 ONSET_S: Final = _ONSET_HOP / ANALYSIS_RATE_HZ
 _LEAST_SAMPLES: Final = 4 * ANALYSIS_RATE_HZ
-"""Shorter recordings are filled up with silence: what surrounds an onset must be there."""
+"""Least number of samples; shorter recordings are padded with silence, since the analysis needs sound around onsets."""
 Harmonics: TypeAlias = tuple[tuple[int, float], ...]
-"""Pitch classes above a note's own that its overtones sound in (the third and the fifth harmonic), and how loud."""
+"""Intervals in semitones of the pitch classes of a note's overtones above its own, with their loudness."""
 USUAL_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 0.25), (4, 0.08))
 ODD_HARMONICS: Final[Harmonics] = ((0, 1.0), (7, 1.0), (4, 0.3))
-"""Odd harmonics, which a stopped pipe such as a clarinet has: alone they sound a twelfth higher as much as at their
-own pitch."""
+"""Odd harmonics, as of a stopped pipe such as a clarinet, which sound at the twelfth as much as at their own pitch."""
 EARLY_S: Final = 0.007
-"""Lead of the onsets found over the notes, by windows that reach ahead: mean over seven pieces by the
-built-in synthesiser."""
+"""Seconds by which detected onsets precede the notes, since windows reach ahead: mean over seven pieces of the built-in
+synthesiser.
+"""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class ExpectedSound:
 
 
 def expected_sound(score: Score) -> ExpectedSound:
-    """Expected sound of a score, note by note in the order of its parts."""
+    """Return the expected sound of a score, note by note in the order of its parts."""
     notes = [note for part in score.parts for note in part.notes]
     seconds = score.tempo_map.seconds
     return ExpectedSound(
@@ -69,12 +69,12 @@ def expected_sound(score: Score) -> ExpectedSound:
 def sounds_to_compare(
     score: Score, samples: Samples, rate_hz: int, progress: Progress
 ) -> tuple[ExpectedSound, RecordedSound]:
-    """Expected sound of a score, and features of a recording of it.
+    """Return the expected sound of a score and the features of a recording of it.
 
     Raises
     ------
     AppError
-        ``audio.nothing_to_compare``: the recording is silent, or the score has no notes.
+        The recording is silent, or the score has no notes.
     """
     expected = expected_sound(score)
     if not len(samples) or not samples.any() or not len(expected.onset_s):
@@ -83,7 +83,7 @@ def sounds_to_compare(
 
 
 def analysis_sound(samples: Samples, rate_hz: int) -> Sound:
-    """Mix a sound down to one channel at `ANALYSIS_RATE_HZ`, from -1 to 1.
+    """Convert a sound to one channel at `ANALYSIS_RATE_HZ`, -1..1.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def recorded_sound(samples: Samples, rate_hz: int, progress: Progress) -> Record
 
 
 def shape(chroma: FloatArray) -> FloatArray:
-    """Each frame as a direction: which pitch classes stand out, however loud; near silence counts less."""
+    """Return each frame as a direction, so that loudness does not matter; frames near silence have less weight."""
     level = np.sqrt(chroma.sum(axis=0))
     chroma = np.sqrt(chroma)
     chroma = chroma - chroma.mean(axis=0)
@@ -133,7 +133,7 @@ def shape(chroma: FloatArray) -> FloatArray:
 
 
 def levelled_onsets(onsets: FloatArray) -> FloatArray:
-    """Onset strength above its surroundings, in units of its own spread."""
+    """Return onset strength above its surroundings, in standard deviations."""
     width = round(1.5 / ONSET_S)
     around = np.convolve(onsets, np.ones(width) / width, "same")
     spread = np.sqrt(np.convolve((onsets - around) ** 2, np.ones(width) / width, "same"))
@@ -142,7 +142,7 @@ def levelled_onsets(onsets: FloatArray) -> FloatArray:
 
 
 def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.0) -> FloatArray:
-    """The score's chroma at a tempo, from second 0 of the score or from a number of frames before it."""
+    """Return the score's chroma at a tempo, from second 0 of the score or from a number of frames before it."""
     begin = expected.onset_s / ratio / CHROMA_S + later_frames
     end = expected.end_s / ratio / CHROMA_S + later_frames
     frames = int(np.ceil(end.max())) + 1
@@ -159,10 +159,10 @@ def score_chroma(expected: ExpectedSound, ratio: float, later_frames: float = 0.
 
 
 def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
-    """Return how much more of an onset comes after a moment than before it.
+    """Return the increase of onset strength from before to after each frame.
 
-    A tone's strength rises at once and goes on rising for a while, the longer the slower it speaks: its beginning is
-    where the strength sets in, not where it is greatest.
+    The strength of an onset keeps rising for a while, longer for slow onsets; the note begins at the start of the rise
+    and not at the maximum.
     """
     reach = max(round(3 * width_s / ONSET_S), 1)
     decay = np.exp(-(np.arange(reach) + 0.5) * ONSET_S / width_s)
@@ -173,8 +173,10 @@ def onset_edges(onsets: FloatArray, width_s: float) -> FloatArray:
 
 
 def confidence_of(likeness: float, onsets: float) -> float:
-    """0..1. Right places of test pieces, with noise, reverberation and applause, had likeness 0.38 and onsets 0.36 or
-    more; wrong pieces and transposed ones at most 0.29, and where it was more than 0.2, onsets of 0.3."""
+    """Return the confidence, 0..1. Correct positions of test pieces with noise, reverberation and applause had likeness
+    of at least 0.38 and onsets of 0.36; wrong and transposed pieces had at most 0.29, and 0.3 for onsets if likeness
+    was above 0.2.
+    """
     return float(_rising(12.0 * (likeness - 0.34)) * _rising(8.0 * (onsets - 0.28)))
 
 

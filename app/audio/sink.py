@@ -1,4 +1,4 @@
-"""Outputs for sound: the interface of a device, and a silent one that stands in for it."""
+"""Sound outputs: the interface of a device, and a silent substitute."""
 
 from __future__ import annotations
 
@@ -8,44 +8,44 @@ from typing import Final, Protocol
 from app.audio.track import RATE_HZ, Block
 
 BUFFER_S: Final = 0.2
-"""Sound that waits in the device: long enough for a busy window, short enough for the hand."""
+"""Seconds of sound queued in the device: enough for a busy window, short enough for quick response."""
 
 
 class Sink(Protocol):
-    """A device that plays stereo at `RATE_HZ`."""
+    """A device that plays stereo sound at `RATE_HZ`."""
 
     def free(self) -> int:
-        """Samples that may be written now."""
+        """Return the number of samples that may be written now."""
         ...
 
     def write(self, block: Block) -> None:
-        """Play this next; not more than `free`. Shape (n, 2)."""
+        """Queue samples of shape (n, 2); not more than `free`."""
         ...
 
     def processed_s(self) -> float:
-        """Seconds that were played since the start."""
+        """Return the seconds played since the start."""
         ...
 
     def set_volume(self, gain: float) -> None:
-        """0..1, linear."""
+        """Set the volume as a linear factor, 0..1."""
         ...
 
     def failed(self) -> bool:
-        """Return whether the device went away."""
+        """Return whether the device was lost."""
         ...
 
     def stop(self) -> None:
-        """Be silent at once."""
+        """Stop the sound immediately."""
         ...
 
 
 class SilentSink:
-    """Plays nothing, in time: the clock where there is no device.
+    """A silent output in real time, used as a clock if there is no device.
 
     Parameters
     ----------
     now : callable
-        A monotonic clock in seconds.
+        Function that returns a monotonic time in seconds.
     """
 
     def __init__(self, now: Callable[[], float]) -> None:
@@ -54,7 +54,7 @@ class SilentSink:
         self._written = 0
 
     def free(self) -> int:
-        """Samples that may be written now."""
+        """Return the number of samples that may be written now."""
         waiting = self._written - round((self._now() - self._start_s) * RATE_HZ)
         return max(round(BUFFER_S * RATE_HZ) - waiting, 0)
 
@@ -63,15 +63,15 @@ class SilentSink:
         self._written += len(block)
 
     def processed_s(self) -> float:
-        """Seconds since the start: late data is not waited for."""
+        """Return the seconds since the start, even if data is late."""
         return self._now() - self._start_s
 
     def set_volume(self, gain: float) -> None:
-        """Silence has no volume."""
+        """Ignore the volume."""
 
     def failed(self) -> bool:
-        """Silence does not go away."""
+        """Return False, since a silent output cannot be lost."""
         return False
 
     def stop(self) -> None:
-        """Do nothing: there is no sound to stop."""
+        """Do nothing."""

@@ -1,5 +1,4 @@
-"""Sound that was made and may be heard again, kept in files without a name: the system reads from them what is heard,
-and memory that only keeps it is free for others."""
+"""Cache of rendered sound in unnamed files, so that memory is available for other purposes."""
 
 from __future__ import annotations
 
@@ -16,13 +15,14 @@ import numpy as np
 from app.audio.track import Samples
 
 _FILE_BYTES: Final = 16 * 1024 * 1024
-"""Bytes of one cache file. A file is deleted once nothing in it is needed, so small files take less room on the
-disk."""
+"""Size of a cache file in bytes. A file is deleted when nothing in it is needed, so small files take less disk
+space.
+"""
 
 
 @dataclass(eq=False)
 class _File:
-    """A file without a name, as memory: it is there as long as any of its sound is."""
+    """A memory-mapped unnamed file that exists as long as any of its sound is used."""
 
     file: IO[bytes]
     memory: mmap.mmap
@@ -47,12 +47,12 @@ class _File:
 
 
 class Shelved:
-    """Renderer that keeps what it has rendered in files; if the disk is full, in memory.
+    """Renderer that caches its results in files, or in memory if the disk is full.
 
     Parameters
     ----------
     render : callable
-        May be called from any thread, as this may be.
+        Renderer that may be called from any thread; so may this object.
     """
 
     def __init__(self, render: Callable[[bytes], Samples]) -> None:
@@ -61,7 +61,7 @@ class Shelved:
         self._file: _File | None = None
 
     def __call__(self, midi: bytes) -> Samples:
-        """A MIDI file as sound."""
+        """Return a MIDI file as sound."""
         samples = self._render(midi)
         with self._lock:
             try:

@@ -1,8 +1,8 @@
-"""A recording that keeps the score's own tempo, times a constant: found as such, and then without jitter.
+"""Recordings whose tempo is a constant multiple of the score's, detected and aligned without jitter.
 
-Beats that are read off onsets lie some milliseconds to either side, which is a per cent or more of a beat's length.
-Where one line explains the onsets of the recording everywhere about as well as the free path does, as in a recording
-made to a click or by a sequencer, that line is taken.
+Beats derived from onsets deviate by some milliseconds, which is a per cent or more of a beat. If a line explains the
+recording's onsets everywhere about as well as the free path, as in a recording with a click or by a sequencer, the line
+is used.
 """
 
 from __future__ import annotations
@@ -16,37 +16,38 @@ from app.audio.onset_path import FINAL_WIDTH_S
 from app.audio.score_sound import ONSET_S, onset_edges
 
 _FAR_S: Final = 0.02
-"""Onsets farther from the line than this count less in its fit."""
+"""Distance from the line in seconds beyond which onsets have less weight in its fit."""
 _FITS: Final = 5
 _REFINED_S: Final = ((0.02, 0.002), (0.003, 0.0005))
-"""Reach and step, in seconds, by which either end of the line is then moved to where onsets are strongest."""
+"""Reach and step in seconds of the refinement of both ends of the line, coarse and fine."""
 _AS_STRONG: Final = 0.66
-"""Share of the onset strength of the free path that a line at constant tempo must have in all. Renders of seven
-pieces at a constant tempo had 0.69 or more; against a score whose tempo sways by two per cent in nine seconds (29
-ms), at most 0.57."""
+"""Share of the free path's total onset strength that a line at constant tempo must have. Renders of seven pieces at a
+constant tempo had 0.69 or more; against a score whose tempo varies by two per cent in nine seconds (29 ms), at most
+0.57.
+"""
 _AS_STRONG_LOCALLY: Final = 0.45
-"""The share in every stretch: such renders had 0.47 or more, against the swaying score at most 0.29."""
+"""Same share in every section: such renders had 0.47 or more, against the varying score at most 0.29."""
 _STRETCH_S: Final = 4.0
 _LEAST_ONSETS: Final = 12
 _LEAST_S: Final = 6.0
-"""Fewer or shorter says nothing of the tempo."""
+"""Least length in seconds from which the tempo can be determined."""
 
 
 def steady_line(times: FloatArray, found: FloatArray, onsets: FloatArray) -> tuple[float, float] | None:
-    """Find the line that the onsets of a recording lie on.
+    """Return the line on which the onsets of a recording lie.
 
     Parameters
     ----------
     times, found : (N,) float64
-        Seconds of the score, rising, and of the recording, as the free path has them.
+        Seconds of the score, ascending, and of the recording, on the free path.
     onsets : (frames,) float64
         Onset strength of the recording, a frame every `ONSET_S`.
 
     Returns
     -------
     (float, float) or None
-        The second of the recording at second 0 of the score, and seconds of the recording per second of the score;
-        None where they do not lie on a line.
+        Second of the recording at second 0 of the score, and seconds of the recording per second of the score; None if
+        the onsets are not on a line.
     """
     if len(times) < _LEAST_ONSETS or times[-1] - times[0] < _LEAST_S:
         return None
@@ -64,7 +65,7 @@ def steady_line(times: FloatArray, found: FloatArray, onsets: FloatArray) -> tup
 
 
 def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
-    """Both ends of the straight line through the places that were found, some of which are wrong."""
+    """Return both ends of a straight line through the found onsets, robust against errors."""
     weights = np.ones(len(times))
     line = np.zeros(2)
     for _ in range(_FITS):
@@ -75,7 +76,7 @@ def _fitted(times: FloatArray, found: FloatArray) -> tuple[float, float]:
 
 
 def _refined(edges: FloatArray, times: FloatArray, first_s: float, last_s: float) -> tuple[float, float]:
-    """Both ends of the line, moved slightly to where the onsets along it are strongest."""
+    """Return both ends of the line, moved slightly to maximise the onset strength along it."""
     shares = (times - times[0]) / (times[-1] - times[0])
     for reach_s, step_s in _REFINED_S:
         moves = np.arange(-reach_s, reach_s + 1e-9, step_s)
@@ -91,7 +92,7 @@ def _refined(edges: FloatArray, times: FloatArray, first_s: float, last_s: float
 
 
 def _strength(edges: FloatArray, at_s: FloatArray) -> FloatArray:
-    """Return how strongly notes begin at some seconds of the recording."""
+    """Return the onset strength at given seconds of the recording."""
     places = at_s / ONSET_S
     result: FloatArray = np.interp(places.ravel(), np.arange(len(edges)), edges, left=0.0, right=0.0).reshape(
         at_s.shape

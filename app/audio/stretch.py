@@ -1,8 +1,8 @@
-"""Slower or faster at the same pitch, in a stream: waveform-similarity overlap-add.
+"""Change of speed without change of pitch in a stream, by waveform-similarity overlap-add (WSOLA).
 
 Verhelst and Roelands, "An overlap-add technique based on waveform similarity (WSOLA) for high quality time-scale
-modification of speech" (ICASSP 1993). Libraries were looked at: Rubber Band is GPL, python-stretch begins again with
-every block, audiotsm is not kept up.
+modification of speech" (ICASSP 1993). Unsuitable libraries: Rubber Band is under GPL, python-stretch restarts with
+every block, audiotsm is unmaintained.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from app.arrays import FloatArray, SingleArray
 from app.audio.track import RATE_HZ, Block
 
 HOP: Final = round(0.03 * RATE_HZ)
-"""Samples that a step makes."""
+"""Number of samples generated in a step."""
 _LENGTH: Final = 2 * HOP
 _SEARCH: Final = round(0.012 * RATE_HZ)
-"""Largest distance of a frame from its ideal place: more than half a period of the lowest notes of winds."""
+"""Greatest distance in samples of a frame from its ideal position: more than half a period of the lowest wind notes."""
 _COARSE: Final = 4
 _WINDOW: Final = np.hanning(_LENGTH + 1)[:-1].astype(np.float32)[:, None]
 
@@ -30,7 +30,7 @@ class TimeStretcher:
     Parameters
     ----------
     more : callable
-        Gives that many further samples of the stream, float32, shape (n, 2).
+        Function that returns a number of further samples of the stream, float32, shape (n, 2).
     """
 
     def __init__(self, more: Callable[[int], Block]) -> None:
@@ -45,11 +45,11 @@ class TimeStretcher:
 
     @property
     def position(self) -> float:
-        """Place in the stream of what the next step makes."""
+        """Return the position in the stream of the next step's output."""
         return self._ideal
 
     def step(self, speed: float) -> Block:
-        """The next `HOP` samples at a speed."""
+        """Return the next `HOP` samples at a speed."""
         ideal = round(self._ideal)
         self._fill(max(ideal + _SEARCH, (self._before or 0) + HOP) + _LENGTH)
         at = ideal if self._before is None else self._best(ideal)
@@ -65,7 +65,7 @@ class TimeStretcher:
         return out
 
     def _best(self, ideal: int) -> int:
-        """Return the place near the ideal one at which the sound continues the frame before most smoothly."""
+        """Return the position near the ideal one at which the sound continues the previous frame most smoothly."""
         assert self._before is not None
         goes_on = self._before + HOP
         low = max(ideal - _SEARCH, self._first)
@@ -97,7 +97,7 @@ class TimeStretcher:
 
 
 def _likeness(field: SingleArray, pattern: SingleArray) -> FloatArray:
-    """Correlation of a pattern with every place of a field, by the loudness there."""
+    """Return the correlation of a pattern with every position of a signal, normalised by loudness."""
     products = np.correlate(field, pattern, "valid")
     energy = np.concatenate([[0.0], np.cumsum(field.astype(np.float64) ** 2)])
     sizes = np.sqrt(np.maximum(energy[len(pattern) :] - energy[: -len(pattern)], 1e-6))

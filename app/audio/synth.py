@@ -1,10 +1,10 @@
-"""The built-in synthesiser: a player's part as sound, phrase by phrase.
+"""The built-in synthesiser, which renders a player's part phrase by phrase.
 
-A part is cut into phrases of some bars' length that sound independently of one another, so that a piece sounds as
-soon as its first phrases are made, and only the phrases that an edit touched are made again: what a phrase is made from
-(its MIDI bytes) is its identity. midirenderer stops at the last event, so silence follows that lets the tail sound.
+A part is cut into phrases of some bars that are rendered independently, so that a piece is audible as soon as its first
+phrases are ready, and an edit only requires its own phrases anew. A phrase is identified by the bytes of its MIDI file.
+midirenderer stops at the last event, so silence for the tail follows.
 
-Parts are rendered without regard to who else plays; loudness and place are the mixer's.
+Parts are rendered independently of other players; loudness and pan are applied by the mixer.
 """
 
 from __future__ import annotations
@@ -29,15 +29,17 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
 
 TICKS_PER_QUARTER: Final = 24000
-"""At MIDI's own 120 quarters per minute a tick is a sample at 48 kHz."""
+"""Ticks per quarter of phrases: at MIDI's default of 120 quarters per minute, a tick is a sample at 48 kHz."""
 _WINDOW_QUARTERS: Final = 8
-"""A phrase's notes begin in one of these windows; fixed, so that an edit moves no other phrase's bounds."""
+"""Length in quarters of the fixed windows in which a phrase's notes begin, so that an edit does not move the bounds of
+other phrases.
+"""
 _TAIL_S: Final = 1.5
-"""The longest release and the reverberation."""
+"""Length in seconds of the longest release with reverberation."""
 _BLOCK: Final = 64
-"""Samples between the moments at which the synthesiser looks at its events."""
+"""Number of samples between times at which the synthesiser processes events."""
 _STROKE: Final = 480
-"""Samples between a drum's note-on and its note-off."""
+"""Number of samples between a drum's note-on and note-off."""
 _VOLUME, _EXPRESSION = 7, 11
 _MOST_CACHED_BYTES: Final = 256 * 1024 * 1024
 
@@ -49,9 +51,9 @@ class RenderedPhrase:
     Attributes
     ----------
     start, end : int
-        Performance time in samples; the end is where the last tail has died away.
+        Performance time in samples; the end is that of the last tail.
     midi : bytes
-        A MIDI file that begins there; equal bytes sound equal.
+        MIDI file that begins at the start; equal bytes give equal sound.
     """
 
     start: int
@@ -60,12 +62,12 @@ class RenderedPhrase:
 
 
 class Synthesiser:
-    """Renders phrases and remembers them.
+    """Renders phrases and caches their sound.
 
     Parameters
     ----------
     render : callable
-        What makes sound of a MIDI file: in this process, or in another, so that other work goes on.
+        Function that renders a MIDI file, in this or another process.
     """
 
     def __init__(self, render: Callable[[bytes], Samples] = rendered) -> None:
@@ -74,12 +76,12 @@ class Synthesiser:
         self._bytes = 0
 
     def ready(self, phrase: RenderedPhrase) -> AudioSegment | None:
-        """A phrase that has been rendered; None if it has not."""
+        """Return the sound of a phrase that has been rendered; None otherwise."""
         samples = self._sounds.get(phrase.midi)
         return None if samples is None else AudioSegment(phrase.start, samples)
 
     def render(self, phrase: RenderedPhrase) -> AudioSegment:
-        """A phrase as sound: int16, mono. May be called from a worker."""
+        """Render a phrase as sound: int16, mono. Any thread may call this."""
         piece = self.ready(phrase)
         if piece is None:
             samples = self._render(phrase.midi)
@@ -89,12 +91,12 @@ class Synthesiser:
         return piece
 
     def forget(self, used: Iterable[RenderedPhrase]) -> frozenset[bytes]:
-        """Let go of the oldest unused sounds, until what is to be rendered has room.
+        """Drop the oldest unused sounds until there is room for new ones.
 
         Returns
         -------
         frozenset of bytes
-            `RenderedPhrase.midi` of what is gone.
+            `RenderedPhrase.midi` of the dropped sounds.
         """
         lengths = {phrase.midi: phrase.end - phrase.start for phrase in used}
         # Samples of two bytes.
@@ -140,7 +142,7 @@ def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[Re
     Parameters
     ----------
     hits : sequence of PercussionHit
-        By tick.
+        Strokes in the order of their ticks.
     """
     if not hits:
         return ()
@@ -158,10 +160,10 @@ def drum_phrases(hits: Sequence[PercussionHit], tempo_map: TempoMap) -> tuple[Re
 
 
 def program_of(part: Part, instrument: InstrumentMap | None) -> int:
-    """The General MIDI program that sounds like what a player plays.
+    """Return the General MIDI program for a player's part.
 
-    The file's own program where it is one of the instrument's; else what the vocabulary gives the instrument, then what
-    it may stand in for; else, and where there is no such instrument, the file's, if it is a wind.
+    The file's program if it suits the instrument; else the program of the instrument in the vocabulary or of its
+    substitute; else the file's if it is a wind instrument.
     """
     names = [] if instrument is None else [*instrument.plays, *instrument.substitutes_for]
     table = vocabulary().instruments
@@ -177,7 +179,7 @@ def program_of(part: Part, instrument: InstrumentMap | None) -> int:
 
 @cache
 def programs() -> frozenset[int]:
-    """The programs that the bundled soundfont has."""
+    """Return the programs in the bundled soundfont."""
     data = soundfont()
     at = data.index(b"phdr")
     size = struct.unpack_from("<I", data, at + 4)[0]
@@ -186,7 +188,7 @@ def programs() -> frozenset[int]:
 
 
 def _opening(program: int, bent: int) -> bytes:
-    """The messages that a phrase begins with: its sound, and the range of its bends in semitones."""
+    """Return the first messages of a phrase: its program, and the range of pitch bends in semitones."""
     messages = [bytes((0xC0, program))]
     if bent != USUAL_SEMITONES:
         messages += [bytes((0xB0, *control)) for control in range_controls(bent)]
@@ -194,7 +196,7 @@ def _opening(program: int, bent: int) -> bytes:
 
 
 def _controls(part: Part, tempo_map: TempoMap, bent: int) -> tuple[tuple[IntArray, tuple[bytes, ...]], ...]:
-    """The audible curves, as samples and messages: the player's loudness as expression, volume, pitch bend.
+    """Return the audible curves as samples and messages: loudness as expression, volume, pitch bend.
 
     ``bent`` is the range of the bends in semitones.
     """
@@ -227,8 +229,9 @@ def _phrase(
     opening: bytes,
     channel: int = 0,
 ) -> RenderedPhrase:
-    """Notes that begin at ``onsets`` and end at ``ends``, in samples, as a MIDI file that begins with the first of them
-    and with ``opening``."""
+    """Return a phrase of notes from ``onsets`` to ``ends`` (samples), as a MIDI file that begins with ``opening`` at
+    the first onset.
+    """
     start = int(onsets.min()) // _BLOCK * _BLOCK
     last = int(ends.max())
     # (sample, order, message): what ends a note comes before what begins the next, controllers before both.
@@ -250,8 +253,9 @@ def _in_order(event: tuple[int, int, bytes]) -> tuple[int, int]:
 
 
 def _midi_file(events: Iterable[tuple[int, int, bytes]], tail: int) -> bytes:
-    """A MIDI file of one track whose ticks are samples. By hand: a library takes ten times as long, and a large score
-    has hundreds of thousands of messages."""
+    """Return a MIDI file of one track whose ticks are samples. A library would take ten times as long, and a large
+    score has hundreds of thousands of messages.
+    """
     track = bytearray()
     before = 0
     for at, _, message in events:
@@ -262,7 +266,7 @@ def _midi_file(events: Iterable[tuple[int, int, bytes]], tail: int) -> bytes:
 
 
 def _variable_length(number: int) -> bytes:
-    """Seven bits a byte, the highest first; all but the last are marked."""
+    """Return a MIDI variable-length quantity: seven bits per byte, highest first, with a mark on all but the last."""
     if number < 128:
         return bytes((number,))
     out = [number & 127]

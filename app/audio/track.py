@@ -1,4 +1,4 @@
-"""Sound on the performance's time line: pieces of sound, tracks of pieces, and their mix."""
+"""Sound on the time line of the performance: segments, tracks of segments, and the mix of tracks."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ Samples: TypeAlias = npt.NDArray[np.int16]
 Block: TypeAlias = SingleArray
 
 RATE_HZ: Final = 48000
-"""Sample rate of all mixing; a device with another rate gets resampled sound."""
+"""Sample rate of the mix in Hz; sound for devices of another rate is resampled."""
 _FULL_SCALE: Final = 1.0 / 32768.0
 _KNEE: Final = 0.8
-"""Louder samples are bent below full scale instead of being cut off."""
+"""Amplitude above which peaks are compressed instead of clipped."""
 
 
 @dataclass(frozen=True, eq=False)
 class AudioSegment:
-    """A stretch of sound from a start on.
+    """Samples with a start time.
 
     Attributes
     ----------
     start : int
-        Performance time of its first sample, in samples; may be negative.
+        Performance time of the first sample, in samples; may be negative.
     samples : int16 array, shape (n,) or (n, 2)
     """
 
@@ -60,18 +60,18 @@ class MixTrack:
         return max((len(piece.samples) for piece in self.pieces), default=0)
 
     def moved(self, samples: int) -> MixTrack:
-        """The track, later by a number of samples."""
+        """Return the track delayed by a number of samples."""
         track = MixTrack(AudioSegment(piece.start + samples, piece.samples) for piece in self.pieces)
         track.gains = self.gains
         return track
 
     @property
     def end(self) -> int:
-        """Return where the last piece ends, in samples; 0 without pieces."""
+        """Return the end of the last segment in samples; 0 if there are none."""
         return max((piece.start + len(piece.samples) for piece in self.pieces), default=0)
 
     def add_to(self, out: Block, start: int) -> None:
-        """Add what sounds from ``start`` on to a block."""
+        """Add the track's sound from the sample ``start`` on to a block."""
         end = start + len(out)
         first = bisect_left(self._starts, start - self._longest)
         for piece in self.pieces[first : bisect_right(self._starts, end)]:
@@ -82,13 +82,13 @@ class MixTrack:
 
 
 class Mix:
-    """The mix: the sum of tracks. Immutable, so that a player may read it while another is made."""
+    """The sum of tracks; immutable, so that it can be read while another is made."""
 
     def __init__(self, tracks: Iterable[MixTrack] = ()) -> None:
         self.tracks = tuple(tracks)
 
     def read(self, start: int, count: int) -> Block:
-        """Sound from a sample on.
+        """Return the sound from a sample on.
 
         Returns
         -------
@@ -102,7 +102,7 @@ class Mix:
 
 
 def soft_clipped(block: Block) -> Block:
-    """Bend the peaks of a block below full scale; quieter blocks stay unchanged."""
+    """Compress the peaks of a block below full scale; softer blocks are unchanged."""
     size = np.abs(block)
     if block.size == 0 or size.max() <= _KNEE:
         return block

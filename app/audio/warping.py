@@ -1,10 +1,10 @@
-"""Alignment of a score with a recording, by dynamic time warping of their chroma.
+"""Alignment of a score with a recording by dynamic time warping of their chroma.
 
-By dtaidistance, which is far smaller than librosa: that needs numba and LLVM, 208 MB.
+Uses dtaidistance, which is far smaller than librosa with numba and LLVM (208 MB).
 
-Every few seconds of both stands a frame of silence, which costs as much as half a wrong chord: what only one of the two
-has (applause, a cut, a repeat) is put there instead of being stretched over the other. Pinned moments cut both into
-stretches, each of which is warped by itself.
+Frames of silence are inserted every few seconds in both, at the cost of half a wrong chord: material in only one of
+them (applause, a cut, a repeat) is matched to these frames instead of being stretched over the other. Pins split both
+into sections that are warped separately.
 """
 
 from __future__ import annotations
@@ -22,41 +22,43 @@ from app.audio.score_sound import CHROMA_S
 from app.score.beat_following import UnmatchedSpan
 
 _MOST_CELLS: Final = 60_000_000
-"""Largest matrix of the warping, 8 bytes a cell: longer pieces are warped with coarser frames."""
+"""Largest matrix of the warping in cells of 8 bytes; longer pieces use coarser frames."""
 _EVEN: Final = 0.7
-"""Cost of standing still in one of the two, besides the distance: the tempo changes only for a reason."""
+"""Cost of standing still in either sequence in addition to the distance, so that the tempo changes only for a
+reason.
+"""
 _FILLER_S: Final = 2.2
-"""From one frame of silence to the next."""
+"""Distance in seconds of inserted frames of silence."""
 _LEAST_LIKENESS: Final = 0.25
-"""Frames less alike than this are no match."""
+"""Least similarity of matching frames."""
 _AROUND_S: Final = 1.5
-"""Half the width over which the warping is smoothed."""
+"""Half the width in seconds over which the warping is smoothed."""
 _BREAK_S: Final = 0.5
-"""Shorter breaks within such a stretch are part of it."""
+"""Breaks shorter than this number of seconds are ignored within unmatched sections."""
 MISSING_S: Final = 2.0
-"""Shorter stretches that only one of the two has are no cut and no repeat."""
+"""Unmatched sections shorter than this number of seconds are no cut and no repeat."""
 _SILENT, _LOUD = 0.15, 0.4
-"""Size of a frame's shape, 1 at the typical level: below the one nothing sounds, above the other something does."""
+"""Norms of a frame (1 at the typical level): below the first it is silent, above the second it is sounding."""
 
 
 _NEAR: Final = 80
-"""Frames from whose tempo it goes on beyond the ends."""
+"""Number of frames at either end whose tempo is continued beyond it."""
 
 
 @dataclass(frozen=True)
 class Pins:
-    """Seconds of the score, and of the recording, that were put on one another by hand; both rise strictly."""
+    """Corresponding seconds of score and recording set by the user; both strictly ascend."""
 
     score_s: FloatArray
     recording_s: FloatArray
 
     def inside(self, recording_s: float) -> Pins:
-        """The pins that lie within a recording of this length."""
+        """Return the pins within a recording of a length."""
         there = (self.recording_s >= 0.0) & (self.recording_s <= recording_s)
         return Pins(self.score_s[there], self.recording_s[there])
 
     def within(self, start_s: float, end_s: float) -> Pins:
-        """The pins in a part of the score, in seconds of that part."""
+        """Return the pins in a section of the score, in seconds of that section."""
         there = (self.score_s >= start_s) & (self.score_s < end_s)
         return Pins(self.score_s[there] - start_s, self.recording_s[there])
 
@@ -66,7 +68,7 @@ NO_PINS: Final = Pins(np.empty(0), np.empty(0))
 
 @dataclass(frozen=True)
 class Jump:
-    """A jump of a recording: the seconds at which it leaves the score, and at which it joins it again."""
+    """A jump in a recording: the seconds at which it leaves the score and continues in it."""
 
     from_s: float
     to_s: float
@@ -74,11 +76,11 @@ class Jump:
     recording_to_s: float
 
     def later(self, score_s: float) -> Jump:
-        """The jump in a score that begins earlier by an offset."""
+        """Return the jump in a score that begins earlier by an offset in seconds."""
         return replace(self, from_s=self.from_s + score_s, to_s=self.to_s + score_s)
 
     def agrees_with(self, pins: Pins) -> bool:
-        """Return whether every pin is before it in both, or behind it in both."""
+        """Return whether every pin is before the jump in both score and recording, or after it in both."""
         before = (pins.score_s <= self.from_s) & (pins.recording_s <= self.recording_from_s)
         behind = (pins.score_s >= self.to_s) & (pins.recording_s >= self.recording_to_s)
         return bool((before | behind).all())
@@ -86,25 +88,26 @@ class Jump:
 
 @dataclass(frozen=True)
 class Warped:
-    """Seconds of the score and of the recording that belong together, both rising; what only one has, in seconds."""
+    """Corresponding seconds of score and recording, both ascending, and spans in only one of them."""
 
     score_s: FloatArray
     recording_s: FloatArray
     missing: tuple[UnmatchedSpan, ...]
     added: tuple[UnmatchedSpan, ...]
     length_s: float
-    """Duration of the score."""
+    """Duration of the score in seconds."""
 
     def later(self, score_s: float, end_s: float) -> Warped:
-        """The warping of a whole score of which this is the part from ``score_s`` on. The whole lasts until
-        ``end_s``; everything outside the part is missing."""
+        """Return the warping of a whole score of which this is the section from ``score_s`` on; the whole ends at
+        ``end_s``, and everything outside the section is missing.
+        """
         last_s = score_s + self.length_s
         missing = tuple(UnmatchedSpan(span.start + score_s, span.end + score_s) for span in self.missing)
         outside = [UnmatchedSpan(*span) for span in ((0.0, score_s), (last_s, end_s)) if span[1] - span[0] >= MISSING_S]
         return replace(self, score_s=self.score_s + score_s, missing=(*missing, *outside), length_s=end_s)
 
     def at(self, score_s: FloatArray) -> FloatArray:
-        """Seconds of the recording at seconds of the score; beyond the ends at the tempo found near them."""
+        """Return seconds of the recording for seconds of the score, extrapolated at the tempo near the ends."""
         x, y = self.score_s, self.recording_s
         near = min(_NEAR, len(x) - 1)
         first = (y[near] - y[0]) / (x[near] - x[0])
@@ -118,14 +121,14 @@ class Warped:
 def dynamic_time_warping(
     score: FloatArray, recording: FloatArray, pins: Pins = NO_PINS, jumps: Sequence[Jump] = ()
 ) -> Warped:
-    """Return which frames belong together, by dynamic time warping.
+    """Return the corresponding frames by dynamic time warping.
 
     Parameters
     ----------
     score, recording : (12, n) float64
         Chroma as shapes, a frame every `CHROMA_S`.
     jumps : sequence of Jump
-        In order; they agree with the pins.
+        Jumps in order, in agreement with the pins.
     """
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
     frame_s, length_s = pool * CHROMA_S, score.shape[1] * CHROMA_S
@@ -152,7 +155,7 @@ def dynamic_time_warping(
 
 
 def played_passages(score: FloatArray, recording: FloatArray) -> tuple[Passage, ...]:
-    """The passages of a score that a recording plays; arguments as of `dynamic_time_warping`."""
+    """Return the passages of a score that a recording plays; arguments as in `dynamic_time_warping`."""
     pool = int(np.ceil(np.sqrt(max(score.shape[1] * recording.shape[1] / _MOST_CELLS, 1.0))))
     return passages(_pooled(score, pool), _pooled(recording, pool), pool * CHROMA_S)
 
@@ -160,7 +163,9 @@ def played_passages(score: FloatArray, recording: FloatArray) -> tuple[Passage, 
 def _stretches(
     ours: FloatArray, theirs: FloatArray, pins: Pins, jumps: Sequence[Jump], frame_s: float
 ) -> list[tuple[int, int, int, int]]:
-    """First and last frames of both between which the path goes: from beginning, pin or jump to the next."""
+    """Return first and last frames of both between which the path runs: from the beginning, a pin or a jump to the
+    next.
+    """
     cuts = [(at, at, there, there) for at, there in zip(pins.score_s, pins.recording_s, strict=True)]
     cuts += [(jump.from_s, jump.to_s, jump.recording_from_s, jump.recording_to_s) for jump in jumps]
     found, begin, begin_theirs = list[tuple[int, int, int, int]](), 0, 0
@@ -175,7 +180,7 @@ def _stretches(
 def _path(
     ours: FloatArray, theirs: FloatArray, step: int, stretches: Sequence[tuple[int, int, int, int]]
 ) -> tuple[IntArray, IntArray]:
-    """Frames that belong together, stretch by stretch."""
+    """Return corresponding frames, section by section."""
     found = []
     for first, last, first_theirs, last_theirs in stretches:
         filled, our_frame = _with_fillers(ours[first:last], step)
@@ -189,7 +194,7 @@ def _path(
 
 
 def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A rising curve, put through the pins."""
+    """Return an ascending curve corrected to pass through the pins."""
     if not len(pins.score_s):
         return x, y
     apart = np.abs(x[:, None] - pins.score_s).min(axis=1) > CHROMA_S
@@ -202,20 +207,20 @@ def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
 
 
 def _sounding(frames: FloatArray, least: float) -> BoolArray:
-    """Return which frames are more than near silence."""
+    """Return which frames exceed a level near silence."""
     result: BoolArray = np.linalg.norm(frames, axis=1) > least
     return result
 
 
 def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
-    """Return which frames sound without one of the other."""
+    """Return which frames sound without a matching frame."""
     alone = _sounding(frames, _LOUD)
     alone[matched] = False
     return alone
 
 
 def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
-    """Return where they are for `MISSING_S` at least; short breaks between them are none."""
+    """Return the runs of at least `MISSING_S`, ignoring short breaks."""
     places = np.flatnonzero(there)
     if not len(places):
         return ()
@@ -230,21 +235,23 @@ def _runs(there: BoolArray, frame_s: float) -> tuple[UnmatchedSpan, ...]:
 
 
 def _pooled(shapes: FloatArray, count: int) -> FloatArray:
-    """(n, 12): means over groups of frames."""
+    """Return means (n, 12) over groups of frames."""
     whole = shapes.shape[1] // count * count
     result: FloatArray = np.ascontiguousarray(shapes[:, :whole].reshape(12, -1, count).mean(axis=2).T)
     return result
 
 
 def _with_fillers(frames: FloatArray, step: int) -> tuple[FloatArray, IntArray]:
-    """Frames with one of silence before every group and at the end, and the place of each before, -1 of those."""
+    """Return frames with silence inserted before every group and at the end, and the original index of each (-1 for
+    inserted ones).
+    """
     places = np.append(np.arange(0, len(frames), step), len(frames))
     filled = np.insert(frames, places, 0.0, axis=0)
     return np.ascontiguousarray(filled), np.insert(np.arange(len(frames)), places, -1)
 
 
 def _smoothed(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Local lines through what was found, rising."""
+    """Return an ascending curve of local lines through the found points."""
     result = np.empty_like(y)
     first = np.searchsorted(x, x - _AROUND_S)
     last = np.searchsorted(x, x + _AROUND_S)
@@ -256,7 +263,7 @@ def _smoothed(x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def _line_at(x: FloatArray, y: FloatArray, weights: FloatArray) -> float:
-    """At 0, the value of the line through weighted points."""
+    """Return the value at 0 of the line through weighted points."""
     total = float(weights.sum())
     mean_x, mean_y = float((weights * x).sum()) / total, float((weights * y).sum()) / total
     spread = float((weights * (x - mean_x) ** 2).sum())
@@ -265,8 +272,9 @@ def _line_at(x: FloatArray, y: FloatArray, weights: FloatArray) -> float:
 
 
 def along(x: FloatArray, at: FloatArray, by: FloatArray, reach: float) -> FloatArray:
-    """Return how far places go along with some (``at``, rising) that are put right by so much: less the further away,
-    and not beyond a reach or the next of those."""
+    """Return the corrections of positions interpolated from those of ``at`` (ascending): smaller with distance, and 0
+    beyond a reach or the next of them.
+    """
     if not len(at):
         return np.zeros(len(x))
     places, amounts = [float(at[0]) - reach], [0.0]

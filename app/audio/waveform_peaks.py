@@ -1,4 +1,4 @@
-"""The picture of a recording: least and greatest sample per column, fast at every zoom."""
+"""Least and greatest sample for each column of a waveform display, fast at every zoom."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from app.arrays import IntArray, SingleArray
 Samples: TypeAlias = npt.NDArray[np.int16]
 
 BASE_SAMPLES = 64
-"""Samples in a bin of the finest level; nearer than that the samples themselves are drawn."""
+"""Samples per bin of the finest level; at closer zoom the samples are drawn."""
 FACTOR = 4
-"""Bins of one level in a bin of the next."""
+"""Number of bins of a level in each bin of the next."""
 _PIECE = 1024 * BASE_SAMPLES
 _FULL_SCALE = np.float32(1.0 / 32768.0)
 
 
 class Peaks:
-    """A pyramid of extremes.
+    """A pyramid of least and greatest samples.
 
     Parameters
     ----------
     samples : int16 array, shape (samples, channels)
-        Kept, not copied.
+        Samples, which are kept and not copied.
     """
 
     def __init__(self, samples: Samples, rate_hz: int) -> None:
@@ -46,17 +46,17 @@ class Peaks:
         return len(self._samples) / self.rate_hz
 
     def levels(self, start_s: float, end_s: float, width_px: int) -> tuple[SingleArray, SingleArray]:
-        """Extremes of the span, one pair a column.
+        """Return least and greatest samples of a span, one pair per column.
 
         Parameters
         ----------
         start_s, end_s : float
-            Seconds of the recording; what lies outside of it is silence.
+            Seconds of the recording; silence is assumed beyond its ends.
 
         Returns
         -------
         low, high : float32 arrays, shape (width_px,)
-            -1..1, of all channels together.
+            Values -1..1 over all channels.
         """
         low, high = np.zeros(width_px, np.float32), np.zeros(width_px, np.float32)
         if width_px <= 0 or end_s <= start_s or not len(self._samples):
@@ -85,7 +85,7 @@ class Peaks:
 
 
 def _finest(samples: Samples) -> tuple[Samples, Samples]:
-    """Extremes of every `BASE_SAMPLES`, by pieces that stay in the processor's cache."""
+    """Return extremes of every `BASE_SAMPLES`, computed in pieces that fit the processor's cache."""
     lows, highs = [], []
     for start in range(0, len(samples), _PIECE):
         low, high = _over_channels(samples[start : start + _PIECE])
@@ -95,7 +95,9 @@ def _finest(samples: Samples) -> tuple[Samples, Samples]:
 
 
 def _over_channels(samples: Samples) -> tuple[Samples, Samples]:
-    """Least and greatest of all channels; channel by channel, for numpy is slow along a short axis."""
+    """Return least and greatest samples over channels, one channel at a time, since numpy is slow along a short
+    axis.
+    """
     if not samples.shape[1]:
         return np.zeros(len(samples), np.int16), np.zeros(len(samples), np.int16)
     low = high = samples[:, 0]
@@ -105,14 +107,14 @@ def _over_channels(samples: Samples) -> tuple[Samples, Samples]:
 
 
 def _bins(values: Samples, size: int, of: np.ufunc) -> Samples:
-    """Extremes of every ``size`` values; the last bin may be shorter."""
+    """Return extremes of every ``size`` values; the last bin may be shorter."""
     whole = len(values) // size * size
     result: Samples = of.reduce(values[:whole].reshape(-1, size), axis=1)
     return result if whole == len(values) else np.append(result, of.reduce(values[whole:]))
 
 
 def _reduced(values: Samples, first: IntArray, last: IntArray, of: np.ufunc) -> Samples:
-    """Extremes of ``values[first:last]`` of every column; neighbours may share a value."""
+    """Return extremes of ``values[first:last]`` for every column; adjacent ones may share a value."""
     # reduceat takes pairs of indices; an end at the array's own end must be left to its padding.
     padded = np.append(values, values[-1:])
     indices = np.empty(2 * len(first), np.int64)

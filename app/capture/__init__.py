@@ -1,1 +1,1 @@
-"""Recording from MIDI devices: a process of its own stamps and writes, the program asks it through a link."""
+"""Recording from MIDI devices: a separate process time-stamps and writes messages, and the program controls it."""

@@ -1,4 +1,4 @@
-"""Controllers for breath and bite, recognised from a few seconds of blowing and biting."""
+"""Recognition of the MIDI controllers for breath and bite from a few seconds of blowing and biting."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ _STATUS: Final[dict[BiteSource, int]] = {"pitch_bend": 0xE, "cc1": 0xB, "channel
 _LEAST_VALUES: Final = 6
 _LEAST_RANGE: Final = 16
 _LARGEST_STEP: Final = 24
-"""A breath swells and fades; what jumps further from value to value is a switch."""
+"""Greatest step between values of a breath controller, which varies smoothly; larger steps indicate a switch."""
 _AS_MUCH: Final = 0.8
 
 
 class Learned(msgspec.Struct, frozen=True):
-    """Controller of the breath, with its channel, 1..16."""
+    """Controller for breath, with its channel, 1..16."""
 
     source: BreathSource
     channel: int
 
 
 def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence[BreathSource] = ()) -> Learned | None:
-    """Controller that moves most and without jumps; None if nothing was blown.
+    """Return the controller with the largest variation without jumps; None if there is none.
 
-    Some instruments send one breath by two messages: of those that move about as much as the most moved, the most
-    trusted is taken.
+    Some instruments send breath by two messages: among those that vary about as much as the largest, the most trusted
+    is chosen.
 
     Parameters
     ----------
     events : iterable of (int, bytes)
-        Moments, any clock, and messages.
+        Times of any clock, and messages.
     trusted : sequence of BreathSource
-        The most trusted first, as `metadata.model.Controller.breath`; what is not named comes after.
+        Sources in order of trust, as `metadata.model.Controller.breath`; all others come after.
     """
     values: dict[Learned, list[int]] = defaultdict(list)
     for _, message in events:
@@ -61,14 +61,14 @@ def recognised_controller(events: Iterable[tuple[int, bytes]], trusted: Sequence
 def learned_bite(
     bitten: Iterable[tuple[int, bytes]], blown: Iterable[tuple[int, bytes]], breath: Learned
 ) -> BiteSource | None:
-    """Controller that moves most while the user bites; None if nothing does.
+    """Return the controller with the largest variation during biting; None if there is none.
 
     Parameters
     ----------
     bitten, blown : iterable of (int, bytes)
-        Moments and messages while the user bit, and while they blew before.
+        Times and messages during biting, and during blowing before.
     breath : Learned
-        What was found then. A pressure that moved with it doubles the breath.
+        Recognised breath controller. A pressure message that varied with it is a duplicate of the breath.
     """
     moved = {source: _range(bitten, source, breath.channel) for source in _BITES if source != breath.source}
     if _range(blown, "channel_pressure", breath.channel) >= _LEAST_RANGE:
@@ -89,7 +89,7 @@ def _range(events: Iterable[tuple[int, bytes]], source: BiteSource, channel: int
 
 
 def breath_value(message: bytes, source: BreathSource) -> int | None:
-    """The breath in a message, 0..127; None for other messages."""
+    """Return the breath value in a message, 0..127; None for other messages."""
     return message[-1] if _source(message) == source else None
 
 

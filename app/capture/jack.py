@@ -1,6 +1,6 @@
-"""JACK beside RtMidi: which copy of its library is used, and whether its server still runs.
+"""The JACK library used by RtMidi: which copy is loaded, and whether its server still runs.
 
-RtMidi does not tell the latter: it goes on listing a dead server's ports.
+RtMidi does not report a dead server; it keeps listing its ports.
 """
 
 from __future__ import annotations
@@ -17,24 +17,25 @@ _SHUTDOWN: Final = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 
 def share_library() -> None:
-    """Have libraries that are loaded from now on use the system's JACK library instead of a copy of their own, which
-    only talks to servers of its own version. Without one, nothing changes."""
+    """Make libraries loaded later use the system's JACK library instead of their own copy, which supports only servers
+    of its version. Does nothing if there is no such library.
+    """
     if sys.platform == "linux":
         with contextlib.suppress(OSError):
             ctypes.CDLL(_LIBRARY, mode=ctypes.RTLD_GLOBAL)
 
 
 class ServerWatch:
-    """A client without ports, that is notified when the server ends.
+    """A JACK client without ports that is notified when the server ends.
 
-    Without JACK's library nothing is watched: then no server runs either.
+    Inactive if JACK's library is missing, since then there is no server.
 
     Attributes
     ----------
     has_library : bool
         Whether JACK's library is there.
     has_ended : bool
-        Whether the server that ran at the beginning has gone; stays so when another runs.
+        Whether the server of the beginning has ended; remains true if another starts.
     """
 
     def __init__(self) -> None:
@@ -60,14 +61,14 @@ class ServerWatch:
 
     @property
     def is_connected(self) -> bool:
-        """Return whether a server ran at the beginning."""
+        """True if a server was running at the beginning."""
         return self._client is not None
 
     def _report(self, _: int | None) -> None:
         self.has_ended = True
 
     def close(self) -> None:
-        """Watch no more."""
+        """Disconnect from the server."""
         if self._client:
             self._library.jack_client_close(self._client)
             self._client = None

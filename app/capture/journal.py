@@ -1,4 +1,4 @@
-"""The journal of a running take: lines of text, only ever added to, so that a crash costs what was not yet written.
+"""The journal of a running recording: lines of text that are only appended, so that a crash loses only unwritten lines.
 
 Line 1 is a JSON object, the header. Then, with moments of `time.perf_counter_ns`::
 
@@ -7,7 +7,7 @@ Line 1 is a JSON object, the header. Then, with moments of `time.perf_counter_ns
     lost <ns>, back <ns>              the device had gone, and was listened to again
     end <ns>                          the take was ended, not torn off
 
-A line without its line feed was torn off and counts as not written.
+A line without a line feed was interrupted and is ignored.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ LARGEST_NS: Final = 1 << 62
 _LARGEST_S: Final = 1e7
 LARGEST_LATENCY_S: Final = 10.0
 MOST_BYTES: Final = 2**28
-"""Largest journal; an hour of playing with breath has some 20 MB."""
+"""Largest size of a journal in bytes; an hour of playing with breath takes about 20 MB."""
 
 Gap: TypeAlias = tuple[int, int | None]
-"""Times of the device's loss and return; None if it stayed away."""
+"""Times of the device's loss and return; None if it did not return."""
 
 
 class JournalHeader(msgspec.Struct, frozen=True):
@@ -45,14 +45,14 @@ class JournalHeader(msgspec.Struct, frozen=True):
     Attributes
     ----------
     project : str
-        Path of the project file (`app.encoding.stored`), or what the editor calls a project never saved.
+        Path of the project file (`app.encoding.stored`), or the editor's token of a project without a file.
     player : str
-        Id of the player the take is for.
+        Id of the recorded player.
     port, controller : str
         Name of the device; id of the preset in ``metadata/controllers``.
     latency_s : float
-        What lies between playing and the event's arrival, and between the performance's time and its sound; is taken
-        off the events' times.
+        Delay from playing to the event's arrival, plus the delay from the performance's time to its sound; subtracted
+        from the events' times.
     started : str
         ISO 8601 date and time.
     """
@@ -76,7 +76,7 @@ _VERSIONS: Final = msgspec.json.Decoder(_Version)
 
 
 class SyncPoint(msgspec.Struct, frozen=True, gc=False):
-    """At a moment that place of the piece sounded, in this pass of a loop."""
+    """Position of the piece that sounded at a moment, and the pass of the loop."""
 
     ns: int
     position_s: float
@@ -89,12 +89,12 @@ class Journal(msgspec.Struct, frozen=True):
     Attributes
     ----------
     times_ns : tuple of int
-        When each event arrived, ascending; `time.perf_counter_ns`.
+        Times of arrival, ascending; `time.perf_counter_ns`.
     messages : tuple of bytes
-        One whole message of a channel each.
+        Whole channel messages.
     gaps : tuple of (int, int or None)
     complete : bool
-        Whether the take was ended; else it was torn off.
+        Whether the recording was ended regularly and not interrupted.
     """
 
     header: JournalHeader
@@ -106,24 +106,24 @@ class Journal(msgspec.Struct, frozen=True):
 
 
 def is_whole(message: bytes) -> bool:
-    """Return whether the bytes are one message of a channel: a status and as many data bytes as it has."""
+    """Return whether bytes are a whole channel message: a status byte and its number of data bytes."""
     return (
         len(message) > 1 and _LENGTHS.get(message[0] >> 4) == len(message) and message[1] < 0x80 and message[-1] < 0x80
     )
 
 
 class JournalWriter:
-    """Writes a journal. What the system does not take at once is kept and tried again with the next.
+    """Writes a journal; bytes that the system does not accept are kept for the next attempt.
 
     Parameters
     ----------
     path : str
-        Must not be there; with ``resumed`` it may, and a torn last line is cut off.
+        Path that must not exist; with ``resumed`` it may, and an interrupted last line is removed.
 
     Raises
     ------
     FileError
-        ``journal.exists`` (file), ``file.cannot_write`` (file, reason).
+        The file exists, or cannot be written.
     """
 
     def __init__(self, path: str, header: JournalHeader, *, resumed: bool = False) -> None:
@@ -144,7 +144,7 @@ class JournalWriter:
         self._is_synced = False
 
     def _cut(self) -> int:
-        """Cut a torn line off, and that the take was ended; the length of what stays."""
+        """Remove an interrupted line and the end mark, and return the length of the rest."""
         data = self._file.read()
         lines = data[: data.rfind(b"\n") + 1].splitlines(keepends=True)
         if lines and lines[-1].startswith(b"end "):
@@ -161,7 +161,7 @@ class JournalWriter:
         return whole
 
     def event(self, ns: int, message: bytes) -> None:
-        """Add what was played."""
+        """Append a received message."""
         self._is_synced = False
         self._pending += b"e %d %s\n" % (ns, message.hex().encode())
         self.count += 1
@@ -175,17 +175,17 @@ class JournalWriter:
         self._pending += b"s %d %.6f %d\n" % (ns, position_s, pass_)
 
     def mark(self, word: str, ns: int) -> None:
-        """Add that the device had gone (``lost``), was ``back``, or that the take was ended (``end``)."""
+        """Append a mark: the device was ``lost``, is ``back``, or the recording was ended (``end``)."""
         self._is_synced = False
         self._pending += b"%s %d\n" % (word.encode(), ns)
 
     def write(self) -> None:
-        """Hand everything to the system. Raises OSError; nothing is lost by it."""
+        """Pass everything to the system. Raises OSError, after which nothing is lost."""
         while self._pending:
             del self._pending[: self._file.write(self._pending)]
 
     def to_disk(self) -> bool:
-        """Have the disk take everything; whether there was anything new. Raises OSError."""
+        """Flush everything to the disk, and return whether there was anything new. Raises OSError."""
         if self._is_synced:
             return False
         self.write()
@@ -194,12 +194,13 @@ class JournalWriter:
         return True
 
     def move(self, path: str) -> None:
-        """Continue in another file, which must not exist and gets everything written so far; the first file is deleted.
+        """Continue in another file that must not exist; everything written so far is copied to it and the first file
+        deleted.
 
         Raises
         ------
         OSError
-            The journal stays where it is, and nothing is lost.
+            The journal stays in the first file, and nothing is lost.
         """
         self._file.seek(0)
         written = self._file.readall()
@@ -223,7 +224,7 @@ class JournalWriter:
             Path(former[0]).unlink()
 
     def close(self) -> None:
-        """Have the disk take everything and close. Raises OSError; it is closed all the same."""
+        """Flush everything to the disk and close. The file is closed even if OSError is raised."""
         try:
             self.write()
             os.fsync(self._file.fileno())
@@ -232,13 +233,12 @@ class JournalWriter:
 
 
 def read_journal(path: Path) -> Journal:
-    """Read a journal, also one that was torn off.
+    """Read a journal, including an interrupted one.
 
     Raises
     ------
     FileError
-        ``file.cannot_read`` (file, reason), ``journal.no_header`` (file), ``journal.newer`` (file, version),
-        ``journal.line`` (file, line, detail).
+        The file cannot be read, has no header, is from a newer version, or contains an invalid line.
     """
     data = read_file(path, MOST_BYTES)
     first, *lines = data.split(b"\n")

@@ -1,4 +1,4 @@
-"""The thread of the recorder that writes the journal, elsewhere where the disk takes nothing."""
+"""Thread of the recorder that writes the journal, and continues in another folder if the disk is full."""
 
 from __future__ import annotations
 
@@ -26,12 +26,13 @@ from app.errors import FileError, Message
 
 _TO_DISK_S: Final = 0.25
 _NO_ROOM: Final = frozenset({errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)})
-"""Errors of a full disk."""
+"""Error numbers of a full disk."""
 
 
 class JournalKeeper:
-    """Writes what a queue holds: commands `StartRecording`, `Sync`, `Stop`, `Leave`, received messages, marks; None
-    ends the journal and the thread."""
+    """Writes the items of a queue: commands `StartRecording`, `Sync`, `Stop` and `Leave`, received messages, marks;
+    None ends journal and thread.
+    """
 
     def __init__(self, queue: SimpleQueue[Any], news: NewsQueue) -> None:
         self._queue, self._news = queue, news
@@ -42,7 +43,7 @@ class JournalKeeper:
         self._to_disk_at_s = 0.0
 
     def run(self) -> None:
-        """Write until None or `Leave` comes."""
+        """Write items until None or `Leave`."""
         while True:
             with contextlib.suppress(Empty):
                 item = self._queue.get(timeout=None if self._writer is None else _TO_DISK_S)
@@ -90,7 +91,7 @@ class JournalKeeper:
             self._report_failure(error)
 
     def _begun(self, start: StartRecording) -> JournalWriter:
-        """The journal, in the second place where the disk has no room for another file."""
+        """Return a new journal, in the second folder if the disk has no room."""
         try:
             return JournalWriter(os.fsdecode(start.path), start.header, resumed=start.resumed_ns is not None)
         except FileError as error:
@@ -139,8 +140,9 @@ class JournalKeeper:
             self._news.put(RecordingFinished(os.fsencode(writer.path), writer.count))
 
     def _report_failure(self, error: OSError) -> None:
-        """Go on elsewhere; where that is not possible, say that the disk takes nothing, once: it is tried again with
-        what comes next."""
+        """Continue in the second folder; if that is impossible, report once that nothing can be written, and retry with
+        the next items.
+        """
         if self._move(error):
             return
         if not self._failed and self._writer is not None:
@@ -148,7 +150,7 @@ class JournalKeeper:
             self._refuse("capture.not_written", self._writer, error)
 
     def _move(self, error: OSError) -> bool:
-        """Go on with the journal in the second place, which is tried once; whether that was possible."""
+        """Move the journal to the second folder, which is tried once, and return whether that succeeded."""
         elsewhere, self._elsewhere = self._elsewhere, b""
         if not elsewhere or self._writer is None:
             return False

@@ -1,4 +1,4 @@
-"""A journal becomes takes of a project."""
+"""Conversion of a journal to takes of a project."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ def takes_of(
     start_s: float | None = None,
     taken: Collection[str] = (),
 ) -> tuple[Take, ...]:
-    """A take for every pass in which a note was played, in order; their ids are given by the project.
+    """Return a take for every pass of the loop with a note, in order; the project assigns the ids.
 
     Parameters
     ----------
     tempo_map : TempoMap
-        What was played back.
+        Tempo map of the playback.
     mapping : ControllerMapping
-        With what the device sends breath and bite.
+        Controllers of the device for breath and bite.
     name : str
-        What a take is called, ``{number}`` for its number.
+        Template of the take's name, with ``{number}``.
     start_s : float, optional
-        Where the recording was requested from: what was played before, while it was counted in, stays in the take,
-        which begins there. By default the first moment that is known.
+        Requested start of the recording: notes played during the count-in before it are kept in the take, which begins
+        there. By default the first known moment.
     taken : collection of str
-        Names of the takes that are there: numbers go on after them.
+        Names of existing takes, after whose numbers numbering continues.
     """
     result: list[Take] = []
     numbers = (number for number in count(len(taken) + 1) if name.format(number=number) not in taken)

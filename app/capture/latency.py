@@ -1,4 +1,4 @@
-"""Latency of a device, measured while the user blows on every click."""
+"""Measurement of a device's latency while the user blows on every click."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from app.capture.controller_recognition import breath_value
 from metadata.model import BreathSource
 
 EARLIEST_S: Final = -0.2
-"""Hits earlier than this belong to another click."""
+"""Notes that precede a click by more than this number of seconds belong to another click."""
 LATEST_S: Final = 0.35
 LEAST_HITS: Final = 7
 MOST_SPREAD_S: Final = 0.035
-"""Playing less even than this says nothing about the device."""
+"""Greatest standard deviation in seconds of a valid measurement."""
 _ONE_HIT_S: Final = 0.15
-"""Two beginnings closer than this were one."""
+"""Two onsets closer than this number of seconds count as one."""
 _BREATH_RESTS, _BREATH_BEGINS = 4, 12
 _OUTLIER: Final = 3.0
 _LEAST_OUTLIER_S: Final = 0.025
@@ -33,15 +33,15 @@ class LatencyMeasurement(msgspec.Struct, frozen=True):
     Attributes
     ----------
     offsets_s : tuple of float or None
-        For every click, how late the hit came that was taken for it; None: there was none.
+        Delay of the note assigned to each click in seconds; None if there was none.
     used : tuple of bool
-        Whether that hit counted: those far from the others do not.
+        Whether each note was used; outliers are not.
     latency_s : float
-        The median of those that counted.
+        Median delay of the used notes in seconds.
     spread_s : float
-        Their standard deviation, from the median of the deviations.
+        Standard deviation in seconds of the used delays, estimated from the median deviation.
     fault : Fault
-        Why it is no measure; empty: it is one.
+        Reason why the measurement is invalid; empty if it is valid.
     """
 
     offsets_s: tuple[float | None, ...]
@@ -52,9 +52,9 @@ class LatencyMeasurement(msgspec.Struct, frozen=True):
 
 
 def measured_latency(clicks_s: Sequence[float], hits_s: Sequence[float]) -> LatencyMeasurement:
-    """The latency, from when clicks sounded and when hits came in; both on one clock, ascending.
+    """Return the latency given the times of clicks and notes, both ascending on one clock.
 
-    Each click is given the hit that lies most like the others; missing and double ones do no harm.
+    Each click is assigned the note with the most typical delay; missing and double notes do no harm.
     """
     near = [[hit - click for hit in hits_s if EARLIEST_S <= hit - click <= LATEST_S] for click in clicks_s]
     every = [offset for offsets in near for offset in offsets]
@@ -79,19 +79,20 @@ def measured_latency(clicks_s: Sequence[float], hits_s: Sequence[float]) -> Late
 
 
 def _densest(offsets: Sequence[float]) -> float:
-    """The offset with the most others around it, so that hits between the clicks do not draw the middle away."""
+    """Return the offset with the most others around it, so that notes between the clicks have no influence."""
     values = np.sort(np.array(offsets))
     around = np.searchsorted(values, values + 0.05) - np.searchsorted(values, values - 0.05)
     return float(np.median(values[around == around.max()]))
 
 
 def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[float, ...]:
-    """Return when the user began to blow: notes, or where a device sends none, the breath; double hits are excluded.
+    """Return the times at which the user began to blow: by notes, or by breath if the device sends no notes; double
+    onsets are excluded.
 
     Parameters
     ----------
     events : iterable of (float, bytes)
-        Seconds, ascending, and messages of the channel that is listened to.
+        Ascending times in seconds, and messages of one channel.
     """
     notes: list[float] = []
     breaths: list[float] = []
@@ -115,14 +116,14 @@ def hits(events: Iterable[tuple[float, bytes]], breath: BreathSource) -> tuple[f
 def events_on_time_line(
     events: Iterable[tuple[int, bytes]], positions: Sequence[tuple[int, float]]
 ) -> list[tuple[float, bytes]]:
-    """Events on the time line of playback.
+    """Convert the times of events to the time line of playback.
 
     Parameters
     ----------
     events : iterable of (int, bytes)
-        Moments of a clock, nanoseconds.
+        Times of a clock in nanoseconds, and messages.
     positions : sequence of (int, float)
-        The second that sounded at a moment of that clock, ascending; outside them time goes on as a clock does.
+        Playback position in seconds at moments of that clock, ascending; extrapolated outside of them.
     """
     if not positions:
         return []

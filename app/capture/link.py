@@ -1,4 +1,4 @@
-"""The editor's side of the recorder: starts it, asks it, gathers its news; headless."""
+"""The editor's side of the recorder: starts it, sends commands and collects its news. Independent of Qt."""
 
 from __future__ import annotations
 
@@ -44,18 +44,18 @@ _MOST_DEATHS: Final = 3
 _DEATHS_WITHIN_S: Final = 10.0
 _END_WITHIN_S: Final = 5.0
 _OPEN_AGAIN_S: Final = 5.0
-"""Pause before a port whose opening ended the recorder is tried again."""
+"""Seconds before a port whose opening ended the recorder is tried again."""
 
 
 class RecorderLink:
-    """A recorder in a process of its own. Started at once, started again if it dies; a running journal goes on.
+    """Controls a recorder in a process of its own, which is restarted if it dies; a running journal is continued.
 
     Parameters
     ----------
     on_news : callable
-        Called in a thread of the link's when there is something to `poll` and no one was called since the last time.
+        Called in a thread of this object when news are ready for `poll`, once until the next `poll`.
     system : str
-        The only MIDI system to try, as `app.capture.midi_library` names it; empty for any.
+        The only MIDI system to try, named as in `app.capture.midi_library`; empty for any.
     """
 
     def __init__(self, on_news: Callable[[], None] = lambda: None, *, system: str = "") -> None:
@@ -90,11 +90,11 @@ class RecorderLink:
 
     @property
     def port(self) -> str | None:
-        """The port that is listened to, or as soon as it is there."""
+        """Name of the port that is or will be listened to."""
         return self._open.port if self._open is not None else None
 
     def open(self, port: str | None) -> None:
-        """Listen to a port, and again whenever it comes back: `Opened`, `RequestRefused`, `Lost`, `Back`."""
+        """Listen to a port, now and whenever it reconnects. News: `Opened`, `RequestRefused`, `Lost`, `Back`."""
         with self._lock:
             if port == self.port:
                 return
@@ -110,12 +110,12 @@ class RecorderLink:
     def start(
         self, path: str | os.PathLike[str], header: JournalHeader, elsewhere: str | os.PathLike[str] | None = None
     ) -> None:
-        """Begin a journal, which must not be there: `Written`, or `NotStarted`. One that runs is finished first.
+        """Begin a journal in a new file, ending a running one first. News: `Written` or `NotStarted`.
 
         Parameters
         ----------
         elsewhere : path, optional
-            Where the journal goes on if its disk takes nothing more: `Moved`.
+            Folder for continuing the journal if its disk is full. News: `Moved`.
         """
         with self._lock:
             if self._failure is not None:
@@ -128,9 +128,9 @@ class RecorderLink:
             self._is_begun = self._report(self._take)
 
     def sync(self, ns: int, position_s: float, pass_: int = 0) -> None:
-        """Report which place of the piece sounds at a moment of `time.perf_counter_ns`.
+        """Report the position of the piece that sounds at a moment of `time.perf_counter_ns`.
 
-        At the return of a loop say both at the same moment: its end in the pass that ends, its begin in the next.
+        When a loop returns, report its end in the old pass and its start in the new one for the same moment.
         """
         with self._lock:
             point = Sync(ns, position_s, pass_)
@@ -138,14 +138,14 @@ class RecorderLink:
                 self._unsent.append(point)
 
     def stop(self) -> None:
-        """Finish the journal: `RecordingFinished` comes when it is whole."""
+        """Finish the journal. News: `RecordingFinished` when it is complete."""
         with self._lock:
             if self._take is not None:
                 self._is_stopping = True
                 self._report(Stop())
 
     def poll(self) -> list[News]:
-        """The news since the last time, in order."""
+        """Return the news since the last call, in order."""
         self._is_called = False
         found = []
         with contextlib.suppress(IndexError):
@@ -154,7 +154,7 @@ class RecorderLink:
         return found
 
     def close(self) -> None:
-        """End the recorder, which finishes its journal first."""
+        """End the recorder after it has finished its journal."""
         with self._lock:
             self._is_closed = True
             if self._child is not None:
@@ -163,14 +163,16 @@ class RecorderLink:
         self._thread.join()
 
     def _end_surely(self) -> None:
-        """Kill the recorder, which was requested to end, if a driver holds it up. The lock is held."""
+        """Kill a recorder that was requested to end but is blocked by a driver. The lock must be held."""
         assert self._child is not None
         self._ending = threading.Timer(_END_WITHIN_S, self._child.process.kill)
         self._ending.daemon = True
         self._ending.start()
 
     def _report(self, command: Command) -> bool:
-        """Return whether the recorder was notified; what matters of the rest is sent to the next. The lock is held."""
+        """Send a command, and return whether it was sent; unsent commands that matter are sent to the next recorder.
+        The lock must be held.
+        """
         if self._child is None or self._is_leaving:
             return False
         try:
@@ -210,7 +212,7 @@ class RecorderLink:
                 self._put(Restarted(Message("capture.recorder_ended")))
 
     def _started(self, resumed_ns: int | None) -> StartedChild[News] | None:
-        """A new recorder that continues the work of the last one; None after the link was closed."""
+        """Return a new recorder that continues the work of the last one; None after the link was closed."""
         with self._lock:
             if self._is_closed:
                 return None
@@ -237,7 +239,7 @@ class RecorderLink:
         self._put(RequestRefused(self._failure))
 
     def _refuse(self, port: str) -> None:
-        """Say once that opening the port ended a recorder; the next one leaves it alone for a while."""
+        """Report once that opening the port ended a recorder; the next recorder does not open it for a while."""
         with self._lock:
             if port != self.port or self._open is None:
                 return

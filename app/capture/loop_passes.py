@@ -1,4 +1,4 @@
-"""Events of each pass of a loop, from a take's journal, in the performance's time."""
+"""Events of each pass of a loop, from a journal, in performance time."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from app.score.sounding import SoundingNotes, note_off
 
 
 class Pass(msgspec.Struct, frozen=True):
-    """Events of one pass of a loop, in the performance's time.
+    """Events of one pass of a loop, in performance time.
 
     Attributes
     ----------
     times_us : tuple of int
-        Microseconds, not descending; before the first note negative.
+        Microseconds, ascending or equal; negative before the first note.
     """
 
     number: int
@@ -28,12 +28,11 @@ class Pass(msgspec.Struct, frozen=True):
 
 
 def passes(journal: Journal) -> tuple[Pass, ...]:
-    """The passes of a take in the performance's time, the latency taken off; none where nothing was played back.
-    Notes that sound when the device is disconnected end there.
+    """Return the passes of a recording in performance time with the latency subtracted; empty if nothing was played
+    back. Notes that sound when the device is disconnected end there.
 
-    Between two moments whose position is known the time is interpolated, outside them it goes on as a
-    clock does. Between two passes the return lies where the first of the next is said to begin; where that is not said
-    to the moment, in the middle.
+    Time is interpolated between moments of known position, and extrapolated outside of them. The boundary of two passes
+    is the reported start of the second; if that is inexact, the middle between known moments.
     """
     by_pass: dict[int, list[SyncPoint]] = {}
     for point in journal.syncs:
@@ -59,7 +58,7 @@ def passes(journal: Journal) -> tuple[Pass, ...]:
 
 
 def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
-    """The events, and an end for every note that sounded when the device went away: it will not send it."""
+    """Return the events with note-offs added for notes that sounded when the device was disconnected."""
     if not journal.gaps:
         return journal.times_ns, journal.messages
     events = [(ns, message) for ns, message in zip(journal.times_ns, journal.messages, strict=True)]
@@ -76,7 +75,7 @@ def _ended(journal: Journal) -> tuple[Sequence[int], Sequence[bytes]]:
 
 
 def _performance_us(times_ns: Iterable[int], latency_ns: int, points: Sequence[SyncPoint]) -> Iterator[int]:
-    """Ascending moments as microseconds of the performance, by the positions played in one pass."""
+    """Yield the ascending moments as microseconds of the performance, by the positions played in one pass."""
     index = 0
     for time_ns in times_ns:
         played_ns = time_ns - latency_ns

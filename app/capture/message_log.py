@@ -1,4 +1,4 @@
-"""Latest messages of a device, in few lines, for the input monitor."""
+"""Latest messages of a device in few lines, for the input monitor."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ _BEND_RANGE: Final = 8192
 
 
 class MessageRow(msgspec.Struct, frozen=True):
-    """A message, or several of one kind in a row.
+    """A message, or several consecutive ones of the same kind.
 
     Attributes
     ----------
     channel : int
         1..16.
     number : int
-        Of the note or the controller; -1 where a message has none.
+        Number of the note or controller; -1 if the message has none.
     value : int
-        The last one: velocity, 0..127, a bend -8192..8191.
+        Last value: velocity, 0..127, or pitch bend, -8192..8191.
     """
 
     kind: Kind
@@ -44,12 +44,12 @@ class MessageRow(msgspec.Struct, frozen=True):
 
 
 class MessageLog:
-    """The last messages. Between two notes, a swell takes one line, however many messages make it.
+    """Latest messages; consecutive values of one controller take one line.
 
     Parameters
     ----------
     most : int
-        Lines that are kept.
+        Greatest number of lines.
     """
 
     def __init__(self, most: int = 40) -> None:
@@ -57,15 +57,15 @@ class MessageLog:
 
     @property
     def lines(self) -> tuple[MessageRow, ...]:
-        """The newest first."""
+        """Return the lines, the newest first."""
         return tuple(self._lines)
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Remove all lines."""
         self._lines.clear()
 
     def add(self, message: bytes) -> None:
-        """Input was received: the bytes of one message of a channel."""
+        """Add a received channel message."""
         line = _line(message)
         place = next((place for place, other in self._since_note() if _is_same(line, other)), None)
         if place is None or line.kind in _NOTES:

@@ -1,8 +1,8 @@
-"""One interface to the two libraries that reach MIDI devices: python-rtmidi and, where that has no wheel, rtmidi2.
+"""Common interface of two libraries for MIDI devices: python-rtmidi and, on systems without a wheel of it, rtmidi2.
 
-Both wrap RtMidi and hold Python's lock while they connect and close. They differ in what happens when RtMidi refuses to
-open a port: python-rtmidi raises, rtmidi2 ends the process (its C++ exception is not caught). The recorder announces
-that it is opening a port, so that its parent can report the refusal.
+Both wrap RtMidi and hold Python's lock while connecting and closing. If RtMidi refuses to open a port, python-rtmidi
+raises, but rtmidi2 ends the process by an uncaught C++ exception. So the recorder announces the opening of a port, and
+its parent process can report the refusal.
 """
 
 from __future__ import annotations
@@ -16,22 +16,23 @@ from app.capture.jack import share_library
 from app.capture.port_names import CLIENT
 
 MidiCallback: TypeAlias = Callable[[int, bytes], None]
-"""Called in the driver's thread with the moment of `time.perf_counter_ns` and the bytes of a message. It must not
-raise: rtmidi2 ignores exceptions."""
+"""Called in the driver's thread with a moment of `time.perf_counter_ns` and the bytes of a message. It must not raise,
+since rtmidi2 ignores exceptions.
+"""
 
 _RTMIDI2_SYSTEMS: Final = {"linux": ("alsa", "jack"), "darwin": ("core",), "win32": ("winmm",)}
-"""MIDI systems of the wheels, by platform: the module does not report them."""
+"""MIDI systems in the wheels of rtmidi2 by platform, since the module does not report them."""
 
 
 class PortLists(Protocol):
-    """The ports of one MIDI system, by the system's own names."""
+    """Ports of a MIDI system under the system's own names."""
 
     def inputs(self) -> list[str]:
-        """List ports to listen to."""
+        """Return the input ports."""
         ...
 
     def outputs(self) -> list[str]:
-        """List ports to send to."""
+        """Return the output ports."""
         ...
 
     def close(self) -> None:
@@ -40,23 +41,24 @@ class PortLists(Protocol):
 
 
 class OpenInput(Protocol):
-    """A port whose messages arrive."""
+    """An open input port."""
 
     def close(self) -> None:
-        """Close the port. Blocks forever while messages arrive: the driver's thread waits for Python's lock, which is
-        held meanwhile."""
+        """Close the port. This blocks forever while messages arrive, since the driver's thread waits for Python's
+        lock.
+        """
         ...
 
 
 class MidiLibrary(Protocol):
-    """A library that reaches MIDI devices.
+    """A library for MIDI devices.
 
     Attributes
     ----------
     systems : tuple of str
-        MIDI systems that it is built for, the preferred one first: ``alsa``, ``jack``, ``core``, ``winmm``.
+        MIDI systems that it supports, in order of preference: ``alsa``, ``jack``, ``core``, ``winmm``.
     errors : tuple of exception types
-        What it raises when a system or a port refuses.
+        Exceptions raised if a system or port refuses.
     """
 
     systems: tuple[str, ...]
@@ -67,20 +69,20 @@ class MidiLibrary(Protocol):
         ...
 
     def open_input(self, system: str, index: int, callback: MidiCallback) -> OpenInput:
-        """Listen to the port at an index of `PortLists.inputs`; system exclusive and real-time messages are ignored.
+        """Open the port at an index of `PortLists.inputs`, ignoring system exclusive and real-time messages.
 
-        Messages of the time before the callback is set are dropped. Raises one of `errors`, or ends the process.
+        Messages that arrive before the callback is set are dropped. Raises one of `errors`, or ends the process.
         """
         ...
 
 
 def load_library() -> MidiLibrary:
-    """Load the library that is installed.
+    """Return the installed library.
 
     Raises
     ------
     ImportError
-        Neither is installed, or a library of the system that it needs is missing.
+        Neither library is installed, or a system library is missing.
     """
     try:
         return PythonRtmidi()

@@ -1,4 +1,4 @@
-"""Names of MIDI ports without what a system adds to them: numbers that change whenever a device is connected.
+"""Names of MIDI ports without the parts added by the system, such as numbers that change with every connection.
 
 ===========  ==============================================  ======================================
 system       its name of a port                              ours
@@ -10,7 +10,7 @@ Windows      ``2- EWI5000 1``                                ``EWI5000``
 macOS        ``EWI5000``                                     ``EWI5000``
 ===========  ==============================================  ======================================
 
-The second of two devices of one kind is called ``EWI5000 (2)``.
+The second of two equal devices is called ``EWI5000 (2)``.
 """
 
 from __future__ import annotations
@@ -33,22 +33,22 @@ _BRIDGES: Final = (
     re.compile(r"Midi-Bridge:(?P<client>)(?P<port>.+) \((?:capture|playback)\)"),
 )
 _WINDOWS_COUNT: Final = re.compile(r"(^|\()\d+- ")
-"""Windows counts the sockets that a device was ever connected to: ``MIDIIN2 (3- EWI5000)``."""
+"""Number that Windows adds for each socket a device was ever connected to: ``MIDIIN2 (3- EWI5000)``."""
 _END_NUMBER: Final = re.compile(r" \d+$")
 _OF_A_KIND: Final = re.compile(r" \(\d+\)$")
 
 
 class Port(msgspec.Struct, frozen=True):
-    """A port that is connected now.
+    """A connected port.
 
     Attributes
     ----------
     name : str
-        Its own among the ports that are there.
+        Name that is unique among connected ports.
     identity : str
-        Differs for a device that went and came back, where the system lets us know.
+        Identity that changes when a device is reconnected, if the system reveals this.
     index : int
-        Its place in the system's list.
+        Index in the system's list.
     """
 
     name: str
@@ -57,16 +57,15 @@ class Port(msgspec.Struct, frozen=True):
 
 
 def named(found: Sequence[str], system: str, known: Mapping[str, str] | None = None) -> tuple[Port, ...]:
-    """The ports of a system's list, without our own.
+    """Return the ports in a system's list, without the program's own.
 
     Parameters
     ----------
     found : sequence of str
-        As the system calls them.
+        Names given by the system.
     system : {"alsa", "jack", "core", "winmm"}
     known : mapping of str to str, optional
-        Names of ports that were there before, by identity: of two devices of one kind, the one that stays keeps its
-        name.
+        Names of ports connected before, by identity: of two equal devices, the one that stays connected keeps its name.
     """
     known = {} if known is None else known
     listed = [(index, full) for index, full in enumerate(found) if not _OWN.match(full)]
@@ -85,14 +84,14 @@ def named(found: Sequence[str], system: str, known: Mapping[str, str] | None = N
 
 
 def matching(requested: str, names: Sequence[str], *, partly: bool = False) -> tuple[str, ...]:
-    """The names of ports that are meant by a text: the same; else of the same device, as any system calls it.
+    """Return the names of the ports that match a text: equal names, else names of the same device on any system.
 
     Parameters
     ----------
     requested : str
-        A name of ours, or one that a system gave the port, now or long ago.
+        A name as in `Port`, or one that a system gave the port at any time.
     partly : bool
-        The text may also be a part of the name, in any case of letters.
+        Whether the text may be a part of the name, ignoring case.
     """
     if requested in names:
         return (requested,)
@@ -105,12 +104,12 @@ def matching(requested: str, names: Sequence[str], *, partly: bool = False) -> t
 
 
 def _identity(full: str, index: int, system: str) -> str:
-    """Return what is known of one device: without the number of its place in the list."""
+    """Return a device's identity: its system name without the index in the list."""
     return full.removesuffix(f" {index}") if system == "winmm" else full
 
 
 def _identities(plain: Sequence[str]) -> list[str]:
-    """Names of the ports without the system's numbers, each once."""
+    """Return unique names of the ports without the system's numbers."""
     seen: Counter[str] = Counter()
     found = []
     for name in plain:
@@ -153,6 +152,6 @@ def _of_client(client: str, port: str) -> str:
 
 
 def _key(name: str) -> str:
-    """Return what names of one device have in common."""
+    """Return the part that all names of one device have in common."""
     client, colon, port = _OF_A_KIND.sub("", name).partition(":")
     return (_of_client(client, port) if colon else client).casefold()

@@ -1,6 +1,6 @@
-"""MIDI ports over whichever of the compiled-in systems answers (ALSA or JACK, CoreMIDI, Windows).
+"""MIDI ports of the first available system (ALSA or JACK, CoreMIDI, Windows).
 
-Everything here is called from one thread: macOS reports new devices only in it.
+All calls must be made from one thread, since macOS reports new devices only there.
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ from app.errors import AppError
 
 
 class PortError(AppError):
-    """MIDI devices, or one of them, cannot be used."""
+    """A MIDI device, or the MIDI system, cannot be used."""
 
 
 class MidiSystem:
-    """The first system that answers.
+    """The first MIDI system that responds.
 
     Parameters
     ----------
     requested : str
-        Name of the only system to try; empty for all that the library is built for.
+        Name of the only system to try; empty for all that the library supports.
 
     Raises
     ------
     PortError
-        ``capture.no_library`` (detail), ``capture.api_unknown`` (name, possible), ``capture.no_system``.
+        No library is installed, the requested system is unknown, or no system responds.
     """
 
     def __init__(self, requested: str = "") -> None:
@@ -53,26 +53,26 @@ class MidiSystem:
 
     @property
     def has_ended(self) -> bool:
-        """True if it has gone since, with all of its ports: what it lists is of the past."""
+        """True if the system has ended together with its ports, so that its lists are outdated."""
         return self._watch is not None and self._watch.has_ended
 
     def inputs(self) -> tuple[Port, ...]:
-        """Present inputs."""
+        """Return the connected inputs."""
         ports = named(self._lists.inputs(), self.name, self._known)
         self._known |= {port.identity: port.name for port in ports}
         return ports
 
     def outputs(self) -> tuple[Port, ...]:
-        """Present outputs."""
+        """Return the connected outputs."""
         return named(self._lists.outputs(), self.name)
 
     def open_input(self, port: Port, callback: MidiCallback) -> OpenInput:
-        """Listen to a port, to messages of channels only.
+        """Listen to the channel messages of a port.
 
         Raises
         ------
         PortError
-            ``capture.port_refused`` (port, detail).
+            The port cannot be opened.
         """
         try:
             return self._library.open_input(self.name, port.index, callback)
@@ -80,7 +80,7 @@ class MidiSystem:
             raise PortError("capture.port_refused", port=port.name, detail=str(error)) from error
 
     def close(self) -> None:
-        """Let go of the system."""
+        """Disconnect from the system."""
         if self._watch is not None:
             self._watch.close()
         self._lists.close()

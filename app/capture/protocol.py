@@ -1,4 +1,4 @@
-"""Messages between the editor and its recorder: commands one way, news the other."""
+"""Messages between the editor and its recorder: commands to the recorder, and news from it."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ class _Report(msgspec.Struct, frozen=True, tag=True, array_like=True, gc=False):
 
 
 class Open(_Report, frozen=True):
-    """Listen to a port, again whenever it comes back; to a recorder this is said only once (see
-    `app.capture.recorder`). ``is_lost``: it was listened to and went away. ``after_s``: not before so many seconds."""
+    """Command to listen to a port, now and whenever it reconnects; sent once to a recorder (see
+    `app.capture.recorder`). ``is_lost``: it was open and was disconnected. ``after_s``: seconds to wait first.
+    """
 
     port: str
     is_lost: bool = False
@@ -26,9 +27,10 @@ class Open(_Report, frozen=True):
 
 
 class StartRecording(_Report, frozen=True):
-    """Write received messages into a journal, whose path is as `os.fsencode` has it: not all names are text.
-    ``resumed_ns``: another recorder began it, and nothing was received since. ``elsewhere``: a second path, used if the
-    disk of the first is full; empty: wait for that disk."""
+    """Command to write received messages into a journal, whose path is encoded by `os.fsencode`, since not all paths
+    are text. ``resumed_ns``: end of the messages of another recorder that began the journal. ``elsewhere``: path used
+    if the disk of the first is full; empty to wait for that disk.
+    """
 
     path: bytes
     header: JournalHeader
@@ -37,7 +39,7 @@ class StartRecording(_Report, frozen=True):
 
 
 class Sync(_Report, frozen=True):
-    """At this moment that place of the piece sounds."""
+    """Command that reports the position of the piece at a moment."""
 
     ns: int
     position_s: float
@@ -45,22 +47,22 @@ class Sync(_Report, frozen=True):
 
 
 class Stop(_Report, frozen=True):
-    """Finish the journal."""
+    """Command to finish the journal."""
 
 
 class Leave(_Report, frozen=True):
-    """End and keep the journal: another recorder continues it."""
+    """Command to end without finishing the journal, which another recorder continues."""
 
 
 class Ports(_Report, frozen=True):
-    """The devices that are there now; reported at the start and whenever they change.
+    """Report of the connected devices, sent at the start and whenever they change.
 
     Attributes
     ----------
     inputs, outputs : tuple of str
-        Names, each once; they stay the same when a device goes and comes back.
+        Unique names, which do not change when a device is reconnected.
     system : str
-        The MIDI system that is used (``alsa``, ``jack``, ``coremidi``, ``winmm``); empty while none answers.
+        MIDI system in use (``alsa``, ``jack``, ``coremidi``, ``winmm``); empty if none responds.
     """
 
     inputs: tuple[str, ...]
@@ -69,8 +71,9 @@ class Ports(_Report, frozen=True):
 
 
 class Opening(_Report, frozen=True):
-    """The port is about to be opened. If the recorder ends before it reports more, the port was refused: one of the
-    MIDI libraries ends the process then."""
+    """Report that the port will be opened. If the recorder ends before its next report, the port was refused: one of
+    the MIDI libraries ends the process then.
+    """
 
     port: str
 
@@ -81,15 +84,15 @@ class _OfPort(_Report, frozen=True):
 
 
 class Opened(_OfPort, frozen=True):
-    """The port is listened to."""
+    """Report that the port is open."""
 
 
 class Lost(_OfPort, frozen=True):
-    """The port has gone; it is opened again when it comes back."""
+    """Report that the port was disconnected; it is opened again when it reconnects."""
 
 
 class Back(_OfPort, frozen=True):
-    """The lost port is listened to again."""
+    """Report that a disconnected port is open again."""
 
 
 class _Failure(_Report, frozen=True):
@@ -97,43 +100,43 @@ class _Failure(_Report, frozen=True):
 
 
 class RequestRefused(_Failure, frozen=True):
-    """A request that failed, with the reason."""
+    """Report of a request that failed, with the reason."""
 
 
 class NotStarted(_Failure, frozen=True):
-    """The journal cannot be begun, and why: nothing is recorded."""
+    """Report that the journal cannot be started, with the reason; nothing is recorded."""
 
 
 class Restarted(_Failure, frozen=True):
-    """The recorder ended unexpectedly and was started again; the journal goes on."""
+    """Report that the recorder ended unexpectedly and was restarted; the journal is continued."""
 
 
 class SystemEnded(_Report, frozen=True):
-    """The MIDI system has gone, with all of its ports: this recorder ends, another one waits for the system."""
+    """Report that the MIDI system ended with all of its ports: this recorder ends, and another waits for the system."""
 
 
 class Events(_Report, frozen=True):
-    """Received events: moments of `time.perf_counter_ns` and the bytes of the messages (channel messages only)."""
+    """Report of received channel messages: moments of `time.perf_counter_ns` and bytes."""
 
     times_ns: tuple[int, ...]
     messages: tuple[bytes, ...]
 
 
 class EventsSaved(_Report, frozen=True):
-    """Number of events of the running journal that are safely on disk."""
+    """Report of the number of events of the running journal that are safely on disk."""
 
     count: int
 
 
 class Moved(_Report, frozen=True):
-    """The running journal continues, whole, at another path, because its disk is full."""
+    """Report that the running journal was moved completely to another path, because its disk is full."""
 
     path: bytes
     reason: str
 
 
 class RecordingFinished(_Report, frozen=True):
-    """The journal is complete and closed."""
+    """Report that the journal is complete and closed."""
 
     path: bytes
     count: int
@@ -159,4 +162,4 @@ News: TypeAlias = (
 StampedMessage: TypeAlias = tuple[int, bytes]
 """A moment of `time.perf_counter_ns` and a message."""
 NewsQueue: TypeAlias = "SimpleQueue[News | StampedMessage | threading.Event | None]"
-"""Items to send, in order; an event is set once all before it is sent, None ends the sending."""
+"""Items to send in order; an event is set once everything before it is sent, and None ends the sending."""

@@ -1,13 +1,14 @@
-"""The recorder: a process of its own that listens to one MIDI port, stamps what it receives, and writes the journal.
+"""The recorder: a separate process that listens to one MIDI port, time-stamps messages and writes the journal.
 
-Neither the window's redrawing nor the editor's death reaches it. It is this module, run as a program: commands come in
-by its input, news go out by its output (`app.capture.protocol`), and it ends when its input does, the journal finished.
+It is independent of the window's redrawing and of the editor's end. The process runs this module: commands are read
+from its input, news are written to its output (`app.capture.protocol`), and it finishes the journal and ends when its
+input ends.
 
-Threads: the driver's calls `_receive`, which stamps and hands on and nothing else; one sends the news, one writes the
-journal, one reads the commands. The main thread opens the port and looks twice a second which are there.
+Threads: the driver's thread calls `_receive`, which only stamps and queues messages; further threads send news, write
+the journal and read commands. The main thread opens the port and lists the ports twice a second.
 
-A recorder opens its port once. To listen to another the editor starts another recorder: a port from which events
-come cannot be closed (`app.capture.midi_library.OpenInput`). So it does when the MIDI system itself went away.
+A recorder opens a single port. To listen to another, the editor starts another recorder, since a port that sends events
+cannot be closed (`app.capture.midi_library.OpenInput`). The same is done if the MIDI system ends.
 """
 
 from __future__ import annotations
@@ -53,34 +54,34 @@ from app.child_limits import confine_this_process
 from app.errors import Message
 
 SYSTEM_VARIABLE: Final = "SUISOU_MIDI_API"
-"""Environment: the only MIDI system to try, by rtmidi's name."""
+"""Environment variable with the only MIDI system to try, by rtmidi's name."""
 _LOOK_S: Final = 0.5
 _NO_SYSTEM_LOOK_S: Final = 2.0
 _SENT_WITHIN_S: Final = 1.0
 _SWITCH_S: Final = 0.0005
-"""Longest time for which a thread of ours may keep the driver's from stamping."""
+"""Longest time in seconds for which a Python thread may delay the driver's thread."""
 _PRIORITY: Final = -10
 """Unix priority without real-time scheduling: lower runs first."""
 
 
 class RecorderProcess:
-    """Main loop of the recorder's process: follows commands and watches the port.
+    """Main loop of the recorder's process: executes commands and monitors the port.
 
     Parameters
     ----------
     news : SimpleQueue of News or StampedMessage
-        What is put into it is sent.
+        Queue of news to send.
     journal : SimpleQueue
-        What is put into it is written.
+        Queue of items for the journal.
     on_opening : callable
-        Called before a port is opened, when that was reported: must return when the report is sent.
+        Called after the opening of a port was reported and before it is opened; must return when the report is sent.
     on_open : callable
-        Called when a port was opened: the driver's threads are there.
+        Called after a port was opened, when the driver's threads exist.
 
     Attributes
     ----------
     has_ended : bool
-        The MIDI system has gone: another recorder is to go on.
+        Whether the MIDI system has ended, so that another recorder must continue.
     """
 
     def __init__(
@@ -106,7 +107,7 @@ class RecorderProcess:
         self.has_ended = False
 
     def obey(self, command: Command) -> None:
-        """Do what the editor asks."""
+        """Execute a command of the editor."""
         match command:
             case Open():
                 self._asked, self._was_open = command, command.is_lost
@@ -120,7 +121,7 @@ class RecorderProcess:
                 self._journal.put(command)
 
     def look(self) -> None:
-        """See which ports are there; notice that ours has gone, or open it."""
+        """Update the list of ports, and detect the loss or return of the open one."""
         system = self._answering()
         if system is None:
             return
@@ -135,8 +136,9 @@ class RecorderProcess:
         self._has_ports = bool(inputs or outputs)
 
     def _answering(self) -> MidiSystem | None:
-        """The system, tried again now and then where none answers. A JACK server that is not there looks like one
-        without ports."""
+        """Return the MIDI system, trying again regularly if none responds. A missing JACK server looks like a server
+        without ports.
+        """
         is_sure = self._system is not None and (self._has_ports or self._system.name != "jack")
         now_s = time.perf_counter()
         if not is_sure and now_s >= self._tried_at_s + _NO_SYSTEM_LOOK_S:
@@ -168,7 +170,9 @@ class RecorderProcess:
         self._news.put(Lost(self._asked.port, ns))
 
     def _end(self) -> None:
-        """The system has gone: what was had of it can only be left, which ends with the process."""
+        """Report the end of the MIDI system and end this recorder, since its objects can only be freed by ending the
+        process.
+        """
         if self._input is not None:
             self._report_lost()
         self._news.put(SystemEnded())
@@ -211,7 +215,7 @@ class RecorderProcess:
             self._news.put(ports)
 
     def _refuse(self, reason: Message) -> None:
-        """Say why something cannot be done, once for as long as it stays so."""
+        """Report why a request fails, once for as long as the reason persists."""
         if reason not in self._refused:
             self._refused.append(reason)
             self._news.put(RequestRefused(reason))
@@ -222,7 +226,7 @@ def _names(ports: tuple[Port, ...]) -> tuple[str, ...]:
 
 
 def send_news(queue: NewsQueue, channel: MessageChannel[Command]) -> None:
-    """Send what comes into a queue, events that have gathered together; None ends it, and that no one reads."""
+    """Send the items of a queue, combining events, until None or until the editor stops reading."""
     with contextlib.suppress(OSError):
         while True:
             items = [queue.get()]
@@ -250,7 +254,7 @@ def send_news(queue: NewsQueue, channel: MessageChannel[Command]) -> None:
 
 
 def wait_until_sent(queue: NewsQueue) -> None:
-    """Block until what is in the queue now is sent, or no one reads it."""
+    """Block until the present items of the queue are sent, or the editor has stopped reading."""
     sent = threading.Event()
     queue.put(sent)
     sent.wait(_SENT_WITHIN_S)
@@ -264,7 +268,9 @@ def _read_commands(queue: SimpleQueue[Command | None], channel: MessageChannel[C
 
 
 def _private_output() -> IO[bytes]:
-    """Our output for ourselves: what drivers' libraries print goes nowhere, Python's own complaints still appear."""
+    """Return a private copy of the output, so that output of drivers' libraries is discarded and Python's errors still
+    appear.
+    """
     own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     # On Windows a program without a console has none.
     if sys.stderr is not None:
@@ -276,17 +282,17 @@ def _private_output() -> IO[bytes]:
 
 
 def _end_at_once(kind: type[BaseException], error: BaseException | None, trace: TracebackType | None) -> None:
-    """A recorder of which one thread has failed is of no use: the editor starts another."""
+    """Print an exception and end the process, since the recorder is useless without one of its threads."""
     traceback.print_exception(kind, error, trace)
     os._exit(1)
 
 
 def take_precedence() -> None:
-    """Run before the window and whatever else computes, as far as the system lets us.
+    """Raise the scheduling priority of the process as far as the system allows.
 
-    All of the process's threads: were only the driver's quick, it would wait for Python's lock while another that holds
-    it waits for the processor. Those that a driver's library makes do not always take after ours, so this is called
-    again when a port was opened. On Windows the parent process sets it.
+    All threads of the process: a fast driver's thread would still wait for Python's lock while a slow thread holds it.
+    Threads of a driver's library do not always inherit the priority, so call this again after opening a port. On
+    Windows the parent process sets it.
     """
     with contextlib.suppress(PermissionError):
         if sys.platform == "linux":

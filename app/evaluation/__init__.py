@@ -1,1 +1,3 @@
-"""A performance judged by viewers against real players: blinded clips, the questionnaire, its statistics."""
+"""Evaluation of a performance by viewers in comparison with real players: blinded clips, questionnaire and
+statistics.
+"""

@@ -1,7 +1,7 @@
-"""Answers of viewers: the files that the questionnaire page writes, one for each viewer.
+"""Viewers' answers: the files that the questionnaire page writes, one for each viewer.
 
-A file is read as the page writes it or as a spreadsheet saves it again: with or without a byte order mark, with commas,
-semicolons or tabs between the fields, and with decimal commas. Whatever else is wrong with it is refused.
+A file may be as written by the page or saved again by a spreadsheet: with or without a byte order mark, separated by
+commas, semicolons or tabs, and with decimal commas. Other deviations are refused.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ MOST_BYTES: Final = 4_000_000
 MOST_S: Final = 1e7
 _SEPARATORS: Final = ",;\t"
 _LONGEST: Final = 60
-"""Most characters quoted of an invalid value."""
+"""Greatest number of characters quoted of an invalid value."""
 
 
 class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):
@@ -33,22 +33,22 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):
     evaluation : str
         Id of the evaluation, as in its key.
     viewer : str
-        Id that the page gave this viewer.
+        Id that the page assigned to the viewer.
     language : {"en", "ja"}
-        In which the page was read.
+        Language of the page.
     position : int
-        Place in the order in which this viewer saw clips or pairs, from 1.
+        Number of the clip or pair in the order of this viewer, from 1.
     presentation : {"single", "pair"}
     side : {"left", "right", ""}
-        Where in a pair; empty for a clip on its own.
+        Side within a pair; empty for a single clip.
     clip : str
-        Code of the clip, as in the key.
+        Code of the clip as in the key.
     aspect, scale : str
-        What was asked about.
+        Question that was answered.
     answer : int or None
         1 (worst) to `STEPS` (best); None where the viewer chose "cannot judge".
     seconds : float
-        From the first showing to the answer.
+        Seconds from the first showing to the answer.
     """
 
     evaluation: Annotated[str, Meta(pattern="^[0-9a-f]{8}$")]
@@ -65,12 +65,12 @@ class Answer(msgspec.Struct, frozen=True, kw_only=True, gc=False):
 
     @property
     def question(self) -> tuple[int, str, str, str, str]:
-        """Identity of the question: a viewer answers it once."""
+        """Return the key of the question, which a viewer answers once."""
         return self.position, self.side, self.clip, self.aspect, self.scale
 
 
 COLUMNS: Final = Answer.__struct_fields__
-"""The header of the file, in this order."""
+"""Columns of the file's header in order."""
 
 _EXPECTED: Final = {
     "evaluation": "8 hexadecimal digits",
@@ -94,9 +94,9 @@ class ViewerFile(msgspec.Struct, frozen=True):
     ----------
     path : Path
     answers : tuple of Answer
-        At least one, all of the same viewer.
+        Answers, at least one, all by the same viewer.
     lines : tuple of int
-        Line of each in the file, from 1.
+        Line number of each answer in the file, from 1.
     """
 
     path: Path
@@ -115,18 +115,18 @@ class ViewerFile(msgspec.Struct, frozen=True):
 
 
 def read_answers(path: Path) -> ViewerFile:
-    """Read the file of one viewer.
+    """Read the file of a viewer.
 
     Raises
     ------
     FileError
-        See the module's messages, and those of `app.formats.files.read_file`.
+        The file cannot be read or is not a valid file of answers.
     """
     return decode_answers(read_file(path, MOST_BYTES), path)
 
 
 def decode_answers(content: bytes, path: Path) -> ViewerFile:
-    """The answers in a file's content; ``path`` is what errors name. Raises as `read_answers`."""
+    """Return the answers in a file's content; ``path`` is used in errors. Raises as `read_answers`."""
     file = str(path)
     try:
         text = content.decode("utf-8-sig")
@@ -155,7 +155,7 @@ def decode_answers(content: bytes, path: Path) -> ViewerFile:
 
 
 def encode_answers(answers: Sequence[Answer]) -> bytes:
-    """A file as the page writes it."""
+    """Return a file as the page writes it."""
     lines = [",".join(COLUMNS)]
     for answer in answers:
         values = msgspec.structs.asdict(answer) | {"seconds": f"{answer.seconds:.1f}"}
@@ -164,7 +164,7 @@ def encode_answers(answers: Sequence[Answer]) -> bytes:
 
 
 def _fields(line: str, separator: str) -> list[str]:
-    """Fields of a line; no value of ours holds a line end, so that a quote which is not closed harms its line alone."""
+    """Return the fields of a line; since no field contains a line end, an unclosed quote affects only its line."""
     try:
         rows = list(csv.reader([line], delimiter=separator))
     except csv.Error:
@@ -194,7 +194,7 @@ def _answer(row: Sequence[str], line: int, file: str) -> Answer:
 
 
 def _check_whole(found: ViewerFile) -> None:
-    """One viewer, one evaluation, and no question answered twice."""
+    """Check that the file is of one viewer and one evaluation, without repeated answers."""
     known: dict[tuple[int, str, str, str, str], int] = {}
     for answer, line in zip(found.answers, found.lines, strict=True):
         if (answer.viewer, answer.evaluation) != (found.viewer, found.evaluation):
