@@ -1,4 +1,4 @@
-"""Conclusions that results allow, and warnings about those they do not, as messages."""
+"""Conclusions that the results support, and warnings about those that they do not support, as messages."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from app.evaluation.results import EvaluationResults, ManipulationCheck, Questio
 from app.evaluation.statistics import SIGNIFICANT, smallest_p
 
 ENOUGH_VIEWERS: Final = 15
-"""ITU-R BT.500, number of observers."""
+"""Least number of viewers recommended by ITU-R BT.500."""
 RELIABLE_ALPHA: Final = 0.667
-"""Below it Krippendorff draws no conclusions."""
+"""Value of alpha below which Krippendorff advises against conclusions."""
 
 
 class Conclusions(msgspec.Struct, frozen=True):
-    """Sentences, in the order of reading."""
+    """Sentences in the order of the report."""
 
     may: tuple[Message, ...]
     may_not: tuple[Message, ...]
 
 
 def conclude(results: EvaluationResults) -> Conclusions:
-    """Say in words what the tables hold, and what they do not."""
+    """Return the conclusions from the tables, and the warnings."""
     return Conclusions(tuple(_may(results)), tuple(_may_not(results)))
 
 
 def p_text(p: float) -> str:
-    """A probability as text for a report."""
+    """Return a probability as text for a report."""
     return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
 
 
 def said_of(question: Question) -> dict[str, Argument]:
-    """A question as arguments of a message."""
+    """Return a question as arguments of a message."""
     return {
         "presentation": f"results.presentation_{question.presentation}",
         "aspect": f"results.aspect_{question.aspect}",
@@ -75,7 +75,7 @@ def _may_not(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _shown(steps: float) -> float:
-    """Round a value to the reported precision, and never to "-0"."""
+    """Return a value rounded to the reported precision, never "-0"."""
     return round(steps, 2) + 0.0
 
 
@@ -101,7 +101,7 @@ def _of_control(control: ManipulationCheck) -> Message:
 
 
 def _better(results: EvaluationResults) -> Iterator[Message]:
-    """Return which variants were judged better than which, and in how many questions."""
+    """Yield the variants that were judged better than another, with the number of questions."""
     total: dict[tuple[Presentation, frozenset[Variant]], int] = defaultdict(int)
     found: dict[tuple[Presentation, Variant, Variant], list[float]] = defaultdict(list)
     for contrast in results.contrasts:
@@ -124,7 +124,7 @@ def _better(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _viewers(results: EvaluationResults) -> Iterator[Message]:
-    """Return whether there are enough of them for anything."""
+    """Yield a warning if there are too few viewers."""
     viewers = len(results.viewers)
     if viewers == 1:
         yield Message("results.one_viewer")
@@ -144,7 +144,7 @@ def _viewers(results: EvaluationResults) -> Iterator[Message]:
 
 
 def _open(results: EvaluationResults) -> Iterator[Message]:
-    """Remind that differences that are not shown are not shown to be zero."""
+    """Yield a reminder that unproven differences are not proven to be zero."""
     tested = [contrast for contrast in results.contrasts if contrast.comparison.viewers > 1]
     unshown = [contrast for contrast in tested if not contrast.significant]
     if unshown:

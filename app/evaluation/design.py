@@ -1,7 +1,7 @@
-"""The design of an evaluation: codes that say nothing, and orders in which no clip has an advantage.
+"""Design of an evaluation: codes without meaning, and balanced orders of clips.
 
 Orders are Williams squares (Williams 1949, Australian Journal of Scientific Research A2): every clip is equally often
-at every position, and every clip comes equally often directly before every other one.
+at every position, and directly precedes every other clip equally often.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from app.evaluation.key import Variant
 PRESENTATIONS: Final = ("both", "single", "pair")
 Presentations: TypeAlias = Literal["both", "single", "pair"]
 _FIRST_DIGITS: Final = "abcdf"
-"""A spreadsheet takes 12345e67 and 00123456 for numbers."""
+"""First digits of an id, chosen so that spreadsheets do not convert ids such as 12345e67 or 00123456 to numbers."""
 
 
 @dataclass(frozen=True)
 class ClipPair:
-    """A clip, or two side by side, as presented to a viewer.
+    """A clip, or two side by side, as shown to a viewer.
 
     Attributes
     ----------
     left : str
-        The code of the clip; of a pair that of the left one.
+        Code of the clip, or of the left clip of a pair.
     right : str
-        Of a pair; empty for a single clip.
+        Code of the right clip of a pair; empty for a single clip.
     """
 
     left: str
@@ -41,12 +41,12 @@ Order: TypeAlias = tuple[ClipPair, ...]
 
 
 def new_id() -> str:
-    """8 hexadecimal digits that no program takes for a number."""
+    """Return 8 random hexadecimal digits that no program interprets as a number."""
     return secrets.choice(_FIRST_DIGITS) + secrets.token_hex(4)[1:]
 
 
 def codes(count: int, seed: int) -> tuple[str, ...]:
-    """Codes ``c01`` and on, drawn in random order."""
+    """Return codes ``c01`` and on in random order."""
     width = max(2, len(str(count)))
     drawn = [f"c{number:0{width}d}" for number in range(1, count + 1)]
     random.Random(seed).shuffle(drawn)
@@ -54,9 +54,9 @@ def codes(count: int, seed: int) -> tuple[str, ...]:
 
 
 def williams(count: int) -> tuple[tuple[int, ...], ...]:
-    """A square of orders of 0 .. count - 1, twice as high where the count is odd.
+    """Return a square of orders of the numbers 0 to count - 1, with twice as many rows if the count is odd.
 
-    Every number is equally often at every position, and every number equally often directly before every other one.
+    Every number is equally often at every position, and directly precedes every other number equally often.
     """
     if count < 1:
         return ((),)
@@ -71,8 +71,8 @@ def williams(count: int) -> tuple[tuple[int, ...], ...]:
 
 
 def pairs_of(clips: Sequence[tuple[str, Variant, int]]) -> tuple[tuple[str, str], ...]:
-    """Return which clips are shown beside each other: what the evaluation is about with every other variant, each pair
-    in one of the excerpts, in turn.
+    """Return the pairs of clips to show side by side: the variant under test with every other variant, alternating
+    between excerpts.
 
     Parameters
     ----------
@@ -91,9 +91,9 @@ def pairs_of(clips: Sequence[tuple[str, Variant, int]]) -> tuple[tuple[str, str]
 
 
 def orders(singles: Sequence[str], pairs: Sequence[tuple[str, str]]) -> tuple[Order, ...]:
-    """The order of every viewer, by number: first single clips, then pairs; after the last one they begin again.
+    """Return the order for each viewer by number: first single clips, then pairs. After the last order they repeat.
 
-    Over all of them singles and pairs are balanced, and both clips of a pair are equally often at the left.
+    Singles and pairs are balanced over all orders, and both clips of a pair are equally often at the left.
     """
     rows, pair_rows = williams(len(singles)), williams(len(pairs))
     sides = 2 if pairs else 1

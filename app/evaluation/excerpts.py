@@ -1,4 +1,4 @@
-"""Excerpts of a piece to be judged: requested bars, or places with much to see and hear."""
+"""Excerpts of a piece for evaluation: requested bars, or passages with much playing."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from app.arrays import FloatArray
 from app.project.model import Project
 
 _STEP_S: Final = 0.25
-"""Excerpts are looked for at these distances."""
+"""Distance in seconds of the positions tried for an excerpt."""
 _LEAD_IN_S: Final = 0.5
-"""An excerpt begins before a note: a viewer sees it prepared."""
+"""Seconds before the first note at which an excerpt begins, so that its preparation is visible."""
 
 
 @dataclass(frozen=True)
 class Excerpt:
-    """Seconds of the performance."""
+    """A span of the performance in seconds."""
 
     from_s: float
     until_s: float
@@ -33,8 +33,8 @@ class Excerpt:
 def choose_excerpts(
     project: Project, count: int, length_s: float, within_s: tuple[float, float] | None = None
 ) -> tuple[Excerpt, ...]:
-    """Choose excerpts that contain playing, in order: the piece is divided into as many parts as excerpts, and the
-    fullest stretch of each is taken. There are fewer, or one shorter one, where the piece is too short.
+    """Return excerpts with much playing in order: the piece is divided into as many parts as excerpts, and the fullest
+    span of each is chosen. Short pieces give fewer, or a single shorter one.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def choose_excerpts(
     count : int
     length_s : float
     within_s : (float, float), optional
-        Seconds that there is a film of.
+        Span of seconds that is covered by a film.
 
     Returns
     -------
     tuple of Excerpt
-        Empty where nothing is played.
+        Empty if nothing is played.
     """
     starts_s, ends_s = _notes_s(project)
     if not len(starts_s):
@@ -71,12 +71,12 @@ def choose_excerpts(
 
 
 def _played_s(starts_s: FloatArray, ends_s: FloatArray, from_s: float, until_s: float) -> float:
-    """Return how many seconds of notes sound within these."""
+    """Return the total duration in seconds of notes within a span."""
     return float(np.clip(np.minimum(ends_s, until_s) - np.maximum(starts_s, from_s), 0.0, None).sum())
 
 
 def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
-    """Return when all notes of the players begin and end."""
+    """Return the start and end times of all players' notes in seconds."""
     notes = [note for player in project.players for note in project.part(player).notes]
     clock = project.score.tempo_map
     starts = np.array([note.onset_tick for note in notes], np.float64)
@@ -85,6 +85,6 @@ def _notes_s(project: Project) -> tuple[FloatArray, FloatArray]:
 
 
 def practice_of(excerpts: Sequence[Excerpt], longest_s: float = 4.0) -> Excerpt:
-    """Excerpt for practice: the beginning of the last one."""
+    """Return the excerpt for practice: the beginning of the last one."""
     last = excerpts[-1]
     return Excerpt(last.from_s, min(last.from_s + longest_s, last.until_s))

@@ -1,4 +1,4 @@
-"""Videos that a performance is compared with: real players, or animation from elsewhere; placed by their sound."""
+"""Videos with which a performance is compared (real players, or other animation), synchronised by their sound."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ from app.project.model import Project
 Picture = npt.NDArray[np.uint8]
 
 RECOGNISED: Final = 0.5
-"""Confidence below which a video's sound is rather that of another piece."""
+"""Confidence below which a video's sound is considered to be of another piece."""
 MOST_DRIFT_S: Final = 0.1
-"""A video whose sound comes to lie farther off than this by the end of the piece keeps another tempo."""
+"""Offset in seconds at the end of the piece above which a video's tempo differs from the piece's."""
 MOST_S: Final = 2 * 3600.0
-"""Longest part of the sound that is looked at."""
+"""Longest part of the sound that is analysed, in seconds."""
 _EARLY_S: Final = 0.05
 """Seconds by which a video may begin after the first moment that is shown of it."""
 
 
 @dataclass(frozen=True, eq=False)
 class ImportedVideo:
-    """A video with its offset in the piece.
+    """A video with its position in the piece.
 
     Attributes
     ----------
     offset_s : float
-        Performance time of its first picture.
+        Performance time of the first picture in seconds.
     facts : VideoFacts
     samples : (N, 2) int16 or None
-        Its sound at `RATE_HZ`; None: it has none.
+        Sound at `RATE_HZ`; None if there is none.
     confidence : float or None
-        0..1 of the place; None: given by hand.
+        Confidence of the position, 0..1; None if the user gave the position.
     """
 
     path: Path
@@ -54,26 +54,25 @@ class ImportedVideo:
 
     @property
     def covered_s(self) -> tuple[float, float]:
-        """Seconds of the performance that it shows."""
+        """Span of the performance in seconds that the video shows."""
         length_s = self.facts.duration_s
         if length_s <= 0.0:
             length_s = math.inf if self.samples is None else len(self.samples) / RATE_HZ
         return self.offset_s, self.offset_s + length_s
 
     def sound(self, excerpt: Excerpt) -> Block:
-        """Sound of the video during an excerpt (N, 2)."""
+        """Return the sound of the video during an excerpt, shape (N, 2)."""
         assert self.samples is not None
         mix = Mix([MixTrack([AudioSegment(round(self.offset_s * RATE_HZ), self.samples)])])
         return mix.read(round(excerpt.from_s * RATE_HZ), round(excerpt.duration_s * RATE_HZ))
 
     def require_covered(self, excerpt: Excerpt) -> None:
-        """Raise FileError (``evaluate.not_covered``) where the video does not show all of an excerpt."""
+        """Raise FileError if the video does not show all of an excerpt."""
         require_covered(self.path, self.covered_s, excerpt)
 
 
 def require_covered(path: Path, covered_s: tuple[float, float], excerpt: Excerpt) -> None:
-    """Raise FileError (``evaluate.not_covered``) where a file that shows these seconds does not show all of an
-    excerpt."""
+    """Raise FileError if a file showing a span of seconds does not show all of an excerpt."""
     first_s, last_s = covered_s
     if excerpt.from_s < first_s - _EARLY_S or excerpt.until_s > last_s + _EARLY_S:
         raise FileError(
@@ -94,21 +93,21 @@ def import_video(
     stop_requested: StopRequested,
     follow: bool = False,
 ) -> tuple[ImportedVideo, Project]:
-    """A video with its offset, and the project at the video's tempo if that was asked for.
+    """Return a video with its position, and the project, at the video's tempo if requested.
 
     Parameters
     ----------
     offset_s : float or None
-        None: its sound is compared with the piece.
+        Position in seconds; None to find it by comparing the sound with the piece.
     follow : bool
-        Whether the piece is to keep the video's tempo.
+        Whether the piece must take the video's tempo.
 
     Raises
     ------
     FileError
-        Those of `app.formats.video`, and this module's.
+        The video cannot be read or its sound does not fit the piece.
     AppError
-        Those of `app.audio.follow`.
+        The sound cannot be followed.
     Cancelled
     """
     facts = video_facts(str(path))
@@ -127,7 +126,7 @@ def import_video(
 
 @contextlib.contextmanager
 def _about(path: Path) -> Iterator[None]:
-    """Attribute errors of a sound to the video that contains it."""
+    """Add the video's name to errors about its sound."""
     try:
         yield
     except AppError as error:
@@ -174,7 +173,7 @@ def _followed(
 
 @contextlib.contextmanager
 def pictures_of(video: ImportedVideo, from_s: float, size: tuple[int, int]) -> Iterator[Callable[[float], Picture]]:
-    """Renderer of a video's pictures at ascending times of the performance, whole and in the middle of a frame."""
+    """Yield a function that returns a video's whole picture, centred in a frame, at ascending performance times."""
     facts = video.facts
     share = min(size[0] / facts.width, size[1] / facts.height)
     inner = (max(round(facts.width * share / 2) * 2, 2), max(round(facts.height * share / 2) * 2, 2))
@@ -184,7 +183,7 @@ def pictures_of(video: ImportedVideo, from_s: float, size: tuple[int, int]) -> I
 
 
 class _Framed:
-    """Puts pictures into a frame; the last one stays where there are no more."""
+    """Places pictures in a frame, and repeats the last one at the end."""
 
     def __init__(
         self, video: ImportedVideo, pictures: VideoPictures, size: tuple[int, int], inner: tuple[int, int]
@@ -195,7 +194,7 @@ class _Framed:
         self._place = slice(top, top + inner[1]), slice(left, left + inner[0])
 
     def __call__(self, time_s: float) -> Picture:
-        """Picture of the player at a time."""
+        """Return the picture at a time in seconds."""
         number, picture = _number(self._video, time_s), None
         while self._pictures.next <= number and (found := self._pictures.read()) is not None:
             picture = found
@@ -205,5 +204,5 @@ class _Framed:
 
 
 def _number(video: ImportedVideo, time_s: float) -> int:
-    """Return which of a video's pictures is seen at a time of the performance."""
+    """Return the index of a video's picture at a performance time."""
     return max(math.floor((time_s - video.offset_s) * video.facts.rate + 1e-3), 0)

@@ -1,4 +1,4 @@
-"""Key of an evaluation, which names the variant of each clip: for the evaluator, never given to viewers."""
+"""Key of an evaluation with the variant of each clip, for the evaluator and not for viewers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ Scale: TypeAlias = Literal["naturalness", "synchrony"]
 Presentation: TypeAlias = Literal["single", "pair"]
 
 VARIANTS: Final[tuple[Variant, ...]] = ("film", "generated", "still", "shifted", "keyframes")
-"""Real players; ours; ours with amplitude 0; ours with late fingers, a control; animation from elsewhere."""
+"""Variants: real players; generated; generated with amplitude 0; generated with late fingers, as a control; other
+animation.
+"""
 ASPECTS: Final[tuple[Aspect, ...]] = ("fingers_arms", "body", "mouth", "ensemble")
 SCALES: Final[tuple[Scale, ...]] = ("naturalness", "synchrony")
 STEPS: Final = 5
@@ -36,15 +38,15 @@ class EvaluationClip(msgspec.Struct, frozen=True):
     Attributes
     ----------
     code : str
-        ``c01`` and on; all that viewers get to know.
+        ``c01`` and on; the only information for viewers.
     excerpt : int
-        Which excerpt of the piece, from 1.
+        Number of the excerpt in the piece, from 1.
     from_s, until_s : float
-        The excerpt in seconds of the performance.
+        Start and end of the excerpt in seconds of the performance.
     view : str
-        How the players are seen, as ``suisou film --view``.
+        View of the players as in ``suisou film --view``.
     player : str
-        Whom a close-up shows; empty: everyone.
+        Player in a close-up; empty for all players.
     """
 
     code: Code
@@ -62,11 +64,11 @@ class EvaluationKey(msgspec.Struct, frozen=True):
     Attributes
     ----------
     evaluation : str
-        Id, 8 hexadecimal digits, as in the answers.
+        Id of 8 hexadecimal digits, as in the answers.
     piece : str
-        Its title.
+        Title of the piece.
     seed : int
-        Codes and orders were drawn with it.
+        Seed of codes and orders.
     """
 
     format: Literal["suisou-evaluation"]
@@ -84,12 +86,12 @@ class _Head(msgspec.Struct):
 
 
 def encoded_key(key: EvaluationKey) -> bytes:
-    """The key as indented JSON."""
+    """Return the key as indented JSON."""
     return msgspec.json.format(msgspec.json.encode(key), indent=1) + b"\n"
 
 
 def write_key(key: EvaluationKey, path: Path) -> None:
-    """Write a key whole or not at all. Raises FileError (``file.cannot_write``)."""
+    """Write a key atomically. Raises FileError."""
     with atomic_write(path) as stream:
         stream.write(encoded_key(key))
 
@@ -100,7 +102,7 @@ def read_key(path: Path) -> EvaluationKey:
     Raises
     ------
     FileError
-        ``evaluate.not_a_key``, ``evaluate.newer_key``; those of `app.formats.files.read_file`.
+        The file cannot be read, is not a key, or is from a newer version.
     """
     content = read_file(path, _MOST_BYTES)
     if decode_json(content, _Head, str(path), "evaluate.not_a_key").version > VERSION:

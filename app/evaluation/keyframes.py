@@ -1,7 +1,7 @@
-"""Animation from elsewhere as files of motion: what players do in the clips of the variant ``keyframes``.
+"""Other animation as motion files, which replace the players' motion in clips of the variant ``keyframes``.
 
-A file holds the joints of a body, as `suisou export` writes them on our own skeleton: BVH, or FBX and GLB. What it does
-not hold is that of the performance: the face, valves and slides. The instrument goes along with the hand that bears it.
+A file contains the joints of a body on the program's own skeleton, as written by `suisou export`: BVH, FBX or GLB. The
+performance supplies the face, valves and slides. The instrument moves with the hand that supports it.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ from app.rig.skeleton import forward
 
 HIPS: Final = "hips"
 _EYES: Final = ("leftEye", "rightEye")
-"""Joints that not every format has bones for."""
+"""Joints for which some formats lack bones."""
 _OTHER_BODY_CM: Final = 1.0
-"""Bones whose lengths differ by more are those of another body."""
+"""Difference of bone lengths in centimetres above which a skeleton is not the player's."""
 _HELD_M: Final = 0.03
-"""An instrument this near to where its hand holds it is in that hand."""
+"""Distance in metres of an instrument from its place in the hand below which it is considered to be in the hand."""
 _MOST_LISTED: Final = 5
 _REPORT_BYTES: Final = 64_000_000
 
@@ -54,25 +54,25 @@ class _Report(msgspec.Struct, frozen=True):
 
 
 def holds_motion(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path is that of files of motion rather than of a video."""
+    """Return whether a path is that of motion files rather than of a video."""
     return os.path.isdir(path) or Path(path).suffix.lower() in SUFFIXES
 
 
 @dataclass(frozen=True, eq=False)
 class PlayerKeyframes:
-    """One player's motion file with its offset in the piece.
+    """A player's motion file with its position in the piece.
 
     Attributes
     ----------
     start_s, fps : float
-        Performance time of its first frame, and frames per second.
+        Performance time of the first frame in seconds, and frames per second.
     rotations : (F, J, 4) float64
-        NaN of eyes that the file has no bones for: these are the performance's.
+        NaN for eyes without bones in the file, which then move as in the performance.
     hips_m : (F, 3) float64
-        As of `app.motion.model.Motion`.
+        Place of the hips as in `app.motion.model.Motion`.
     performer : Performer
     doubling : bool
-        Whether the musician has other instruments, too.
+        Whether the musician also plays other instruments.
     """
 
     path: Path
@@ -85,15 +85,17 @@ class PlayerKeyframes:
 
     @property
     def covered_s(self) -> tuple[float, float]:
-        """Seconds of the performance that it shows."""
+        """Span of the performance in seconds that the file shows."""
         return self.start_s, self.start_s + len(self.hips_m) / self.fps
 
     def require_covered(self, excerpt: Excerpt) -> None:
-        """Raise FileError (``evaluate.not_covered``) where it does not show all of an excerpt."""
+        """Raise FileError if the file does not show all of an excerpt."""
         require_covered(self.path, self.covered_s, excerpt)
 
     def posed(self, time_s: float, pose: Pose) -> Pose:
-        """The performance's pose with body and instrument as the file has them, also between two of its frames."""
+        """Return the performance's pose with body and instrument replaced by the file's, interpolated between
+        frames.
+        """
         at = min(max((time_s - self.start_s) * self.fps, 0.0), len(self.hips_m) - 1.0)
         before = int(at)
         after, share = min(before + 1, len(self.hips_m) - 1), at - before
@@ -104,7 +106,7 @@ class PlayerKeyframes:
         return self._held(seen, pose)
 
     def _held(self, seen: Pose, pose: Pose) -> Pose:
-        """A pose with the instrument in the hand that bears it, but for one that is put aside."""
+        """Return a pose with the instrument moved to the supporting hand, unless it is put aside."""
         hold, instrument = self.performer.grip, self.performer.instrument
         side = instrument.hold.support_hand
         hand = next((one for one in hold.hands if one.side == side), hold.hands[0])
@@ -134,18 +136,18 @@ class PlayerKeyframes:
 
 @dataclass(frozen=True, eq=False)
 class Keyframes:
-    """The files of an evaluation, by player id; players without one are seen as they perform."""
+    """The motion files of an evaluation by player id; players without a file perform as generated."""
 
     players: Mapping[str, PlayerKeyframes]
 
     @property
     def covered_s(self) -> tuple[float, float]:
-        """Seconds of the performance that the files of all players show."""
+        """Span of the performance in seconds that the files of all players show."""
         spans = [one.covered_s for one in self.players.values()]
         return max(first for first, _ in spans), min(last for _, last in spans)
 
     def require_covered(self, excerpt: Excerpt) -> None:
-        """Raise FileError (``evaluate.not_covered``) of a file that does not show all of an excerpt."""
+        """Raise FileError if a file does not show all of an excerpt."""
         for one in self.players.values():
             one.require_covered(excerpt)
 
@@ -158,24 +160,24 @@ class Keyframes:
 def read_keyframes(
     performance: Performance, path: Path, player_ids: Sequence[str] = (), offset_s: float | None = None
 ) -> Keyframes:
-    """Read the motion of players.
+    """Read the motion files of players.
 
     Parameters
     ----------
     path : Path
-        A player's file, or a folder with one for each, called as `suisou export` calls them.
+        A player's file, or a folder with a file for each, named as by `suisou export`.
     player_ids : sequence of str
-        Whom the evaluation is about, everyone if empty: of them there must be files.
+        Players of the evaluation, all if empty; they must have files.
     offset_s : float or None
-        Performance time of the first frame; None: as the report beside the files says, else where the performance
-        begins.
+        Performance time of the first frame in seconds; None for the time in the report beside the files, else the
+        beginning of the performance.
 
     Raises
     ------
     FileError
-        Those of this module, of `app.formats.bvh.read`, `app.formats.motion_limits` and `app.rig.node_motion`.
+        A file is missing, cannot be read, is too large, or has another skeleton.
     AppError
-        A player cannot be seen.
+        A player cannot be shown.
     """
     project = performance.project
     folder = os.path.isdir(path)
@@ -205,7 +207,7 @@ def read_keyframes(
 
 
 def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
-    """The motion file in the folder for each player who has exactly one."""
+    """Return the motion file of each player that has exactly one in the folder."""
     try:
         there = {path.name.casefold(): path for path in sorted(folder.iterdir())}
     except OSError as error:
@@ -219,7 +221,7 @@ def _in_folder(folder: Path, stems: Mapping[str, str]) -> dict[str, Path]:
 
 
 def _of_one(path: Path, stems: Mapping[str, str], requested: Sequence[str]) -> dict[str, Path]:
-    """Performer of a file: by its name, else the only one whom the evaluation is about."""
+    """Return the file with its player: by its name, else the only player of the evaluation."""
     named = [player_id for player_id, stem in stems.items() if stem.casefold() == path.stem.casefold()]
     owners = named or (list(requested) if len(requested) == 1 else [])
     return {owners[0]: path} if owners else {}
@@ -242,7 +244,7 @@ def _read(path: Path) -> BvhClip:
 
 
 def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[FloatArray, FloatArray]:
-    """Rotations (F, J, 4) and hips (F, 3), metres, of a character's joints."""
+    """Return rotations (F, J, 4) and hips (F, 3) in metres of a character's joints."""
     skeleton = performer.character.skeleton
     place = {name: joint for joint, name in enumerate(clip.names)}
     below = [joint for joint in range(len(skeleton.names)) if _hangs_on_hips(skeleton, joint)]
@@ -277,7 +279,7 @@ def _on_skeleton(clip: BvhClip, path: Path, performer: Performer) -> tuple[Float
 
 
 def _rest(offsets_cm: FloatArray, joints: Sequence[int], parents: Sequence[int], character: Character) -> FloatArray:
-    """Rotations of the joints (J, 4) where a file has none: in the T-pose, or as the mesh is bound (FBX, GLB)."""
+    """Return rotations (J, 4) of the joints in a file's rest pose: the T-pose, or that of the mesh (FBX, GLB)."""
     skeleton = character.skeleton
     bound = rest_transforms(character, normalised_target(skeleton))[:, :3, :3].astype(np.float64)
     poses = np.tile(quaternion.IDENTITY, (len(skeleton.names), 1)), quaternion.from_matrix(bound)
@@ -295,7 +297,7 @@ def _hangs_on_hips(skeleton: Skeleton, joint: int) -> bool:
 
 
 def _hips(clip: BvhClip, hips: int) -> tuple[FloatArray, FloatArray]:
-    """Places (F, 3), metres, and rotations (F, 4) of the hips, with all that carries them."""
+    """Return places (F, 3) in metres and rotations (F, 4) of the hips, including all parents."""
     frames = len(clip.rotations_xyzw)
     place_cm, turn = np.zeros((frames, 3)), np.tile(quaternion.IDENTITY, (frames, 1))
     joint = hips
@@ -310,7 +312,7 @@ def _hips(clip: BvhClip, hips: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _upright(clip: BvhClip, skeleton: Skeleton, place: Mapping[str, int]) -> BvhClip:
-    """A clip with Y up: some programs (Blender) write BVH with Z up, all bones turned with it."""
+    """Return a clip with Y up, since some programs (Blender) write BVH with Z up and all bones rotated accordingly."""
     spine = place[next(name for name in skeleton.names if _on_hips(skeleton, name))]
     way = clip.offsets_cm[spine]
     ours = skeleton.offsets_m[skeleton.index(clip.names[spine])]

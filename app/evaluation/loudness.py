@@ -1,4 +1,4 @@
-"""Excerpts made equally loud: loudness as in ITU-R BS.1770-4, ungated, for an excerpt has no pauses to be left out."""
+"""Excerpts of equal loudness as in ITU-R BS.1770-4, without gating since excerpts have no pauses."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from app.audio.track import RATE_HZ, Block
 
 TARGET_LUFS: Final = -20.0
 PEAK: Final = 0.89
-"""-1 dB of full scale, so that coding does not overshoot it."""
+"""Peak amplitude, -1 dB of full scale, so that encoding does not exceed full scale."""
 _SILENT_LUFS: Final = -70.0
-"""BS.1770's absolute gate: what is below is silence, and is not made louder."""
+"""Absolute gate of BS.1770: sounds below it are silence and not amplified."""
 
 # Table 1 and 2 of BS.1770-4, for 48 kHz.
 _HEAD: Final = ((1.53512485958697, -2.69169618940638, 1.19839281085285), (1.0, -1.69065929318241, 0.73248077421585))
@@ -22,12 +22,12 @@ _LOW: Final = ((1.0, -2.0, 1.0), (1.0, -1.99004745483398, 0.99007225036621))
 
 
 def loudness_lufs(sound: Block) -> float:
-    """The loudness of a sound.
+    """Return the loudness of a sound in LUFS.
 
     Parameters
     ----------
     sound : (N, 2) float32
-        At 48 kHz, -1..1.
+        Samples at 48 kHz, -1..1.
     """
     from scipy.signal import lfilter  # heavy, and only here
 
@@ -41,7 +41,7 @@ def loudness_lufs(sound: Block) -> float:
 
 
 def equally_loud(sounds: Sequence[Block]) -> list[Block]:
-    """The sounds at one loudness: `TARGET_LUFS`, or less where a peak would be cut off; silence stays silence."""
+    """Return the sounds at equal loudness: `TARGET_LUFS`, or less to avoid clipping; silence is unchanged."""
     levels = [loudness_lufs(sound) for sound in sounds]
     audible = [index for index, level in enumerate(levels) if level > _SILENT_LUFS]
     target = TARGET_LUFS

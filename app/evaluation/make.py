@@ -1,4 +1,4 @@
-"""An evaluation from a project and a video of real players: clips, the page, its key and the measures."""
+"""Makes an evaluation from a project and a video of real players: clips, questionnaire, key and measures."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from app.project.model import Project
 
 Report: TypeAlias = Callable[[float, Message], None]
 Imported: TypeAlias = ImportedVideo | Keyframes
-"""Animation from elsewhere that is compared with ours, at its place in the piece."""
+"""Other animation for comparison, with its position in the piece."""
 CLIPS: Final = "clips"
 _PRACTICE: Final = "practice"
 
@@ -47,9 +47,9 @@ class Made:
     Attributes
     ----------
     left_out : tuple of LeftOut
-        Performers who could not be drawn.
+        Performers that could not be drawn.
     video : ImportedVideo or None
-        The film of real players at its place.
+        Film of real players with its position.
     """
 
     folder: Path
@@ -68,15 +68,15 @@ def make_evaluation(
     report: Report,
     stop_requested: StopRequested,
 ) -> Made:
-    """Write an evaluation: all of it or nothing.
+    """Write an evaluation completely or not at all.
 
-    ``stages`` draw performances; reasons why performers cannot be drawn are worded by ``wording``; ``report`` is called
-    with the share 0..1 that is done and what is being done.
+    ``stages`` renders performances; ``wording`` words the reasons for performers that cannot be drawn; ``report``
+    receives the completed share 0..1 and the current work.
 
     Raises
     ------
     AppError
-        Those of this module, of `variants_of`, `import_video` and of writing.
+        The request does not fit, a video cannot be used, no performer can be drawn, or files cannot be written.
     Cancelled
     """
     variants = variants_of(request)
@@ -123,7 +123,7 @@ def make_evaluation(
 def _files(
     clips: Path, variants: Sequence[Variant], drawn: Sequence[EvaluationClip], scenes: Sequence[ClipScene]
 ) -> dict[Variant, dict[Path, ClipScene]]:
-    """The files of every variant; one of them is shown for practice too."""
+    """Return the files of every variant; one of them is also the practice clip."""
     files = {
         variant: {clips / f"{clip.code}.mp4": scenes[clip.excerpt - 1] for clip in drawn if clip.variant == variant}
         for variant in variants
@@ -141,7 +141,7 @@ def _draw(
     wording: Callable[[Message], str],
     report: Report,
 ) -> tuple[LeftOut, ...]:
-    """Write the clips of all variants; who could not be drawn."""
+    """Write the clips of all variants, and return the performers that could not be drawn."""
     left_out = dict[str, LeftOut]()
     for number, (variant, own) in enumerate(files.items()):
 
@@ -192,7 +192,7 @@ def _videos(
 def _keyframes(
     performance: Performance, request: EvaluationRequest, variants: Sequence[Variant]
 ) -> dict[Variant, Keyframes]:
-    """Motion of other animation, where it is compared and no video."""
+    """Return other animation given as motion files; empty if there is none or it is a video."""
     path = Path(restored(request.keyframes))
     if "keyframes" not in variants or not holds_motion(path):
         return {}
@@ -206,7 +206,7 @@ def _scenes(
     report: Report,
     stop_requested: StopRequested,
 ) -> list[ClipScene]:
-    """Every excerpt, and after them what is shown for practice."""
+    """Return the scenes of every excerpt and of the practice after them."""
     spans = _spans(performance, request, videos)
     film, sounds = videos.get("film"), list[Block]()
     for number, span in enumerate(spans):
@@ -222,7 +222,7 @@ def _scenes(
 
 
 def _spans(performance: Performance, request: EvaluationRequest, videos: dict[Variant, Imported]) -> list[FrameSpan]:
-    """The frames of the excerpts and of the practice."""
+    """Return the frames of the excerpts and of the practice."""
     fps = Fraction(*request.fps)
     if request.bars is not None:
         bars = bars_span(performance, fps, request.bars)
@@ -245,7 +245,7 @@ def _spans(performance: Performance, request: EvaluationRequest, videos: dict[Va
 def _clips(
     project: Project, request: EvaluationRequest, variants: Sequence[Variant], scenes: Sequence[ClipScene]
 ) -> list[EvaluationClip]:
-    """The clips with their codes, excerpt by excerpt."""
+    """Return the clips with their codes, excerpt by excerpt."""
     names = {performer.id: performer.name for performer in project.performers}
     player = names[request.player_ids[0]] if len(request.player_ids) == 1 else ""
     places = [(number, scene, variant) for number, scene in enumerate(scenes, start=1) for variant in variants]

@@ -1,4 +1,4 @@
-"""Measures of a variant without viewers: lag, quantity of motion, visible breaths, contact."""
+"""Measures of a variant without viewers: lag, quantity of motion, visibility of breathing, contact."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from metadata.model import BREATH_MORPHS
 MEASURES_FILE: Final = "measures.json"
 FPS: Final = Fraction(60)
 SEEN_HZ: Final = (0.3, 15.0)
-"""Slower motion is drift, faster is not seen."""
+"""Frequency range of visible motion in Hz; slower motion is drift."""
 VERSION: Final = 1
 _MOST_BYTES: Final = 16_000_000
 _AROUND_BREATH_S: Final = 0.05
@@ -42,9 +42,9 @@ _LEAST_FRAMES: Final = 3
 
 
 class Visible(msgspec.Struct, frozen=True):
-    """Movement of a body part during breaths, and in spans of the same lengths between them.
+    """Movement of a body part during breaths, and in equally long spans between them.
 
-    Both are medians over the breaths of highest minus lowest; None without a breath.
+    Both are medians of highest minus lowest value over the breaths; None if there are no breaths.
     """
 
     at_breaths: float | None
@@ -58,9 +58,9 @@ class BreathVisibility(msgspec.Struct, frozen=True):
     ----------
     breaths : int
     chest_mm, shoulders_mm : Visible
-        Height above the hips of the upper chest, and of the shoulders' middle.
+        Height in millimetres above the hips of the upper chest, and of the middle of the shoulders.
     ribs, mouth : Visible
-        Weights of the shapes of a widened chest and of an open jaw, 0..1.
+        Weights of the shapes for a wide chest and an open jaw, 0..1.
     """
 
     breaths: int
@@ -77,12 +77,12 @@ class VariantPlayerMeasures(msgspec.Struct, frozen=True):
     ----------
     lag : LagMeasure
     head_mm_s : float or None
-        Quantity of motion, see `quantity_of_motion_mm_s`.
+        Quantity of motion in mm/s, see `quantity_of_motion_mm_s`.
     breath : BreathVisibility
     notes : int
-        Notes in the frames that were measured.
+        Number of notes in the measured frames.
     contact : float or None
-        Share 0..1 of them during which every fingertip is where the judge of the exports wants it, within 1 mm.
+        Share 0..1 of these notes during which every fingertip is within 1 mm of its place, judged as in exports.
     """
 
     player: str
@@ -94,7 +94,7 @@ class VariantPlayerMeasures(msgspec.Struct, frozen=True):
 
 
 class VariantMeasures(msgspec.Struct, frozen=True):
-    """A variant; players who cannot be seen are not among its ``players``."""
+    """Measures of a variant, without players that cannot be shown."""
 
     variant: Variant
     players: tuple[VariantPlayerMeasures, ...]
@@ -117,11 +117,11 @@ def measure(
     Parameters
     ----------
     performance : Performance
-        When notes sound and breaths are drawn.
+        Performance with the times of notes and breaths.
     motions : mapping of str to Motion, optional
-        By player id, what is seen, where it is not this performance; players who are not there are not measured.
+        Visible motion by player id, if it differs from the performance's; only these players are measured.
     progress : callable
-        Called with the share 0..1 that is done; what it raises stops the work.
+        Called with the completed share 0..1; an exception raised by it stops the work.
     """
     motions = motions_of(performance) if motions is None else motions
     performers = performers_of(performance, performance.project.players).made
@@ -136,12 +136,12 @@ def measure(
 def measure_variants(
     project: Project, variants: Sequence[Variant], progress: Progress = lambda share: None
 ) -> tuple[VariantMeasures, ...]:
-    """Measure those of an evaluation's variants that are ours, each against when the notes sound.
+    """Measure the generated variants of an evaluation against the times of the sounding notes.
 
     Parameters
     ----------
     progress : callable
-        Called with the share 0..1 that is done; what it raises stops the work.
+        Called with the completed share 0..1; an exception raised by it stops the work.
     """
     ours = [variant for variant in OURS if variant in variants]
     sounding = Performance(project)
@@ -157,14 +157,14 @@ def measure_variants(
 
 
 def motions_of(performance: Performance) -> dict[str, Motion]:
-    """Motions of all players, at `FPS`, by player id."""
+    """Return the motions of all players at `FPS` by player id."""
     span = whole_span(performance.time_frame, FPS)
     performers = performers_of(performance, performance.project.players).made
     return {player_id: player_motion(performance, performer, span) for player_id, performer in performers.items()}
 
 
 def measure_player(performance: Performance, performer: Performer, motion: Motion) -> VariantPlayerMeasures:
-    """Measure a motion against what its player plays."""
+    """Measure a motion against its player's notes."""
     plan = performance.plan(performer.player)
     fps = float(motion.fps)
     times_s = motion.first_frame_s + np.arange(motion.frames) / fps
@@ -188,13 +188,13 @@ def measure_player(performance: Performance, performer: Performer, motion: Motio
 
 
 def quantity_of_motion_mm_s(place_m: FloatArray, fps: float, counted: BoolArray) -> float | None:
-    """RMS speed of a point between 0.3 and 15 Hz, or what the frame rate can hold of that, in mm/s.
+    """Return the RMS speed of a point in mm/s between 0.3 and 15 Hz, or the range that the frame rate allows.
 
     Parameters
     ----------
     place_m : (F, 3) float64
     counted : (F,) bool
-        Frames that count, usually those with a note; None is returned where there are none, or too few to filter.
+        Frames to include, usually those with a note; the result is None if they are too few to filter.
     """
     period_frames = fps / SEEN_HZ[0]
     if not counted.any() or len(place_m) < period_frames:
@@ -247,7 +247,7 @@ def _range(curve: AnyFloatArray, spans: Sequence[slice]) -> float | None:
 
 
 def _contact(notes: Sequence[FingeringEvent], breaks: Sequence[Break]) -> float | None:
-    """Share of the notes within which no finger and no hand has left its place."""
+    """Return the share of notes during which all fingers and hands stay in place."""
     if not notes:
         return None
     off = [(found.start_s, found.end_s) for found in breaks if found.kind in ("touch", "hand")]
@@ -256,14 +256,14 @@ def _contact(notes: Sequence[FingeringEvent], breaks: Sequence[Break]) -> float 
 
 
 def write_measures(variants: Sequence[VariantMeasures], path: Path) -> None:
-    """Write measures whole or not at all. Raises FileError (``file.cannot_write``)."""
+    """Write measures atomically. Raises FileError."""
     content = msgspec.json.encode(_File("suisou-measures", VERSION, tuple(variants)))
     with atomic_write(path) as stream:
         stream.write(msgspec.json.format(content, indent=1) + b"\n")
 
 
 def read_measures(path: Path) -> tuple[VariantMeasures, ...]:
-    """Read measures. Raises FileError (``results.not_measures``; those of `read_file`)."""
+    """Read measures. Raises FileError."""
     found = decode_json(read_file(path, _MOST_BYTES), _File, str(path), "results.not_measures")
     if found.version > VERSION:
         raise FileError("evaluate.newer_key", file=str(path))

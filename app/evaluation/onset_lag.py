@@ -1,8 +1,8 @@
-"""Lag between the arrival of valves, keys, holes and slides and the sound of their notes.
+"""Lag between the arrival of valves, keys, hole covers and slides and the sound of their notes.
 
 Thresholds are those of ITU-R BT.1359-1 (1998) for sound and vision in broadcasting: on average viewers detect sound
-that is 45 ms ahead of the picture or 125 ms behind it, and accept up to 90 and 185 ms. A positive lag is an action that
-is seen after its note is heard.
+that is 45 ms ahead of the picture or 125 ms behind it, and accept up to 90 and 185 ms. A positive lag means that the
+action is seen after its note is heard.
 """
 
 from __future__ import annotations
@@ -21,24 +21,25 @@ from instrument_maps.model import Control
 DETECTED_S: Final = (-0.125, 0.045)
 ACCEPTED_S: Final = (-0.185, 0.090)
 _AROUND_S: Final = 0.5
-"""Seconds around a note within which a finger's arrival counts as that note's."""
+"""Seconds around a note's onset within which a control's arrival is assigned to that note."""
 _PHRASE_S: Final = 0.15
-"""After a longer rest fingers are in place early, unheard: such a note says nothing about lag."""
+"""Length of a rest in seconds after which a note is not judged, since fingers are in place early."""
 
 
 class LagMeasure(msgspec.Struct, frozen=True):
-    """Lags of the notes within phrases for which anything moves.
+    """Lags of notes within phrases for which a control moves.
 
     Attributes
     ----------
     notes : int
-        Judged notes. A note's lag is that of its last control.
+        Number of judged notes. The lag of a note is that of its last control.
     missed : int
-        Those of which a control never arrives; they are in neither lag, and outside both pairs of thresholds.
+        Number of those with a control that never arrives; they are outside all thresholds and have no lag.
     median_ms, latest_ms : float or None
-        None where nothing arrives.
+        Median and greatest lag in milliseconds; None if nothing arrives.
     detectable, unacceptable : float or None
-        Share 0..1 of the judged notes that are outside; None without any.
+        Share 0..1 of the judged notes outside the thresholds of detection and acceptance; None if there are no judged
+        notes.
     """
 
     notes: int
@@ -55,16 +56,16 @@ def measure_lag(
     values: Mapping[str, AnyFloatArray],
     times_s: FloatArray,
 ) -> LagMeasure:
-    """Compare what is seen with what is heard.
+    """Compare visible arrivals with audible onsets.
 
     Parameters
     ----------
     fingerings : sequence of FingeringEvent
-        Of the notes as they sound, by onset.
+        Fingerings of the sounding notes, by onset.
     controls : sequence of Control
-        Of the instrument; those without ``values`` are not seen.
+        Controls of the instrument; those without ``values`` are invisible.
     values : mapping of str to (F,)
-        Of the motion, by control.
+        Value of each control in each frame.
     times_s : (F,) float64
     """
     last_s: dict[int, float] = {}
@@ -87,10 +88,10 @@ def measure_lag(
 def _lags(
     fingerings: Sequence[FingeringEvent], control: Control, values: FloatArray, times_s: FloatArray
 ) -> Iterator[tuple[int, float]]:
-    """Index of every judged note for which the control moves, and its lag; infinite where it never arrives.
+    """Yield the index of every judged note for which the control moves, and its lag in seconds; infinite if it never
+    arrives.
 
-    Arrivals are taken in the order of the notes, each once, so that a trill which is seen late is not taken for its
-    next note.
+    Arrivals are assigned in the order of the notes, each once, so that a late trill note is not taken for the next one.
     """
     arrivals: dict[tuple[float, float], FloatArray] = {}
     before, free_s, ended_s = control.rest_value, -np.inf, -np.inf
@@ -117,9 +118,9 @@ def _lags(
 
 
 def _arrivals_s(control: Control, values: FloatArray, before: float, target: float, times_s: FloatArray) -> FloatArray:
-    """Return when a control comes to a place, ascending: where the last tenth of its way from ``before`` begins, or
-    where it touches (`app.contacts.bounds.in_place`), if that is later; between the last frame away and the first one
-    there."""
+    """Return the ascending times in seconds of a control's arrivals at a value: the last tenth of its way from
+    ``before``, or contact (`app.contacts.bounds.in_place`) if later, interpolated between frames.
+    """
     touches = SLIDE_M / control.travel_m if control.kind == "slide" and control.travel_m else 1.0 - PRESSED
     bound = min(touches, (1.0 - PRESSED) * abs(target - before)) + 1e-9
     off = np.abs(values - target)

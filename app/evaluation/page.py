@@ -1,6 +1,6 @@
-"""The questionnaire: one file with clips, questions and both languages in it, which works without a network.
+"""The questionnaire: a single HTML file with clips, questions and both languages that needs no network.
 
-It has codes only. What a piece is called and every other text is data: it is shown as text, never read as markup.
+It contains codes only. Titles and all other texts are data that is shown as text and never interpreted as markup.
 """
 
 from __future__ import annotations
@@ -25,17 +25,16 @@ _RESOURCES: Final = "evaluation"
 
 
 def page(key: EvaluationKey, table: Sequence[Order], clips: Path) -> bytes:
-    """The page.
+    """Return the page.
 
     Parameters
     ----------
     key : EvaluationKey
-        Of it nothing but codes, aspects, the evaluation's id and the title comes onto the page.
+        Key; only codes, aspects, evaluation id and title are written to the page.
     table : sequence of Order
-        The order of every viewer.
+        Order of clips for every viewer.
     clips : path
-        Folder of the files ``c01.mp4``, of pairs ``c01-c02.mp4`` as they are in the key's evaluation, and
-        ``practice.mp4``.
+        Folder with the files ``c01.mp4`` (``c01-c02.mp4`` for pairs as in the key) and ``practice.mp4``.
     """
     data: dict[str, Any] = {
         "evaluation": key.evaluation,
@@ -66,7 +65,7 @@ def _texts(index: int) -> dict[str, str]:
 
 
 def _shown_files(table: Sequence[Order], clips: Path) -> list[Path]:
-    """The files that any viewer sees; a pair that is turned around is the same file."""
+    """Return the files that any viewer sees; a pair with exchanged sides is the same file."""
     names = {"practice"}
     for shown in {shown for order in table for shown in order}:
         turned = f"{shown.right}-{shown.left}"
@@ -80,7 +79,7 @@ def _base64(file: Path) -> str:
 
 
 def _in_markup(data: dict[str, Any]) -> str:
-    """JSON that no browser takes for the end of a script or for markup."""
+    """Return JSON that browsers do not interpret as the end of a script or as markup."""
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     for character in "<>&\u2028\u2029":
         text = text.replace(character, f"\\u{ord(character):04x}")

@@ -1,4 +1,4 @@
-"""Scores as a picture (SVG): a field for every aspect and scale, a row for every variant, means with intervals."""
+"""Plot of the scores as SVG: a panel for every aspect and scale, a row for every variant, means with intervals."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _HEAD: Final = 34.0
 _GAP: Final = 28.0
 _EDGE: Final = 24.0
 _INK: Final[dict[Presentation, str]] = {"single": "#1b6ca8", "pair": "#c2571a"}
-"""Colours of the plot; curves also differ in lightness and shape."""
+"""Colours of the plot; single clips and pairs also differ in lightness and shape."""
 
 
 def plot(results: EvaluationResults, language: str) -> str:
-    """The picture as a document."""
+    """Return the plot as an SVG document."""
     questions = {score.question for score in results.scores}
     aspects = [aspect for aspect in ASPECTS if any(question.aspect == aspect for question in questions)]
     scales = [scale for scale in SCALES if any(question.scale == scale for question in questions)]
@@ -68,7 +68,7 @@ def plot(results: EvaluationResults, language: str) -> str:
 
 
 def _x(left: float, value: float) -> float:
-    """Return where an answer is; intervals may reach beyond the steps, the picture does not."""
+    """Return the horizontal position of a score, limited to the panel."""
     inside = min(max(value, 1.0), float(STEPS))
     return left + 8.0 + (inside - 1.0) / (STEPS - 1) * (_FIELD - 16.0)
 

@@ -1,7 +1,7 @@
-"""An evaluation made by a process of its own: the window stays alive, and its drawing is not disturbed.
+"""Making an evaluation in a process of its own, so that the window stays responsive.
 
-The child reads an `EvaluationJob` from its input and answers with `EvaluationProgress`, at last with
-`EvaluationFinished` or `EvaluationRefused`. When its input ends, it stops and removes the files that it has written.
+The child reads an `EvaluationJob` from its input and answers with `EvaluationProgress`, and at the end with
+`EvaluationFinished` or `EvaluationRefused`. When its input ends, it stops and deletes the files it has written.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from app.project.model import Project
 from app.project.storage import decode, encode
 
 _BESIDE: Final = "project"
-"""A project's paths are relative to its file."""
+"""Name of the project file that relative paths refer to."""
 Report: TypeAlias = Callable[[float, Message], None]
 
 
@@ -32,12 +32,12 @@ class EvaluationJob(msgspec.Struct, frozen=True):
     request: EvaluationRequest
 
     def opened(self) -> Project:
-        """The project that is performed."""
+        """Return the project to perform."""
         return decode(self.project, Path(self.beside) / _BESIDE)
 
 
 class EvaluationProgress(msgspec.Struct, frozen=True, tag=True):
-    """Progress of an evaluation: the share that is done, 0..1, and the current work."""
+    """Progress of an evaluation: the completed share, 0..1, and the current work."""
 
     share: float
     message: Message
@@ -50,14 +50,14 @@ class EvaluationRefused(msgspec.Struct, frozen=True, tag=True):
 
 
 class EvaluationFinished(msgspec.Struct, frozen=True, tag=True):
-    """Report of a finished evaluation: the clips and pairs written, and those left out.
+    """Report of a finished evaluation: the clips and pairs written, and the performers left out.
 
     Attributes
     ----------
     left_out : tuple of (str, Message)
-        Performers who could not be drawn, with the reasons.
+        Performers that could not be drawn, with the reasons.
     confidence : float or None
-        Of the film's place, where its sound gave it.
+        Confidence of the film's position, if it was found by sound.
     """
 
     clips: int
@@ -73,17 +73,17 @@ Answer = EvaluationProgress | EvaluationRefused | EvaluationFinished
 def made_by_process(
     module: str, project: Project, request: EvaluationRequest, report: Report, stop_requested: StopRequested
 ) -> EvaluationFinished:
-    """Make an evaluation in another process: all of it or nothing.
+    """Make an evaluation in another process, completely or not at all.
 
     Parameters
     ----------
     module : str
-        What is run: it serves an `EvaluationJob`.
+        Module to run, which processes an `EvaluationJob`.
 
     Raises
     ------
     AppError
-        As `app.evaluation.make.make_evaluation`; ``evaluate.ended``.
+        As `app.evaluation.make.make_evaluation`, or the process ended unexpectedly.
     Cancelled
     """
     with scratch_folder() as folder, (folder / "complaint.txt").open("w+b") as printed:

@@ -38,14 +38,14 @@ class _File(msgspec.Struct, frozen=True):
 
 
 def write_results(results: EvaluationResults, measures: Sequence[VariantMeasures], folder: Path) -> list[Path]:
-    """Write results.md, .svg (Japanese: results_ja), .csv and .json into a folder, which is made if need be.
+    """Write results.md, .svg (Japanese: results_ja), .csv and .json into a folder, creating it if necessary.
 
-    The same results are the same bytes.
+    Equal results give equal bytes.
 
     Raises
     ------
     FileError
-        ``file.cannot_write``.
+        A file cannot be written.
     """
     contents = {}
     for language in LANGUAGES:
@@ -65,7 +65,7 @@ def write_results(results: EvaluationResults, measures: Sequence[VariantMeasures
 
 
 def markdown(results: EvaluationResults, measures: Sequence[VariantMeasures], language: str, picture: str) -> str:
-    """The report in a language: conclusions first, then the picture and the tables."""
+    """Return the report in a language: conclusions, plot and tables."""
     conclusions = conclude(results)
     title = text(Message("results.title", {"piece": results.piece}), language)
     parts = [f"# {_plain(title)}", ""]
@@ -84,12 +84,12 @@ def _table(table: ResultTable) -> list[str]:
 
 
 def _plain(words: str) -> str:
-    """Names of pieces and players are not Markdown."""
+    """Return text with Markdown characters escaped, for names of pieces and players."""
     return "".join(f"\\{character}" if character in "\\|*_`<>[]#" else character for character in words)
 
 
 def _scores(results: EvaluationResults) -> bytes:
-    """Scores as CSV for spreadsheets: with a byte order mark, in numbers."""
+    """Return scores as CSV for spreadsheets, with a byte order mark and plain numbers."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\r\n")
     writer.writerow(_SCORES)

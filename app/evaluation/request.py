@@ -1,4 +1,4 @@
-"""Settings of an evaluation, as a value that can be sent to another process."""
+"""Settings of an evaluation as a value that can be sent to another process."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ EXCERPTS: Final = 3
 SECONDS: Final = 8.0
 SIZE: Final = (640, 360)
 FPS: Final = 30
-"""Usual numbers."""
+"""Default frame rate in frames per second."""
 MOST_EXCERPTS: Final = 20
 LEAST_S, MOST_S = 1.0, 60.0
-"""Limits of an excerpt's length."""
+"""Limits of an excerpt's length in seconds."""
 
 _OF_VIEW: Final[dict[str, tuple[Aspect, ...]]] = {
     "ensemble": ASPECTS,
@@ -30,36 +30,36 @@ _OF_ONE: Final[tuple[Aspect, ...]] = ("fingers_arms", "body", "mouth")
 
 
 class EvaluationRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Settings of an evaluation. Paths are as `app.encoding.stored` writes them.
+    """Settings of an evaluation. Paths are encoded by `app.encoding.stored`.
 
     Attributes
     ----------
     folder : str
-        Where it is written; made if it is not there.
+        Output folder, created if necessary.
     title : str
-        Of the piece, as viewers read it.
+        Title of the piece for viewers.
     film, keyframes : str
-        Videos of real players and of animation from elsewhere; empty: none.
+        Videos of real players and of other animation; empty for none.
     film_offset_s, keyframes_offset_s : float or None
-        Performance time of their first picture; None: found by their sound.
+        Performance time of their first picture in seconds; None to find it by the sound.
     follow_film : bool
-        Whether the piece is performed at the tempo of the film.
+        Whether to perform the piece at the film's tempo.
     variants : tuple of Variant
-        Empty: all that can be made of what there is.
+        Variants; empty for all that are possible.
     bars : (int, int) or None
-        First and last bar of the one excerpt; None: excerpts are chosen.
+        First and last bar of a single excerpt; None to choose excerpts automatically.
     excerpts : int
     excerpt_s : float
-        How many excerpts of which length are chosen.
+        Number and length in seconds of automatically chosen excerpts.
     view : str
     player_ids : tuple of str
-        Whom the view is about.
+        Players that the view shows.
     size : (int, int)
-        Of one clip, pixels; even.
+        Width and height of a clip in pixels; even.
     seed : int
-        Codes are drawn with it.
+        Seed of the codes.
     theme : str
-        Colours behind the players.
+        Theme with the background colours.
     """
 
     folder: str
@@ -83,12 +83,12 @@ class EvaluationRequest(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
 
 
 def variants_of(request: EvaluationRequest) -> tuple[Variant, ...]:
-    """The variants of an evaluation, in the order of `VARIANTS`.
+    """Return the variants of an evaluation in the order of `VARIANTS`.
 
     Raises
     ------
     UsageError
-        ``evaluate.needs_file``: of one there is no video; ``evaluate.too_few``: fewer than two cannot be compared.
+        A variant has no video, or there are fewer than two variants.
     """
     videos: dict[Variant, tuple[str, str]] = {
         "film": (request.film, "--film"),
@@ -105,12 +105,12 @@ def variants_of(request: EvaluationRequest) -> tuple[Variant, ...]:
 
 
 def aspects_of(view: str, seen: int) -> tuple[Aspect, ...]:
-    """Aspects that viewers can judge in a view.
+    """Return the aspects that viewers can judge in a view.
 
     Parameters
     ----------
     seen : int
-        How many performers are in the picture: one makes no ensemble.
+        Number of visible performers; the ensemble cannot be judged with a single one.
     """
     aspects = _OF_VIEW.get(view, _OF_ONE)
     return tuple(aspect for aspect in aspects if aspect != "ensemble" or seen > 1)

@@ -1,7 +1,7 @@
-"""Tables of all viewers' answers: scores of every variant, comparisons, agreement, and how the control did.
+"""Tables of all viewers' answers: scores of every variant, comparisons, agreement, and the control's result.
 
-Answers about clips on their own and about clips in pairs are different questions and are never pooled. Every value is
-first a viewer's own mean; statistics are over viewers.
+Answers about single clips and about pairs are different questions and never pooled. Every value is first averaged for
+each viewer; statistics are over viewers.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ PRESENTATIONS: Final[tuple[Presentation, ...]] = get_args(Presentation)
 
 
 class Question(msgspec.Struct, frozen=True):
-    """A question about every variant, in one way of showing clips."""
+    """A question about every variant, for single clips or for pairs."""
 
     presentation: Presentation
     aspect: Aspect
@@ -40,7 +40,7 @@ class Question(msgspec.Struct, frozen=True):
 
 
 class VariantScore(msgspec.Struct, frozen=True):
-    """Viewers' judgements of a variant; ``over_viewers`` is None if no viewer could judge."""
+    """Viewers' judgements of a variant; ``over_viewers`` is None if no viewer could judge it."""
 
     question: Question
     variant: Variant
@@ -50,16 +50,16 @@ class VariantScore(msgspec.Struct, frozen=True):
 
 
 class Contrast(msgspec.Struct, frozen=True):
-    """Two variants that the same viewers judged.
+    """Comparison of two variants judged by the same viewers.
 
     Attributes
     ----------
     comparison : Comparison
-        First minus second. In pairs: of clips that were shown beside each other; else of clips of the same excerpt.
+        First minus second variant: of clips shown side by side for pairs, else of clips of the same excerpt.
     difference : Summary
-        The same differences.
+        Summary of the same differences.
     corrected_p : float or None
-        By Holm, for all comparisons of this question.
+        Probability corrected by Holm's method for all comparisons of this question.
     """
 
     question: Question
@@ -71,12 +71,12 @@ class Contrast(msgspec.Struct, frozen=True):
 
     @property
     def significant(self) -> bool:
-        """True if the two are shown to differ."""
+        """True if the difference is significant."""
         return self.corrected_p is not None and self.corrected_p < SIGNIFICANT
 
 
 class Agreement(msgspec.Struct, frozen=True):
-    """Krippendorff's alpha of viewers on the same clips (ordinal); None where it has no meaning."""
+    """Krippendorff's alpha of viewers on the same clips (ordinal); None if it is undefined."""
 
     question: Question
     clips: int
@@ -87,13 +87,13 @@ Verdict = Literal["noticed", "unclear", "unnoticed", "unjudged"]
 
 
 class ManipulationCheck(msgspec.Struct, frozen=True):
-    """Test that viewers notice the deliberate flaw: fingers 200 ms late, judged as less in time than ours.
+    """Test of whether viewers notice the deliberate flaw: fingers 200 ms late must be judged as less in time.
 
     Attributes
     ----------
     verdict : str
         ``noticed``: lower, one-sided p below `SIGNIFICANT`; ``unclear``: lower, but not significantly; ``unnoticed``:
-        not lower; ``unjudged``: no one judged both.
+        not lower; ``unjudged``: both were judged by no viewer.
     """
 
     presentation: Presentation
@@ -104,7 +104,7 @@ class ManipulationCheck(msgspec.Struct, frozen=True):
 
 
 class OrderEffect(msgspec.Struct, frozen=True):
-    """Rise of answers in the second half of a session that variants and questions do not explain."""
+    """Increase of answers in the second half of a session that variants and questions do not explain."""
 
     presentation: Presentation
     later: Summary
@@ -116,11 +116,11 @@ class EvaluationResults(msgspec.Struct, frozen=True):
     Attributes
     ----------
     viewers : tuple of str
-        Ids, sorted.
+        Sorted ids.
     incomplete : tuple of str
         Viewers with fewer answers than others.
     unvaried : tuple of str
-        Viewers who gave one and the same answer to everything.
+        Viewers with the same answer to every question.
     """
 
     evaluation: str
@@ -150,19 +150,19 @@ class _Rating(msgspec.Struct, frozen=True):
 
     @property
     def place(self) -> tuple[object, ...]:
-        """Key that two variants must share to be compared: the pair, or the excerpt with its view."""
+        """Key that two variants must share for a comparison: the pair, or the excerpt with its view."""
         if self.answer.presentation == "pair":
             return (self.answer.position,)
         return self.clip.excerpt, self.clip.view, self.clip.player
 
 
 def tabulate(key: EvaluationKey, files: Sequence[ViewerFile]) -> EvaluationResults:
-    """Compute everything from the files of all viewers, in whatever order they come.
+    """Compute all results from the files of all viewers, independent of their order.
 
     Raises
     ------
     FileError
-        See the module's messages.
+        A file does not belong to the key, or answers repeat or are invalid.
     """
     _check(key, files)
     files = sorted(files, key=lambda file: file.viewer)
@@ -211,7 +211,7 @@ def _question(answer: Answer) -> Question:
 
 
 def _questions(key: EvaluationKey, answers: Sequence[Answer]) -> Iterator[Question]:
-    """Questions that were put to any viewer, in the order of the tables."""
+    """Yield the questions that any viewer answered, in the order of the tables."""
     asked = {_question(answer) for answer in answers}
     for presentation, aspect, scale in itertools.product(PRESENTATIONS, key.aspects, SCALES):
         question = Question(presentation, aspect, scale)
@@ -250,7 +250,7 @@ def _scores(
 
 
 def _means(ratings: Sequence[_Rating]) -> dict[str, float]:
-    """Mean of each viewer."""
+    """Return the mean of each viewer."""
     values: dict[str, list[int]] = defaultdict(list)
     for rating in ratings:
         values[rating.viewer].append(rating.value)
@@ -272,7 +272,7 @@ def _contrasts(question: Question, ratings: Sequence[_Rating]) -> list[Contrast]
 
 
 def _differences(ratings: Sequence[_Rating], first: Variant, second: Variant) -> list[float]:
-    """Each viewer's mean difference of two variants, over the places where both were judged."""
+    """Return each viewer's mean difference of two variants over the excerpts or pairs in which both were judged."""
     values: dict[str, dict[tuple[object, ...], dict[str, list[int]]]] = defaultdict(lambda: defaultdict(dict))
     for rating in ratings:
         if rating.clip.variant in (first, second):
@@ -290,7 +290,9 @@ def _differences(ratings: Sequence[_Rating], first: Variant, second: Variant) ->
 
 
 def _agreement(question: Question, ratings: Sequence[_Rating]) -> Agreement:
-    """A unit is a clip, in a pair with the clip beside it; a viewer's first answer about it counts."""
+    """Return the agreement of viewers. A unit is a clip, in a pair together with the other clip; a viewer's first
+    answer counts.
+    """
     units: dict[object, dict[str, int]] = defaultdict(dict)
     for rating in sorted(ratings, key=lambda rating: (rating.viewer, rating.answer.position, rating.answer.side)):
         units[rating.clip.code, rating.beside].setdefault(rating.viewer, rating.value)
@@ -319,7 +321,7 @@ def _control(presentation: Presentation, differences: Sequence[float]) -> Manipu
 
 
 def _orders(ratings: Sequence[_Rating]) -> Iterator[OrderEffect]:
-    """For each viewer, the mean in the second half of the session minus that in the first."""
+    """Yield for each viewer the mean of the second half of the session minus that of the first."""
     cells: dict[object, list[int]] = defaultdict(list)
     for rating in ratings:
         cells[_question(rating.answer), rating.clip.variant].append(rating.value)

@@ -1,6 +1,6 @@
-"""Statistics of answers: intervals, rank tests, agreement. Viewers' values are never pooled.
+"""Statistics of answers: intervals, rank tests, agreement. Values of different viewers are never pooled.
 
-Nothing here is NaN, and nothing warns: what cannot be computed is None.
+Functions return None instead of NaN for values that cannot be computed, and issue no warnings.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from app.arrays import FloatArray
 LEVEL: Final = 0.95
 SIGNIFICANT: Final = 0.05
 _EXACT: Final = 200
-"""Most differences that are counted exactly; for more the normal approximation is as good."""
+"""Greatest number of differences with exact calculation; the normal approximation is as good for more."""
 
 
 class Summary(msgspec.Struct, frozen=True):
@@ -31,7 +31,8 @@ class Summary(msgspec.Struct, frozen=True):
     deviation : float or None
         Standard deviation of the sample; None for a single viewer.
     low, high : float or None
-        Interval of the mean at `LEVEL`, by Student's t; None for a single viewer. Without any spread it has no width.
+        Confidence interval of the mean at `LEVEL` by Student's t; None for a single viewer. Its width is 0 without
+        spread.
     """
 
     viewers: int
@@ -48,17 +49,17 @@ class Comparison(msgspec.Struct, frozen=True):
     Attributes
     ----------
     viewers : int
-        Who judged both.
+        Number of viewers who judged both.
     differing : int
-        Whose difference is not zero: only they are ranked.
+        Number of viewers with a difference other than zero; only these are ranked.
     mean : float
         Mean difference, first minus second.
     statistic : float or None
-        Wilcoxon's signed-rank statistic, the smaller sum of ranks; None where no difference is left.
+        Wilcoxon's signed-rank statistic, the smaller sum of ranks; None if all differences are zero.
     p : float or None
-        Two-sided.
+        Two-sided probability.
     effect : float or None
-        Matched-pairs rank-biserial correlation, -1 to 1: positive where the first is judged better.
+        Matched-pairs rank-biserial correlation, -1 to 1: positive if the first is judged better.
     """
 
     viewers: int
@@ -70,7 +71,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def summary(values: Sequence[float]) -> Summary | None:
-    """Summarise one value per viewer; None if there are no viewers."""
+    """Return the summary of one value per viewer; None if there are no viewers."""
     if not values:
         return None
     given = np.asarray(values, np.float64)
@@ -83,9 +84,9 @@ def summary(values: Sequence[float]) -> Summary | None:
 
 
 def compared(differences: Sequence[float]) -> Comparison | None:
-    """Wilcoxon's signed-rank test of one difference for each viewer; None without viewers.
+    """Return Wilcoxon's signed-rank test of one difference per viewer; None without viewers.
 
-    Zeros are left out (Wilcoxon's own way). Differences that are equal up to rounding of the mean share a rank.
+    Zeros are omitted (Wilcoxon's original method). Differences that are equal up to rounding share a rank.
     """
     if not differences:
         return None
@@ -100,17 +101,17 @@ def compared(differences: Sequence[float]) -> Comparison | None:
 
 
 def lower_p(differences: Sequence[float]) -> float | None:
-    """Wilcoxon's p that differences are below zero, one-sided; None where all are zero."""
+    """Return Wilcoxon's one-sided p for differences below zero; None if all are zero."""
     given = np.round(np.asarray(differences, np.float64), 9)
     ranked = given[given != 0.0]
     return float(_wilcoxon_p(ranked, "less")) if len(ranked) else None
 
 
 def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -> float:
-    """Wilcoxon's p of differences without zeros.
+    """Return Wilcoxon's p for differences without zeros.
 
-    Exact with ties too, which there always are among means of a few steps: scipy can only enumerate all signs then,
-    which takes a second for a single comparison of 13 viewers, and is not exact for more.
+    Exact even with ties, which are usual among means of a few steps: scipy enumerates all signs then, which takes a
+    second for 13 viewers, and is not exact for more.
     """
     if len(ranked) > _EXACT:
         return min(1.0, float(stats.wilcoxon(ranked, alternative=alternative, method="approx").pvalue))
@@ -128,12 +129,12 @@ def _wilcoxon_p(ranked: FloatArray, alternative: Literal["two-sided", "less"]) -
 
 
 def smallest_p(differing: int) -> float:
-    """The smallest two-sided p that this number of viewers can give, if all agree."""
+    """Return the smallest two-sided p possible with a number of viewers, if all agree."""
     return min(1.0, 2.0 ** (1 - differing))
 
 
 def holm(ps: Sequence[float]) -> list[float]:
-    """Holm's correction for several comparisons (1979), in the order given."""
+    """Return Holm's correction for several comparisons (1979), in the given order."""
     order = sorted(range(len(ps)), key=lambda index: ps[index])
     corrected, least = [0.0] * len(ps), 0.0
     for rank, index in enumerate(order):
@@ -143,17 +144,17 @@ def holm(ps: Sequence[float]) -> list[float]:
 
 
 def ordinal_alpha(ratings: Mapping[object, Sequence[int]]) -> float | None:
-    """Krippendorff's alpha for ordinal data (Krippendorff 2011, "Computing Krippendorff's alpha-reliability").
+    """Return Krippendorff's alpha for ordinal data (Krippendorff 2011, "Computing Krippendorff's alpha-reliability").
 
     Parameters
     ----------
     ratings : mapping of unit to sequence of int
-        What viewers said of each unit; a viewer who said nothing is not among them.
+        Viewers' ratings of each unit; viewers without a rating are omitted.
 
     Returns
     -------
     float or None
-        1: all agree; 0: as by chance. None where no unit has two ratings, or all ratings are the same.
+        1 for full agreement, 0 for chance. None if no unit has two ratings, or all ratings are equal.
     """
     pairable = [given for given in ratings.values() if len(given) > 1]
     values = sorted({value for given in pairable for value in given})

@@ -1,4 +1,4 @@
-"""Results as tables of texts, in a language: for the terminal, for Markdown and for CSV."""
+"""Results as tables of texts in a language, for the terminal, Markdown and CSV."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from app.evaluation.results import EvaluationResults, Question
 from app.messages import WORDINGS, text
 
 NONE = "-"
-"""Sign in an empty cell."""
+"""Text of an empty cell."""
 QUESTION: Final = ("presentation", "aspect", "scale")
-"""Columns that say what was asked."""
+"""Columns that describe the question."""
 
 
 class ResultTable(msgspec.Struct, frozen=True):
@@ -28,17 +28,17 @@ class ResultTable(msgspec.Struct, frozen=True):
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     names: int
-    """Number of columns from the left that hold names; the others hold numbers."""
+    """Number of columns with names at the left; the others contain numbers."""
 
 
 def tables(results: EvaluationResults, measures: Sequence[VariantMeasures], language: str) -> list[ResultTable]:
-    """All tables of an evaluation; that of the measures only where measures were taken."""
+    """Return all tables of an evaluation; the measures only if there are any."""
     found = [_scores(results, language), _contrasts(results, language), _agreements(results, language)]
     return [*found, *([measures_table(measures, language)] if measures else [])]
 
 
 def variant_name(variant: Variant, language: str) -> str:
-    """Name of a variant."""
+    """Return the name of a variant."""
     return text(Message(f"results.variant_{variant}"), language)
 
 
@@ -111,7 +111,7 @@ def _agreements(results: EvaluationResults, language: str) -> ResultTable:
 
 
 def measures_table(measures: Sequence[VariantMeasures], language: str) -> ResultTable:
-    """Table of the measures, a row for every player of every variant."""
+    """Return the table of measures with a row for every player of every variant."""
     rows = []
     for variant in measures:
         for player in variant.players:

@@ -1,4 +1,4 @@
-"""The performances that are compared: ours, ours without its acting, and ours with late fingers as a control."""
+"""The generated performances for comparison: normal, without acting, and with late fingers as a control."""
 
 from __future__ import annotations
 
@@ -15,18 +15,19 @@ from app.project.model import Project
 from app.project.performers import Player
 
 LATE_S: Final = 0.2
-"""Delay of the fingers in the control: beyond what anyone takes for synchronous (ITU-R BT.1359: 45 ms early, 125 ms
-late)."""
+"""Delay of the fingers in the control in seconds, noticeable to every viewer (ITU-R BT.1359: 45 ms early, 125 ms
+late).
+"""
 OURS: Final[tuple[Variant, ...]] = ("generated", "still", "shifted")
-"""Variants that are drawn from a project."""
+"""Variants that are generated from a project."""
 
 
 class LateFingers(Performance):
-    """A performance whose valves, slides and keys come too late; arms and fingers go with them, all else keeps time."""
+    """A performance with late valves, slides and keys; arms and fingers are late too, everything else is in time."""
 
     @cached_property
     def plans(self) -> dict[str, PlayerPlan]:
-        """Every player's plan by player id."""
+        """Return every player's plan by player id."""
         return {player_id: _late(plan) for player_id, plan in super().plans.items()}
 
     def plan(self, player: Player) -> PlayerPlan:
@@ -35,7 +36,7 @@ class LateFingers(Performance):
 
 
 def performance_of(project: Project, variant: Variant) -> Performance:
-    """A project as a variant of ours performs it."""
+    """Return a project's performance in a generated variant."""
     if variant == "still":
         return Performance(_without_acting(project))
     return (LateFingers if variant == "shifted" else Performance)(project)

@@ -1,4 +1,4 @@
-"""Viewers' files with the key and the measures that belong to them, found beside them and tabulated."""
+"""Viewers' files, tabulated with the key and measures found beside them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from app.evaluation.results import EvaluationResults, tabulate
 
 @dataclass(frozen=True)
 class Gathered:
-    """Answers of viewers with the measures made without them, and the key of the clips."""
+    """Tabulated answers of viewers with the measures, and the key of the clips."""
 
     results: EvaluationResults
     measures: tuple[VariantMeasures, ...]
@@ -24,19 +24,19 @@ class Gathered:
 
 
 def gather(files: Sequence[Path], key_file: Path | None = None) -> Gathered:
-    """Read and tabulate.
+    """Read and tabulate viewers' files.
 
     Parameters
     ----------
     files : sequence of Path
-        One for each viewer; at least one.
+        Files, one for each viewer; at least one.
     key_file : Path, optional
-        The one beside the first file, or in the folder above, where None.
+        File of the key; None for the file beside the first viewer's file or in the folder above.
 
     Raises
     ------
     AppError
-        Those of `app.evaluation.answers`, `results`, `key` and `measures`; ``results.no_key`` (file, name).
+        No key was found, or a file is invalid or belongs to another evaluation.
     """
     answers = [read_answers(path) for path in files]
     key_file = key_file or _key_of(files[0])
