@@ -7,10 +7,11 @@ A finger whose skin hangs on the hand (a mitten) has its places on that skin, wh
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from app.arrays import FloatArray, IndexArray
+from app.arrays import BoolArray, FloatArray, IndexArray
 from app.rig.ik import Side
 from app.rig.mesh import Mesh
 from app.rig.model import Character, Landmark, Skeleton
@@ -38,6 +39,13 @@ LEAST_WEIGHTS = (0.5, 0.25)
 EYES_M, HEAD_M = 0.06, 0.217
 """Sizes of the heads whose lips the lengths here were chosen for: between the eyes, and the height of their skin."""
 STEPS = 40
+BREAK = 0.2
+"""A profile that goes back for more than this share of its height is broken there: below is no face."""
+CHIN_SHARE = 0.15
+"""Lowest part of a face, up to the eyes, which is the chin."""
+NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, 0.6, 0.4
+"""A nose stands out from the chin by so much of that height, and ends where so much of it is lost, not farther below
+its tip than so much: a face that is round altogether has none."""
 MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
 """From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
 
@@ -284,18 +292,72 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     forward = at[:, 2] > foremost_m - 0.65 * (foremost_m - middle_m)
     if not forward.any():  # Nothing lies before the middle: it is no face.
         return {}
-    chin_m = float(at[forward, 1].min())
+    forward &= at[:, 1] >= _lowest_of_face_m(at, forward, float(head.place[1]))
+    front, at = front[forward], at[forward]
+    chin_m = float(at[:, 1].min())
     # Eyes are half way up a head, wherever it has none.
     top_m = float(skin.positions[_own(skin, head.joints, 0.5), 1].max())
     eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
-    requested_m = _notch_m(at[forward], eyes_m, chin_m)
-    nearest = front[np.argsort(np.abs(at[:, 1] - requested_m), kind="stable")[:LIP_VERTICES]]
-    depth_m = float(skin.positions[nearest, 2].max())
-    contact = nearest[skin.positions[nearest, 2] > depth_m - PATCH_M * head.size]
+    requested_m = _notch_m(at, eyes_m, chin_m)
+    base_m = _nose_base_m(at, eyes_m, chin_m)
+    if base_m is not None and base_m < requested_m:
+        requested_m = base_m - (base_m - chin_m) / 3.0
+    contact = front[_at_height(at, requested_m, PATCH_M * head.size)]
     heights = skin.positions[contact, 1]
     upper, lower = contact[heights >= np.median(heights)], contact[heights <= np.median(heights)]
     found = {"lips.contact": contact, "lips.upper": upper, "lips.lower": lower}
     return {name: _landmark(skin, np.sort(rows)) for name, rows in found.items()}
+
+
+def _lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) -> float:
+    """Lowest height of a profile (V, 3) above which it does not go back behind its front: a collar that hangs on the
+    head, below its joint, is not its chin."""
+    heights = np.unique(profile[forward, 1])[::-1]
+    for above_m, below_m in pairwise(heights):
+        between = ~forward & (profile[:, 1] < above_m) & (profile[:, 1] > below_m)
+        if below_m < joint_m and above_m - below_m > BREAK * (heights[0] - heights[-1]) and between.any():
+            return float(above_m)
+    return float(heights[-1])
+
+
+def _nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | None:
+    """Height of a profile (V, 3) at which its nose ends; None where no nose stands out."""
+    high, deep, long_m = profile[:, 1], profile[:, 2], eyes_m - chin_m
+    of_chin_m = chin_m + CHIN_SHARE * long_m
+    middle = np.flatnonzero((high > of_chin_m) & (high < eyes_m))
+    if not len(middle):
+        return None
+    tip = middle[np.argmax(deep[middle])]
+    out_m = float(deep[tip] - deep[high <= of_chin_m].max())
+    end_m = float(deep[tip] - NOSE_BASE * out_m)
+    below = np.flatnonzero((high < high[tip]) & (deep < end_m))
+    if out_m < NOSE_OUT * long_m or not len(below):
+        return None
+    first = below[np.argmax(high[below])]
+    if float(high[tip] - high[first]) > NOSE_LONG * long_m:
+        return None
+    if high[first] > of_chin_m:
+        return float(high[first])
+    # No vertex between nose and chin: the way there is straight.
+    above = np.flatnonzero((high > high[first]) & (high <= high[tip]))
+    last = above[np.argmin(high[above])]
+    share = (deep[last] - end_m) / max(float(deep[last] - deep[first]), 1e-9)
+    return float(high[last] + min(max(share, 0.0), 1.0) * (high[first] - high[last]))
+
+
+def _at_height(profile: FloatArray, height_m: float, patch_m: float) -> IndexArray:
+    """The vertices of a profile (V, 3) whose middle is at a height; of a face of few vertices the next ones above and
+    below it, where these are nearer together than either: the next ones of all are the tip of a nose."""
+    off_m = np.abs(profile[:, 1] - height_m)
+    if float(off_m.min()) > patch_m:
+        over, under = profile[:, 1] >= height_m, profile[:, 1] < height_m
+        sets = [np.flatnonzero(side & (off_m <= off_m[side].min() + patch_m)) for side in (over, under) if side.any()]
+        found = [*sets, *([np.concatenate(sets)] if len(sets) > 1 else [])]
+        return min(found, key=lambda rows: abs(float(np.unique(profile[rows, 1].round(4)).mean()) - height_m))
+    nearest = np.argsort(off_m, kind="stable")[:LIP_VERTICES]
+    nearest = nearest[off_m[nearest] <= off_m.min() + patch_m]
+    foremost: IndexArray = nearest[profile[nearest, 2] > profile[nearest, 2].max() - patch_m]
+    return foremost
 
 
 def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:

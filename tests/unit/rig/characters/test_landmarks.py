@@ -1,5 +1,6 @@
 """Landmarks found by geometry lie where our own characters' named ones are."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -11,7 +12,7 @@ from app.rig.characters.landmarks import found_landmarks
 from app.rig.characters.t_pose import heaviest
 from app.rig.figure import Figure
 from app.rig.model import Character
-from app.rig.skeleton import JointTransforms, forward
+from app.rig.skeleton import JointTransforms, forward, rest_positions
 from app.rig.skinning import landmark_positions, mesh_named, patch, skin_matrices
 
 TOLERANCE_M = {"thumb": 0.008, "pad": 0.006, "side": 0.006, "palm": 0.006, "lips": 0.008, "sole": 0.03}
@@ -42,6 +43,45 @@ def test_what_is_found_lies_on_what_is_named(id: str) -> None:
     pads = [name for name in names if name.endswith(".pad") and "thumb" not in name]
     alike = [float(normal(bare, name, still) @ normal(named, name, still)) for name in pads]
     assert np.degrees(np.arccos(np.clip(alike, -1.0, 1.0))).max() < 35.0
+
+
+NOSE = ((0.20, 0.07), (0.11, 0.10), (0.09, 0.095), (0.06, 0.12), (0.05, 0.122), (0.018, 0.095), (-0.012, 0.09))
+"""Profile of a head of few vertices, above and before its joint: forehead, brow, nose, its base, chin."""
+BALL = tuple((0.22 * float(np.cos(turn)) + 0.1, 0.22 * float(np.sin(turn))) for turn in np.linspace(0.1, 3.0, 20))
+COLLAR = ((0.03, -0.04), (-0.09, 0.11), (-0.10, 0.11))
+
+
+@pytest.mark.parametrize(
+    ("profile", "lips"),
+    [(NOSE, (-0.012, 0.018)), (BALL, (-0.06, 0.05)), ((*BALL[:13], *COLLAR), (0.0, 0.15))],
+    ids=["nose", "ball", "collar"],
+)
+def test_a_still_face_of_few_vertices_has_its_mouth_below_the_nose(
+    profile: tuple[tuple[float, float], ...], lips: tuple[float, float]
+) -> None:
+    """No vertex is where the lips are: not the tip of the nose, which is the next one, nor a collar is taken."""
+    body = character_named("woman_adult")
+    head = body.skeleton.index("head")
+    place = rest_positions(body.skeleton)[head]
+    points = np.array([(0.0, up, ahead) for up, ahead in profile] + [(side, 0.1, -0.1) for side in (-0.08, 0.08)] * 4)
+    count = len(points)
+    mesh = replace(
+        body.meshes[0],
+        name="head",
+        positions_m=(place + points).astype(np.float32),
+        normals=np.tile(np.float32([0.0, 0.0, 1.0]), (count, 1)),
+        uvs=np.zeros((count, 2), np.float32),
+        triangles=np.array([[0, 1, 2]], np.int32),
+        triangle_materials=np.zeros(1, np.int32),
+        joints=np.full((count, 1), head, np.int32),
+        weights=np.ones((count, 1), np.float32),
+        morphs=(),
+    )
+    still = np.tile(np.eye(4), (len(body.skeleton.names), 1, 1))
+    still[:, :3, 3] = -rest_positions(body.skeleton)
+    found = found_landmarks(body.skeleton, still, (mesh,))
+    height_m = float(points[found["lips.contact"].vertices, 1].mean())
+    assert lips[0] < height_m < lips[1]
 
 
 def test_a_vertex_is_held_by_the_bone_with_most_of_its_weight() -> None:
