@@ -1,1 +1,1 @@
-"""Skeletons, quaternions, FK, IK, characters, instrument models, skinning."""
+"""Skeletons, quaternions, forward and inverse kinematics, characters, instrument models, skinning."""

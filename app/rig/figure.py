@@ -1,7 +1,7 @@
-"""A figure as its own file has it: bones under their own names, the rest pose they were built in, meshes, morphs.
+"""A figure as stored in its file: named bones, rest pose, meshes, morphs.
 
-A `Figure` becomes a `Character` when its bones are known as joints (`app.rig.characters.joint_mapping`); the character
-remembers by `OwnSkeleton` where its joints came from, so that a motion can be given back to the very bones of the file.
+A `Figure` becomes a `Character` when its joints are identified (`app.rig.characters.joint_mapping`). The character
+keeps the origin of its joints in an `OwnSkeleton`, so that motion can be transferred back to the file's bones.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from app.errors import FileError, Message
 from app.rig.mesh import Mesh
 
 Origin: TypeAlias = Literal["vrm0", "vrm1", "gltf", "fbx", "bvh"]
-"""Kind of file that a figure came from."""
+"""Kind of file that a figure was read from."""
 MOST_LISTED: Final = 100
-"""Bones or meshes that the error of an unknown one lists."""
+"""Number of bones or meshes listed in the error about an unknown name."""
 
 
 @dataclass(frozen=True, eq=False)
 class Figure:
-    """Bones and meshes at rest, in metres, Y up, facing +Z; scales of bones are multiplied out.
+    """Bones and meshes at rest, in metres, Y up, facing +Z; without scales.
 
     Attributes
     ----------
@@ -31,21 +31,21 @@ class Figure:
     bone_names : tuple of str
         As in the file, each once.
     parents : tuple of int
-        A parent before its children; -1: a root.
+        Parents, each before its children; -1 for a root.
     translations_m : (B, 3) float64
     rotations : (B, 4) float64
         ``parent_from_bone`` at rest.
     meshes : tuple of Mesh
-        Vertices where they are in the world at rest; `Mesh.joints` are indices of bones.
+        Meshes with vertices in the world at rest; `Mesh.joints` are indices of bones.
     humanoid : mapping of str to int
-        Bones whose VRM 1.0 joint the file itself says; empty where it says nothing.
+        Bone of each VRM 1.0 joint, if the file contains this; otherwise empty.
     expressions : mapping of str to mapping of str to float
-        What the file's own expressions (VRM presets, by their VRM 1.0 names) are: weights 0..1 of its morphs.
+        Weights 0..1 of morphs in the file's expressions (VRM presets under VRM 1.0 names).
     notes : tuple of Message
-        What the reader had to guess.
+        Notes about guesses of the reader.
     posed : (B, 4) float64 or None
-        ``parent_from_bone`` as the nodes of a VRM file stand, which is its T-pose: others than `rotations` where the
-        skin was bound in another pose. None of other files.
+        ``parent_from_bone`` of the nodes in a VRM file, which are in T-pose; differs from `rotations` if the skin was
+        bound in another pose. None for other files.
     """
 
     file: str
@@ -61,12 +61,12 @@ class Figure:
     posed: FloatArray | None = None
 
     def without(self, hidden: Collection[str]) -> Figure:
-        """The figure without some of its meshes, by name.
+        """Return the figure without some meshes, given by name.
 
         Raises
         ------
         FileError
-            ``figure.no_mesh`` where it has none of a name; ``figure.all_hidden`` where none is left.
+            A mesh is unknown, or no mesh would remain.
         """
         if not hidden:
             return self
@@ -92,17 +92,15 @@ class OwnSkeleton:
     Attributes
     ----------
     bone_of_joint : tuple of int
-        By joint of the character's skeleton: the bone of the figure, or -1 for a joint that the file lacks and that
-        was supplied (a finger of a mitten, our root).
+        Bone of the figure for each joint of the skeleton; -1 for an added joint (a mitten's finger, the root).
     joint_from_bone : (J, 4) float64
         In the T-pose, as a rotation: ``world_from_bone = world_from_joint * joint_from_bone`` in every pose.
     t_pose : (B, 4) float64
-        ``parent_from_bone`` of the figure's bones in the T-pose; bones that are no joint keep their rest rotation.
+        ``parent_from_bone`` of the figure's bones in T-pose; bones that are no joints keep their rest rotation.
     morphs : mapping of str to mapping of str to float
-        By ARKit name: weights of the figure's morphs that make it.
+        Weights of the figure's morphs by ARKit shape.
     beside : mapping of int to int
-        Joint by bone: further bones of a joint that has several, as a hand of which each finger has a bone from the
-        wrist on.
+        Joint by bone for additional bones of a joint, as in a hand with a bone for each finger from the wrist on.
     """
 
     figure: Figure

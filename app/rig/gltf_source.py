@@ -1,4 +1,4 @@
-"""Source of characters and instruments: a glTF file's nodes at rest and its meshes, joined by material."""
+"""Reading of nodes at rest and meshes (joined by material) from a glTF file, for characters and instruments."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from app.rig import quaternion
 from app.rig.mesh import Mesh, Morph
 
 OURS: Final = "Suisou build_characters"
-"""The generator of our own characters. A changed file names another program, and its vertices differ."""
+"""Generator name in bundled characters. A modified file contains another name and other vertices."""
 PLAIN: Final = Material("default", (1.0, 1.0, 1.0, 1.0), 0.0, 1.0)
-"""Material of surfaces without one."""
+"""Material of surfaces without a material."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class GltfSource:
 
     @cached_property
     def materials(self) -> tuple[Material, ...]:
-        """The file's materials, with those of their textures that can be read."""
+        """Return the file's materials with their readable textures."""
         return scene_materials(self.gltf, own=self.gltf.generator == OURS)
 
 
@@ -53,14 +53,14 @@ def read_source(path: Path, *, animated: bool = False) -> GltfSource:
 
 
 def invalid(path: Path | str, detail: str) -> FileError:
-    """Return the error of a file whose content will not do."""
+    """Return the error for a file with unsuitable content."""
     return FileError("model.invalid", file=str(path), detail=detail)
 
 
 def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
-    """Build one mesh of a file, its primitives joined; the second value says whether it is skinned.
+    """Build a mesh of a file from its primitives; the second result is whether it is skinned.
 
-    Primitives that share their vertices stay shared, so that indices of the file's vertices remain valid.
+    Shared vertices of primitives stay shared, so that vertex indices of the file remain valid.
     """
     primitives = source.gltf.meshes[index].primitives
     blocks: list[tuple[int, GltfPrimitive]] = []
@@ -113,7 +113,7 @@ def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
 
 
 def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], weights: SingleArray) -> Mesh:
-    """Return a mesh with its vertices taken through a matrix and its skinning replaced."""
+    """Return a mesh with transformed vertices and other skinning."""
     values = {field: getattr(mesh, field) for field in Mesh.__dataclass_fields__}
     values.update(joints=joints, weights=weights)
     if np.abs(change - np.eye(4)).max() > 1e-9:
@@ -132,7 +132,7 @@ def moved_mesh(mesh: Mesh, change: FloatArray, joints: npt.NDArray[np.int32], we
 
 
 def _digest(primitive: GltfPrimitive) -> bytes:
-    """A digest that only primitives with the same vertices share."""
+    """Return a digest that is equal for primitives with the same vertices."""
     digest = hashlib.blake2b(str(primitive.joint_indices.shape).encode(), digest_size=16)
     digest.update(primitive.positions.tobytes())
     digest.update(primitive.joint_indices.tobytes())

@@ -1,7 +1,7 @@
-"""Two-bone inverse kinematics of arms and legs, analytic and vectorised over frames.
+"""Analytic two-bone inverse kinematics of arms and legs, vectorised over frames.
 
 A limb is an upper bone, a lower bone and an end (hand or foot). Bones never stretch: a target out of reach is
-approached, and the last per cent of the limb's length is approached softly, so that the middle joint does not pop.
+approached, with the last per cent of the limb's length softened so that the middle joint does not jump.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from app.rig.model import Skeleton
 Side = Literal["left", "right"]
 
 SOFT_SHARE = 0.01
-"""Part of the limb's length within which full extension is approached exponentially."""
+"""Share of the limb's length within which full extension is approached exponentially."""
 
 TWIST_SHARE = 0.5
-"""Part of the hand's turn about the forearm that the forearm takes: half, so that neither wrist nor elbow wrings."""
+"""Share of the hand's twist that the forearm takes, so that neither wrist nor elbow is twisted too far."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +36,9 @@ class Limb:
     upper_vector_m, lower_vector_m : (3,) float64
         From each joint to the next at rest.
     hinge_axis : (3,) float64
-        Unit axis at rest about which a positive turn of the lower bone bends the limb.
+        Unit axis at rest about which a positive rotation of the lower bone bends the limb.
     twist_share : float
-        Part of the end's twist about the lower bone that the lower bone takes (the forearm's pronation).
+        Share of the end's twist about the lower bone that the lower bone takes (the forearm's pronation).
     """
 
     upper: int
@@ -66,14 +66,15 @@ class Limb:
 
     @cached_property
     def rest_frames(self) -> tuple[FloatArray, FloatArray]:
-        """For each bone, the rotation (4,) from the world to its direction and hinge at rest."""
+        """Return the rotation (4,) from the world to each bone's direction and hinge at rest."""
         upper = _rest_frame(self.upper_vector_m / self.upper_m, self.hinge_axis)
         return upper, _rest_frame(self.lower_vector_m / self.lower_m, self.hinge_axis)
 
 
 @dataclass(frozen=True)
 class LimbPose:
-    """Rotations of a limb: all ``parent_from_joint`` (F, 4), and how far the end stays from its target (F,).
+    """Rotations of a limb: ``parent_from_joint`` (F, 4) of each joint, and the distance of the end from its target
+    (F,).
 
     ``bones`` are the world rotations (F, 4) of upper and lower bone before the lower one takes its share of the twist.
     """
@@ -108,7 +109,7 @@ def solve_limb(
     target_rotation: FloatArray,
     pole: FloatArray,
 ) -> LimbPose:
-    """Bring the end of a limb to a target.
+    """Return the pose of a limb whose end is at a target.
 
     Parameters
     ----------
@@ -119,8 +120,7 @@ def solve_limb(
     target_m, target_rotation : (F, 3) and (F, 4) float64
         Target world transform of the end joint.
     pole : (F, 3) or (3,) float64
-        World direction in which the middle joint points off the line from root to target; need not be a unit vector
-        nor orthogonal.
+        World direction of the middle joint from the line of root and target; need not be a unit vector or orthogonal.
     """
     a, b = limb.upper_m, limb.lower_m
     line = target_m - root_m
@@ -145,13 +145,13 @@ def solve_limb(
 def swivelled(
     limb: Limb, pose: LimbPose, turn: FloatArray, parent_rotation: FloatArray, target_rotation: FloatArray
 ) -> LimbPose:
-    """The limb turned in the world (F, 4) about the line from its root to its target: the end stays as it is."""
+    """Return the limb rotated (F, 4) in the world about the line from its root to its target; the end is unchanged."""
     upper_world, lower_world = (quaternion.multiply(turn, bone) for bone in pose.bones)
     return _posed(limb, (upper_world, lower_world), parent_rotation, target_rotation, pose.miss_m)
 
 
 def end_of(limb: Limb, lower_world: FloatArray, target_rotation: FloatArray) -> FloatArray:
-    """``parent_from_joint`` (F, 4) of the end, for a lower bone that has not taken its share of the twist yet."""
+    """Return ``parent_from_joint`` (F, 4) of the end for a lower bone without its share of the twist."""
     twisted = _with_twist(limb, lower_world, target_rotation)
     return quaternion.multiply(quaternion.conjugate(twisted), target_rotation)
 
@@ -190,7 +190,7 @@ def _soft_limit(distance: FloatArray, longest: float, shortest: float) -> FloatA
 
 
 def _rest_frame(rest: FloatArray, hinge: FloatArray) -> FloatArray:
-    """Rotation (4,) that takes a bone's direction at rest, and its hinge as far as it is square to it, to the axes."""
+    """Return the rotation (4,) from a bone's direction at rest, and the orthogonal part of its hinge, to the axes."""
     hinge = hinge - rest * float(rest @ hinge)
     return quaternion.conjugate(quaternion.from_frames(rest, hinge / np.linalg.norm(hinge)))
 

@@ -1,4 +1,4 @@
-"""Loading instrument models, and where their moving parts are for given values of the controls."""
+"""Loading of instrument models, and transforms of their moving parts for values of the controls."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from instrument_maps.model import ROOT, ControlMotion, InstrumentMap, MovingPart
 def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentModel:
     """Load an instrument's model.
 
-    The node that the map calls root gives the frame; nodes that the map's controls move follow, in its order. Every
-    other node is part of the nearest of these above it.
+    The node that the map names as root gives the frame; nodes that the map's controls move follow in its order. Every
+    other node belongs to its nearest ancestor among these.
 
     Raises
     ------
     FileError
-        The file cannot be read, or lacks a node the map names.
+        The file cannot be read, or lacks a node of the map.
     """
     source = read_source(path)
     try:
@@ -62,14 +62,14 @@ def load_instrument(path: Path, instrument_map: InstrumentMap) -> InstrumentMode
 
 
 def part_values(part: MovingPart, controls: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-    """Return how far a part goes, (F,) of 0..1, for values of the controls by name; an absent control is at 0."""
+    """Return the position (F,) of a part, 0..1, for values of the controls by name; missing controls are at 0."""
     values = [np.asarray(controls.get(name, np.zeros(frames)), dtype=np.float64) for name in part.controls]
     together: FloatArray = (np.minimum if part.when == "all" else np.maximum).reduce(values)
     return together
 
 
 def part_transform(motion: ControlMotion, values: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Transform of a part, in the root's frame.
+    """Return the transform of a part in the root's frame.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def part_transform(motion: ControlMotion, values: npt.ArrayLike) -> tuple[FloatA
     Returns
     -------
     translations_m, rotations : (F, 3) and (F, 4) float64
-        A point p of the node at rest goes to ``rotate(rotation, p) + translation``.
+        A point p of the node at rest moves to ``rotate(rotation, p) + translation``.
     """
     values = np.asarray(values, dtype=np.float64)
     axis = np.asarray(motion.axis, dtype=np.float64)
@@ -94,12 +94,12 @@ def part_transform(motion: ControlMotion, values: npt.ArrayLike) -> tuple[FloatA
 def node_transforms(
     model: InstrumentModel, instrument_map: InstrumentMap, controls: Mapping[str, AnyFloatArray], frames: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Transforms of a model's nodes in the instrument's frame.
+    """Return the transforms of a model's nodes in the instrument's frame.
 
     Parameters
     ----------
     controls : dict of str to (F,)
-        Values 0..1; a control that is absent is at 0.
+        Values 0..1 by control; missing controls are at 0.
 
     Returns
     -------

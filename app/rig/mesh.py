@@ -1,4 +1,4 @@
-"""Meshes and their morph targets as values, of characters, figures and instruments alike."""
+"""Meshes and morph targets as values, for characters, figures and instruments."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Characters and instrument models as values: skeleton, skinned meshes, morph targets, landmarks, moving nodes.
 
-Every skeleton is *normalised*: in the rest (T-)pose all joint frames are parallel to the world, so a joint's local
-rotation is the identity there. The bind pose of the skin may be another pose (see `Character.joint_from_mesh`).
-Values that hold arrays compare and hash by identity, so that caches can be keyed by them.
+Every skeleton is *normalised*: in the rest pose (T-pose) all joint frames are parallel to the world, so that local
+rotations are the identity. The bind pose of the skin may be another pose (see `Character.joint_from_mesh`). Values with
+arrays compare and hash by identity, so that they can be keys of caches.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from app.rig.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """Joints in topological order (a parent before its children); joint 0 is the only root.
+    """Joints in topological order (parents before children); joint 0 is the only root.
 
     Attributes
     ----------
@@ -28,7 +28,7 @@ class Skeleton:
     parents : tuple of int
         Index of the parent, -1 for the root.
     offsets_m : (J, 3) float64
-        Translation of each joint in its parent's frame at rest, metres.
+        Offset of each joint in its parent's frame at rest, metres.
     """
 
     names: tuple[str, ...]
@@ -36,7 +36,7 @@ class Skeleton:
     offsets_m: FloatArray
 
     def index(self, name: str) -> int:
-        """Index of a joint; KeyError where there is none."""
+        """Return the index of a joint; KeyError if there is none."""
         try:
             return self.names.index(name)
         except ValueError:
@@ -60,9 +60,9 @@ class Character:
     joint_from_mesh : (J, 4, 4) float64
         Inverse bind matrices; skinning is ``world_from_joint @ joint_from_mesh @ position``.
     own : OwnSkeleton or None
-        The skeleton of the file it came from; None: the file's skeleton is this one.
+        Skeleton of the character's file; None if it is this skeleton.
     hands_of : Character or None
-        The character whose hands these are, to the vertex; None: they are its own.
+        Character with identical hands, down to the vertices; None if the hands are unique.
     """
 
     id: str

@@ -1,4 +1,4 @@
-"""Motion of other programs: the reader that a file's content asks for."""
+"""Reading of motion files of other programs by the format of their content."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from app.formats.bvh.read import read_bvh
 from app.formats.files import open_file
 
 SUFFIXES: Final = (".bvh", ".fbx", ".glb", ".gltf", ".vrma")
-"""Endings of files of motion; the content decides how they are read."""
+"""Suffixes of motion files; the content determines the format."""
 _HEAD_BYTES: Final = 4096
 
 
 def read_motion_file(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
-    """Read the motion of a BVH, FBX or glTF file (.glb, .gltf, .vrma), whatever it is called.
+    """Read the motion of a BVH, FBX or glTF file (.glb, .gltf, .vrma) with any suffix.
 
     Parameters
     ----------
     figure : str
-        Root of the skeleton to read where a BVH file has several; empty: the first.
+        Root of the skeleton to read from a BVH file with several; empty for the first.
 
     Raises
     ------
     FileError
-        ``motion.format`` if it is none of these; those of the readers.
+        The file has none of these formats, or cannot be read.
     """
     with open_file(path) as stream:
         head = stream.read(_HEAD_BYTES)
@@ -45,7 +45,7 @@ def read_motion_file(path: str | os.PathLike[str], figure: str = "") -> BvhClip:
 
 
 def _kind(head: bytes) -> str:
-    """Return the suffix that a file with this beginning should have, empty where the beginning does not show it."""
+    """Return the suffix for a file with this beginning; empty if unknown."""
     text = head.decode("utf-16" if head[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", "replace").lstrip()
     if text[:9].upper() == "HIERARCHY":
         return ".bvh"

@@ -1,8 +1,8 @@
-"""Animations of FBX and glTF files, as `app.choreography.read_motion` has those of BVH files.
+"""Animations of FBX and glTF files in the form of BVH files for `app.choreography.read_motion`.
 
-Nodes have turns of their own at rest, and scales; joints of BVH files have neither. So each node becomes a joint that
-turns as the node turns away from its rest, below one root for all. At rest it is where its skin was bound, or where the
-file has it without animation. The longest animation counts.
+Nodes have rest rotations and scales, which joints of BVH files lack. So each node becomes a joint with the node's
+rotation relative to its rest, below a common root. The rest is the bind pose of its skin, or the file's pose without
+animation. The longest animation is read.
 """
 
 from __future__ import annotations
@@ -31,7 +31,9 @@ from app.rig.gltf_source import read_source
 
 MOST_FPS: Final = 240.0
 LEAST_BAKED_FPS: Final = 20.0
-"""Keys that are farther apart were set by hand: what is between them is sampled at `OTHERWISE_FPS`."""
+"""Rate in frames per second below which keys are considered to be set by hand, and the curves between them are sampled
+at `OTHERWISE_FPS`.
+"""
 OTHERWISE_FPS: Final = Fraction(60)
 ROOT: Final = "file"
 VRM_ANIMATION: Final = "VRMC_vrm_animation"
@@ -44,9 +46,9 @@ class _Nodes:
     Attributes
     ----------
     names, parents
-        In any order; -1: none.
+        Parents in any order; -1 for none.
     other : collection of int
-        Nodes that are no bones, unless bones hang from them: meshes, cameras, lights.
+        Nodes that are not bones unless bones are below them: meshes, cameras, lights.
     rest : (N, 4, 4) float64
         World transforms.
     translations_m, rotations, scales : (F, N, 3), (F, N, 4), (F, N, 3) float64
@@ -111,7 +113,7 @@ def read_gltf_motion(path: Path) -> BvhClip:
 
 
 def _vrm_animation(gltf: GltfModel) -> tuple[dict[int, str], set[int]]:
-    """Humanoid bones by node, and the nodes that stand for expressions and the gaze, of a VRM animation."""
+    """Return humanoid bones by node, and the nodes for expressions and gaze, in a VRM animation."""
     extension = field(gltf.extensions, VRM_ANIMATION)
     kinds = field(extension, "expressions")
     faces = [one for kind in ("preset", "custom") for one in _members(field(kinds, kind)).values()]
@@ -125,7 +127,7 @@ def _members(value: object) -> dict[str, Any]:
 
 
 def _node(gltf: GltfModel, owner: object) -> tuple[int, ...]:
-    """The node that an object of the extension names, if it is there."""
+    """Return the node that an object of the extension refers to, if it exists."""
     node = field(owner, "node")
     return (node,) if isinstance(node, int) and 0 <= node < len(gltf.nodes) else ()
 
@@ -138,7 +140,7 @@ def _length_s(animation: GltfAnimation) -> float:
 
 
 def _usual_fps(animation: GltfAnimation) -> Fraction:
-    """The rate that the densest keys are at, where they are baked; glTF has none of its own."""
+    """Return the frame rate of the densest keys, if these are baked, since glTF stores no rate."""
     keys = max((channel.times_s for channel in animation.channels), key=len)
     # Times are float32 seconds: steps of long animations are coarse.
     fps = float((len(keys) - 1) / (keys[-1] - keys[0]))
@@ -146,7 +148,9 @@ def _usual_fps(animation: GltfAnimation) -> Fraction:
 
 
 def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> list[FloatArray]:
-    """Translations, rotations and scales (F, N, W) of all nodes; what is not animated is as the file has it."""
+    """Return translations, rotations and scales (F, N, W) of all nodes, with the file's values for those without
+    animation.
+    """
     kept: dict[str, tuple[str, int]] = {
         "translation": ("translation", 3),
         "rotation": ("rotation_xyzw", 4),
@@ -164,7 +168,7 @@ def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> 
 
 
 def _clip(nodes: _Nodes) -> BvhClip:
-    """Joints that turn as the nodes turn away from their rest."""
+    """Return joints with the nodes' rotations relative to their rest."""
     order = _bones(nodes.parents, nodes.other)
     joint_of = {node: 1 + at for at, node in enumerate(order)}
     frames = len(nodes.rotations)
@@ -205,7 +209,7 @@ def _clip(nodes: _Nodes) -> BvhClip:
 
 
 def _bones(parents: Sequence[int], other: Collection[int]) -> list[int]:
-    """Nodes that are bones or carry bones, parents first."""
+    """Return the nodes that are bones or have bones below them, parents first."""
     children: dict[int, list[int]] = {}
     for node, parent in enumerate(parents):
         children.setdefault(parent, []).append(node)

@@ -1,8 +1,8 @@
-"""Unit quaternions ``xyzw`` (as glTF and scipy), vectorised over any leading axes.
+"""Unit quaternions ``xyzw`` (as in glTF and scipy), vectorised over leading axes.
 
-A rotation ``a_from_b`` maps coordinates in frame b to frame a; ``multiply(a_from_b, b_from_c)`` is ``a_from_c``.
-All functions broadcast their leading axes and return float64. Results of many lie in memory component after component:
-arithmetic with single components, or with a number for each of many vectors, is then several times as fast.
+A rotation ``a_from_b`` maps coordinates in frame b to frame a; ``multiply(a_from_b, b_from_c)`` is ``a_from_c``. All
+functions broadcast leading axes and return float64. Large results are stored component by component, which makes
+arithmetic with single components several times as fast.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ IDENTITY: FloatArray = np.array([0.0, 0.0, 0.0, 1.0])
 IDENTITY.setflags(write=False)
 
 _FEW = 48
-"""Up to as many quaternions, calls of NumPy cost more than arithmetic: whole rows are multiplied, not components."""
+"""Number of quaternions up to which calls of NumPy dominate, so that rows are multiplied instead of components."""
 # What component 3, 0, 1, 2 of the left factor meets in the right one, and with which sign: the same sums to the bit.
 _LEFT = np.array([[3], [0], [1], [2]])
 _RIGHT = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [2, 3, 0, 1], [1, 0, 3, 2]])
@@ -42,7 +42,7 @@ _PRODUCT = (
 
 
 def _is_one(a: npt.NDArray[Any], size: int) -> bool:
-    """Return whether `a` is a single float64 vector: plain Python is faster for it, and bit-identical."""
+    """Return whether `a` is a single float64 vector, for which plain Python is faster with equal results."""
     return a.size == size and a.dtype == np.float64
 
 
@@ -52,7 +52,7 @@ def _are_few(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
 
 
 def columns(*components: ArrayLike) -> FloatArray:
-    """Return vectors (..., n) of n components (...), which are copied one after another in memory."""
+    """Return vectors (..., n) of n components (...), copied component by component in memory."""
     result = np.empty((len(components), *np.broadcast(*components).shape))
     for index, values in enumerate(components):
         result[index] = values
@@ -60,7 +60,7 @@ def columns(*components: ArrayLike) -> FloatArray:
 
 
 def repeated(vector: ArrayLike, count: int) -> FloatArray:
-    """Return one vector (n,) as many (count, n), as `columns` lays them out."""
+    """Return one vector (n,) repeated as (count, n), in the memory layout of `columns`."""
     components = np.empty((np.shape(vector)[0], count))
     components[...] = np.asarray(vector)[:, None]
     return _together(components)
@@ -71,7 +71,9 @@ def _together(components: npt.NDArray[Any]) -> FloatArray:
 
 
 def dot(a: ArrayLike, b: ArrayLike) -> FloatArray:
-    """Return the products (...) of vectors (..., 3) or (..., 4), summed in one order wherever they lie in memory."""
+    """Return the dot products (...) of vectors (..., 3) or (..., 4), with an order of summation independent of the
+    memory layout.
+    """
     products = np.multiply(a, b)
     total: FloatArray = products[..., 0] + products[..., 2]
     total += products[..., 1] if products.shape[-1] == 3 else products[..., 1] + products[..., 3]
@@ -189,7 +191,7 @@ def to_rotation_vector(q: ArrayLike) -> FloatArray:
 
 
 def from_axis_angle(axis: ArrayLike, angle_rad: ArrayLike) -> FloatArray:
-    """Return quaternions that turn by angles (...) about unit axes (..., 3)."""
+    """Return quaternions that rotate by angles (...) in radians about unit axes (..., 3)."""
     axis, half = np.asarray(axis, dtype=np.float64), 0.5 * np.asarray(angle_rad, dtype=np.float64)
     result = _together(np.empty((4, *np.broadcast(axis[..., 0], half).shape)))
     np.multiply(axis, np.sin(half)[..., None], out=result[..., :3])
@@ -217,7 +219,7 @@ def to_matrix(q: ArrayLike) -> FloatArray:
 def from_matrix(m: ArrayLike) -> FloatArray:
     """Return quaternions (..., 4) of rotation matrices (..., 3, 3), with w >= 0.
 
-    Of the four algebraic forms the one with the largest divisor is taken (Shepperd 1978).
+    Of the four algebraic forms, the one with the largest divisor is used (Shepperd 1978).
     """
     m = np.asarray(m, dtype=np.float64)
     if m.size == 9:
@@ -226,7 +228,7 @@ def from_matrix(m: ArrayLike) -> FloatArray:
 
 
 def _from_entries(m: Sequence[FloatArray]) -> FloatArray:
-    """Quaternions of matrices by their nine entries (...), row by row."""
+    """Return quaternions of matrices given by their nine entries (...), row by row."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = m
     diagonal = (1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz, 1.0 + xx + yy + zz)
     sums, differences = (zy + yz, xz + zx, yx + xy), (zy - yz, xz - zx, yx - xy)
@@ -262,7 +264,7 @@ def _one_from_matrix(m: list[float]) -> tuple[float, ...]:
 
 
 def from_frames(x_axis: ArrayLike, y_axis: ArrayLike) -> FloatArray:
-    """Return the rotation whose columns are x, y and x cross y; x and y are unit and orthogonal, (..., 3)."""
+    """Return the rotation whose columns are x, y and x cross y; x and y must be unit and orthogonal, (..., 3)."""
     x_axis, y_axis = np.asarray(x_axis, dtype=np.float64), np.asarray(y_axis, dtype=np.float64)
     z_axis = cross(x_axis, y_axis)
     if z_axis.size == 3:
@@ -294,9 +296,9 @@ def _crossed(
 
 
 def between(a: ArrayLike, b: ArrayLike) -> FloatArray:
-    """Return the shortest rotation that takes unit vectors a to unit vectors b, (..., 3).
+    """Return the shortest rotation from unit vectors a to unit vectors b, (..., 3).
 
-    Opposite vectors are turned about some axis orthogonal to a.
+    For opposite vectors, the axis is any vector orthogonal to a.
     """
     a, b = np.broadcast_arrays(np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64))
     result = _together(np.empty((4, *a.shape[:-1])))
@@ -314,7 +316,7 @@ def between(a: ArrayLike, b: ArrayLike) -> FloatArray:
 def swing_twist(q: ArrayLike, axis: ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Split rotations (..., 4) into ``swing * twist`` with the twist about a unit axis (..., 3).
 
-    Where the rotation is half a turn about an orthogonal axis the twist is the identity.
+    For half a turn about an orthogonal axis, the twist is the identity.
     """
     q, axis = np.asarray(q, dtype=np.float64), np.asarray(axis, dtype=np.float64)
     along = dot(q[..., :3], axis)
@@ -334,13 +336,15 @@ def twist_angle(q: ArrayLike, axis: ArrayLike) -> FloatArray:
 
 
 def slerp(a: ArrayLike, b: ArrayLike, share: ArrayLike) -> FloatArray:
-    """Interpolate quaternions (..., 4) at constant angular speed, by the shorter way; ``share`` (...) is 0 at a."""
+    """Interpolate quaternions (..., 4) at constant angular speed along the shorter way; ``share`` (...) is 0 at a."""
     turn = to_rotation_vector(multiply(conjugate(a), b))
     return multiply(a, from_rotation_vector(turn * np.asarray(share, dtype=np.float64)[..., None]))
 
 
 def continuous(rotations: ArrayLike) -> FloatArray:
-    """Return the same rotations (F, J, 4) with each frame on the side of the one before."""
+    """Return the same rotations (F, J, 4) with signs chosen so that each frame is in the hemisphere of the previous
+    one.
+    """
     q = np.asarray(rotations, dtype=np.float64)
     turned = np.einsum("fji,fji->fj", q[1:], q[:-1]) < 0.0
     sides = np.concatenate([np.ones((1, q.shape[1])), np.where(turned, -1.0, 1.0)]).cumprod(axis=0)
@@ -349,7 +353,7 @@ def continuous(rotations: ArrayLike) -> FloatArray:
 
 
 MANY = 64
-"""Least number of frames for which it is worth looking for those in which nothing moves."""
+"""Number of frames from which frames without motion are searched for."""
 
 
 def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Forward kinematics of normalised skeletons, vectorised over frames, for the joints that are asked for."""
+"""Forward kinematics of normalised skeletons for requested joints, vectorised over frames."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class JointTransforms:
     rotations: FloatArray
 
     def place(self, joint: int) -> int:
-        """Return where a joint stands in the arrays; ValueError where it was not computed."""
+        """Return the index of a joint in the arrays; ValueError if it was not computed."""
         return self.joints.index(joint)
 
     def of(self, joint: int) -> tuple[FloatArray, FloatArray]:
@@ -54,7 +54,7 @@ def ancestors(skeleton: Skeleton, joint: int) -> tuple[int, ...]:
 
 
 def closure(skeleton: Skeleton, joints: Iterable[int]) -> tuple[int, ...]:
-    """Return these joints and all their ancestors, ascending."""
+    """Return joints and all their ancestors, ascending."""
     return tuple(sorted({above for joint in joints for above in ancestors(skeleton, joint)}))
 
 

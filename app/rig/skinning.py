@@ -1,4 +1,4 @@
-"""Linear blend skinning of chosen vertices, with morph targets: frames by vertices."""
+"""Linear blend skinning of selected vertices with morph targets, vectorised over frames."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from app.rig.skeleton import JointTransforms
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """Vertices prepared for deforming: linear blend skinning after the morph targets.
+    """Vertices prepared for deformation: linear blend skinning after morph targets.
 
     Attributes
     ----------
     positions_m : (V, 3) float64
         In the mesh's bind space.
     joints : (J,) int
-        Joints that carry any of the vertices.
+        Joints with weight for any of the vertices.
     weights : (V, J) float64
     joint_from_mesh : (J, 3, 4) float64
     morphs : dict of str to (V, 3) float64
-        Displacements of the morphs that move any of them.
+        Displacements of the morphs that move any of the vertices.
     """
 
     positions_m: FloatArray
@@ -39,7 +39,7 @@ class Skin:
 
     @cached_property
     def _blend(self) -> FloatArray:
-        """(4 * J, V): one matrix product skins all vertices of all frames."""
+        """Return the matrix (4 * J, V) that skins all vertices of all frames by one product."""
         homogeneous = np.concatenate([self.positions_m, np.ones((len(self.positions_m), 1))], axis=1)
         blend: FloatArray = np.einsum("vj,vi->jiv", self.weights, homogeneous).reshape(-1, len(self.positions_m))
         return blend
@@ -53,7 +53,7 @@ class Skin:
         return Skin(positions_m, self.joints[used], weights[:, used], joint_from_mesh, morphs)
 
     def deformed(self, world_from_joint: FloatArray, morphs: Mapping[str, AnyFloatArray] | None = None) -> FloatArray:
-        """Positions (F, V, 3) of the vertices, metres.
+        """Return positions (F, V, 3) of the vertices in metres.
 
         Parameters
         ----------
@@ -88,7 +88,7 @@ class Patch(Skin):
 
 
 def mesh_named(character: Character, name: str) -> Mesh:
-    """Return a mesh of a character; KeyError where there is none of this name."""
+    """Return a mesh of a character; KeyError for an unknown name."""
     for mesh in character.meshes:
         if mesh.name == name:
             return mesh
@@ -103,7 +103,7 @@ def skin_of(
     joint_from_mesh: FloatArray,
     morphs: Iterable[tuple[str, AnyIntArray, AnyFloatArray]],
 ) -> Skin:
-    """Prepare some vertices (V,) of a mesh for deforming.
+    """Prepare some vertices (V,) of a mesh for deformation.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def skin_of(
     positions_m : (N, 3)
         Of all vertices of the mesh.
     joints, weights : (V, K)
-        What carries the vertices; a joint named twice adds up.
+        Joints and weights of the vertices; weights of a repeated joint are added.
     joint_from_mesh : (J, 3 or more, 4) float64
         Of all joints.
     morphs : iterable of (name, vertices, displacements)
@@ -137,7 +137,7 @@ def skin_of(
 
 
 def patch(character: Character, mesh: Mesh, vertices: AnyIntArray) -> Patch:
-    """Prepare vertices of one of a character's meshes for `deform`."""
+    """Prepare vertices of a character's mesh for `deform`."""
     vertices = np.asarray(vertices, dtype=np.intp)
     weights = mesh.weights[vertices].astype(np.float64)
     morphs = ((morph.name, morph.vertices, morph.deltas_m) for morph in mesh.morphs)
@@ -158,8 +158,8 @@ def skin_matrices(joints: IndexArray, joint_from_mesh: FloatArray, transforms: J
 class LandmarkSet:
     """Landmarks prepared for `landmark_positions`.
 
-    The mean of linearly blended vertices is linear in the joints' matrices, so a landmark is kept as one weighted
-    homogeneous point per joint instead of its vertices.
+    The mean of linearly blended vertices is linear in the joints' matrices, so a landmark is stored as one weighted
+    homogeneous point per joint.
 
     Attributes
     ----------
@@ -178,7 +178,7 @@ class LandmarkSet:
 
 @lru_cache(maxsize=256)
 def landmark_set(character: Character, names: tuple[str, ...]) -> LandmarkSet:
-    """Prepare landmarks of a character; KeyError where one is missing. Cached by the character's identity."""
+    """Prepare landmarks of a character; KeyError if one is missing. Cached by the character's identity."""
     count = len(character.skeleton.names)
     points = np.zeros((count, 4, len(names)))
     morphs: dict[str, FloatArray] = {}
@@ -206,14 +206,14 @@ def landmark_positions(
     transforms: JointTransforms,
     morphs: Mapping[str, AnyFloatArray] | None = None,
 ) -> FloatArray:
-    """Positions of landmarks on the deformed meshes.
+    """Return positions of landmarks on the deformed meshes.
 
     Parameters
     ----------
     names : sequence of str
         L landmarks.
     transforms : JointTransforms
-        Must hold every joint that carries them (see `landmark_joints`).
+        Transforms of all joints with influence on them (see `landmark_joints`).
     morphs : dict of str to (F,), optional
         Weight curves by morph name.
 
@@ -236,5 +236,5 @@ def landmark_positions(
 
 
 def landmark_joints(character: Character, names: Sequence[str]) -> tuple[int, ...]:
-    """Joints whose transforms `landmark_positions` needs for these landmarks, ascending."""
+    """Return the joints that `landmark_positions` needs for landmarks, ascending."""
     return tuple(landmark_set(character, tuple(names)).joints.tolist())

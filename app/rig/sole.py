@@ -1,4 +1,4 @@
-"""The sole of a foot in the T-pose, by the skeleton alone."""
+"""The sole of a foot in the T-pose, determined from the skeleton only."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from app.rig.skeleton import rest_positions
 
 SIDES: Final[tuple[Side, Side]] = ("left", "right")
 TIP_PART: Final = 0.4
-"""The tip of the foot is beyond the joint of the toes by this part of the way from the ankle to the toes."""
+"""Distance of the foot's tip beyond the toes' joint relative to the distance from ankle to toes."""
 FOOT_PART: Final = 1.6
-"""Distance of the toes' joint ahead of the ankle, as a share of the ankle's height, for skeletons without one."""
+"""Distance of the toes' joint in front of the ankle relative to the ankle's height, for skeletons without it."""
 
 
 def foot_tip_m(skeleton: Skeleton, side: Side) -> FloatArray:

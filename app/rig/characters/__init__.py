@@ -1,1 +1,1 @@
-"""Characters: their files read, their bones and faces known."""
+"""Characters: reading of their files, and identification of bones and faces."""

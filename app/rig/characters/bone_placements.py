@@ -1,4 +1,4 @@
-"""Transforms of bones in the world and on their parents, each from the other."""
+"""Conversion between transforms of bones in the world and relative to their parents."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.rig import quaternion
 def world_placements(
     parents: Sequence[int], offsets_m: FloatArray, rotations: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """World positions (B, 3) and rotations (B, 4) of bones whose place on their parents is known."""
+    """Return world positions (B, 3) and rotations (B, 4) of bones from those relative to their parents."""
     positions, turned = np.array(offsets_m, np.float64), np.array(rotations, np.float64)
     for bone, parent in enumerate(parents):
         if parent >= 0:
@@ -25,7 +25,7 @@ def world_placements(
 def local_placements(
     parents: Sequence[int], positions: FloatArray, turned: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Offsets (B, 3) and rotations (B, 4) on the parents of bones whose place in the world is known."""
+    """Return offsets (B, 3) and rotations (B, 4) of bones relative to their parents from those in the world."""
     offsets, rotations = np.array(positions, np.float64), np.array(turned, np.float64)
     for bone, parent in enumerate(parents):
         if parent >= 0:

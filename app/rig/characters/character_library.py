@@ -1,8 +1,7 @@
-"""The characters the user can cast: the bundled ones and those of their own folder (see `app.formats.user_folder`).
+"""The available characters: bundled ones, and those in the user's own folder (see `app.formats.user_folder`).
 
-The user's own character is a file (VRM, glTF or FBX) and beside it ``<id>.toml``, which names the file and says what
-was corrected by hand: which bone is which joint, which morphs make a face. Or it is ``<id>.toml`` alone, with a person
-made of one of our bodies.
+A character of the user's is a file (VRM, glTF or FBX) with ``<id>.toml`` beside it, which contains the file's name and
+manual corrections of joints and face shapes. Or it is only ``<id>.toml`` with a person made from a bundled body.
 """
 
 from __future__ import annotations
@@ -39,9 +38,9 @@ from app.rig.people.person import Person, checked
 MOST_ID: Final = 60
 MOST_TITLE: Final = 200
 LEAST_M, MOST_M = PLAUSIBLE_M
-"""Heights that a character can be given."""
+"""Smallest and greatest height in metres that can be set for a character."""
 RESERVED: Final = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)", re.IGNORECASE)
-"""Names that are devices on Windows."""
+"""File names that are devices on Windows."""
 
 
 class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -50,19 +49,19 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
     Attributes
     ----------
     file : str
-        Name of the character's file, in the same folder; empty with a person.
+        Name of the character's file in the same folder; empty for a person.
     title : str
-        What the character is called; empty: by its id.
+        Display name of the character; empty for the id.
     joints : dict of str to str
-        By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
+        Bone of each corrected VRM 1.0 joint, regardless of the bone's name; empty if there is no bone.
     morphs : dict of str to dict of str to float
-        By ARKit name: weights of the file's own morphs that make it.
+        Weights of the file's morphs for each corrected ARKit shape.
     height_m : float
         Of the character; 0: as tall as in the file.
     hidden : list of str
-        Meshes of the file that are not shown.
+        Meshes of the file that are hidden.
     person : Person or None
-        Who is made of one of our bodies instead.
+        Person made from a bundled body, instead of a file.
     """
 
     file: str = ""
@@ -76,16 +75,16 @@ class CharacterEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, om
 
 @dataclass(frozen=True)
 class CharacterSource:
-    """File or library entry that a character comes from.
+    """Origin of a character: a file or an entry in the library.
 
     Attributes
     ----------
     path : Path
         The character's file.
     entry : CharacterEntry or None
-        What the user's own folder says about it; None: bundled.
+        Contents of ``<id>.toml`` in the user's folder; None for a bundled character.
     stamp : frozenset
-        The files as they were when they were read.
+        State of the files when they were read.
     """
 
     path: Path
@@ -95,16 +94,16 @@ class CharacterSource:
 
 @dataclass(frozen=True)
 class CharacterLibrary(Shelf[CharacterSource]):
-    """All characters, as they were when the folder was read."""
+    """All characters in the state of the last reading of the folder."""
 
     @property
     def sources(self) -> Mapping[str, CharacterSource]:
-        """By id: first the bundled ones, then the user's own, each in the order of the ids."""
+        """Sources by id: bundled ones, then the user's own, each sorted by id."""
         return self.items
 
     @property
     def own(self) -> Mapping[str, CharacterEntry]:
-        """The user's own characters, by id."""
+        """Entries of the user's own characters by id."""
         return {id: source.entry for id, source in self.sources.items() if source.entry is not None}
 
 
@@ -117,7 +116,7 @@ def bundled_characters() -> Mapping[str, Path]:
 
 @cache
 def our_characters() -> Mapping[str, Path]:
-    """Return all characters that come with the program: the finished bodies, then the people made from them."""
+    """Return all bundled characters: complete bodies, then people made from them."""
     return MappingProxyType({**bundled_characters(), **bundled_people()})
 
 
@@ -143,7 +142,7 @@ def _own_source(path: Path) -> Read[CharacterSource]:
 
 
 def read_entry(path: Path) -> CharacterEntry:
-    """Read the description of the user's own character. Raises FileError, MapError."""
+    """Read the description of a character of the user's. Raises FileError, MapError."""
     entry = shaped(read_toml(path), CharacterEntry, str(path))
     if entry.person is not None:
         checked(entry.person, str(path))
@@ -159,7 +158,7 @@ def read_entry(path: Path) -> CharacterEntry:
 
 
 def _is_plain(name: str) -> bool:
-    """Return whether a name can only be that of a character's file in the same folder, on every system."""
+    """Return whether a name is valid on every system for a character's file in the same folder."""
     plain = not set(name) & set('<>:"/\\|?*') and name.isprintable() and not name.startswith(".")
     return plain and name.lower().endswith(SUFFIXES)
 
@@ -169,30 +168,30 @@ FOLDER_VARIABLE: Final = LIBRARY.variable
 own_folder, begin_characters = LIBRARY.folder, LIBRARY.begin
 character_library, reload_characters = LIBRARY.now, LIBRARY.reload
 _loading = RLock()
-"""Held while a character is loaded, which may take seconds; never waited for with the library's lock."""
+"""Lock held while a character is loaded, which may take seconds; never awaited while holding the library's lock."""
 _good: dict[Path, Character] = {}
-"""The last good version of each of the user's own files."""
+"""Last valid version of each of the user's own files."""
 
 
 def characters() -> Mapping[str, Path]:
-    """Return all characters: id and file, first the bundled ones, then the user's own."""
+    """Return the id and file of all characters: bundled ones, then the user's own."""
     return {id: source.path for id, source in character_library().sources.items()}
 
 
 def character_revision(id: str) -> int:
-    """Number of times that the character of an id was replaced; caches are keyed by it too."""
+    """Return how often the character of an id was replaced; part of the keys of caches."""
     return character_library().revisions.get(id, 0)
 
 
 def character_named(id: str) -> Character:
-    """Return a character; loaded once per version of its files.
+    """Return a character, loading it once per version of its files.
 
     Raises
     ------
     UsageError
-        There is none of this id.
+        The id is unknown.
     FileError
-        The user's own file holds none, and never did since the program began.
+        The user's file contains no valid character, and has not done so since the program started.
     """
     sources = character_library().sources
     if id not in sources:
@@ -212,7 +211,9 @@ def character_named(id: str) -> Character:
 
 @cache
 def our_arm_m(id: str) -> float:
-    """Return the length of the right arm of a character of ours, upper and lower; no person is made for it."""
+    """Return the length of a bundled character's right arm (upper and lower) in metres without building the
+    character.
+    """
     if id in bundled_people():
         return person_arm_m(bundled_person(id), character_named)
     return arm_m(character_named(id).skeleton, "right")
@@ -224,7 +225,7 @@ def _opened(id: str, source: CharacterSource) -> Character:
 
 @lru_cache(maxsize=48)
 def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
-    """A character by the stamps of its files and what is said about it."""
+    """Return the character of an id, by the state of its files and its entry."""
     said = msgspec.json.decode(entry, type=CharacterEntry | None)
     if said is None:
         return person_of(id, bundled_person(id), character_named) if id in bundled_people() else load_character(path)
@@ -234,7 +235,7 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 
 def character_problems() -> Mapping[str, Message]:
-    """Problems of the user's own characters, by id; those whose file has not been opened yet are opened."""
+    """Return the problems of the user's own characters by id, opening files that have not been opened yet."""
     found = {path.stem: problems[0] for path, problems in character_library().problems.items()}
     for id, source in character_library().sources.items():
         if source.entry is not None and id not in found:
@@ -253,24 +254,24 @@ def add_character(
     height_m: float = 0.0,
     hidden: Collection[str] = (),
 ) -> str:
-    """Copy a character's file into the user's folder, with what it needs of others, and describe it there.
+    """Copy a character's file and the files it needs into the user's folder, and write its entry.
 
     Parameters
     ----------
     title : str
-        What it is called; by its file's name where empty.
+        Display name; empty for the file's name.
     joints, morphs, height_m, hidden
         Corrections, as in `CharacterEntry`.
 
     Returns
     -------
     str
-        Its id.
+        Id of the character.
 
     Raises
     ------
     FileError
-        It cannot play, or cannot be copied.
+        The figure cannot play, or cannot be copied.
     """
     title = shortened(" ".join(title.split()), MOST_TITLE) or shown(path.stem)
     load_character(path, shown(path.stem), joints or {}, morphs or {}, height_m, hidden)
@@ -310,7 +311,7 @@ def _keep_images(path: Path, folder: Path) -> None:
 
 
 def add_person(person: Person, title: str) -> str:
-    """Keep a person of the user's own, and return its id. Raises FileError, MapError."""
+    """Store a person in the user's folder, and return its id. Raises FileError, MapError."""
     title = shortened(" ".join(title.split()), MOST_TITLE)
     checked(person, title)
     folder = own_folder()
@@ -325,9 +326,9 @@ def add_person(person: Person, title: str) -> str:
 
 
 def write_entry(id: str, entry: CharacterEntry) -> None:
-    """Describe one of the user's own characters, again or for the first time, and read the folder again.
+    """Write the entry of one of the user's own characters, and read the folder again.
 
-    Raises FileError ``file.cannot_write``.
+    Raises FileError if the entry cannot be written.
     """
     table = {name: value for name, value in msgspec.to_builtins(entry).items() if value}
     with atomic_write(own_folder() / f"{id}.toml") as stream:
@@ -336,7 +337,9 @@ def write_entry(id: str, entry: CharacterEntry) -> None:
 
 
 def remove_character(id: str) -> None:
-    """Remove one of the user's own characters, and its file if no other is made of it. Raises UsageError, FileError."""
+    """Remove one of the user's own characters, and its file if no other character uses it. Raises UsageError,
+    FileError.
+    """
     sources = reload_characters().sources
     source = sources.get(id)
     if source is None or source.entry is None:
@@ -355,7 +358,7 @@ def remove_character(id: str) -> None:
 
 
 def _free_id(title: str, folder: Path) -> str:
-    """An id from a title that no character has and no file in the folder is called by."""
+    """Return an unused id derived from a title."""
     stem = re.sub(r"[^a-z0-9]+", "_", title.lower()).strip("_")[:MOST_ID].strip("_") or "character"
     if RESERVED.fullmatch(stem):
         stem = f"character_{stem}"
@@ -369,7 +372,7 @@ def _free_id(title: str, folder: Path) -> str:
 
 
 def _suffix_of(path: Path) -> str:
-    """The ending of a file that is not called as what it is."""
+    """Return the suffix that a file's content requires."""
     with open_file(path) as opened:
         start = opened.read(16)
     return ".glb" if start.startswith(b"glTF") else ".fbx" if start.startswith(b"Kaydara") else ".gltf"

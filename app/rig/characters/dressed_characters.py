@@ -1,4 +1,4 @@
-"""Characters in outfits: the people among them by what they are made of, others as they are."""
+"""Characters in outfits: people can change their clothes, other figures cannot."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.rig.people.wardrobe import OutfitChoice
 
 
 def person_behind(id: str) -> Person | None:
-    """Return the person that a character is made as; None of a figure of the user's own, and where there is none."""
+    """Return the person that a character is made from; None for other figures and unknown ids."""
     if id in bundled_characters():
         return Person(id, phenotypes()[id])
     if id in bundled_people():
@@ -23,13 +23,15 @@ def person_behind(id: str) -> Person | None:
 
 
 def character_in(id: str, choice: OutfitChoice) -> Character:
-    """Return a character in an outfit, or in its own clothes where it is no person. Raises as `character_named`."""
+    """Return a character in an outfit, or unchanged if it is not a person. Raises as `character_named`."""
     character = character_named(id)
     return _dressed(character, choice) if choice.id else character
 
 
 def dressed_as(id: str, choice: OutfitChoice) -> str:
-    """Return the id of `character_in`, which none in other clothes or colours has; nothing is made for it."""
+    """Return the id of the result of `character_in`, which is unique for the clothes and colours, without building
+    it.
+    """
     person = person_behind(id)
     return id if person is None else dressed_id(id, person, choice)
 

@@ -1,7 +1,7 @@
-"""Mapping from a foreign figure's own morphs to the 52 ARKit shapes that faces are played with.
+"""Mapping from the morphs of a figure's file to the 52 ARKit shapes used by the program.
 
-Names come from the tables in ``metadata/faces``. The table that makes most shapes leads; what it leaves out is taken
-from the others. What no table makes is missing, and is reported as such.
+Names come from tables in ``metadata/faces``. The table that produces most shapes is used, and others fill its gaps.
+Shapes in no table are reported as missing.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from metadata.model import ARKIT_MORPHS
 
 SHAPES: Final = frozenset(ARKIT_MORPHS)
 LEAST_ALIKE: Final = 2
-"""Least known names between the same affixes before these are taken for the maker's."""
+"""Least number of known names with the same prefix and suffix for these to be removed."""
 SHORTEST_AFFIXED: Final = 4
-"""Names shorter than this count only as they are."""
+"""Names shorter than this number of characters must match exactly."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,11 @@ class FaceMapping:
     Attributes
     ----------
     profile : str
-        Id of the table that makes most of the shapes; empty where none makes any.
+        Id of the table that produces most shapes; empty if none produces any.
     morphs : mapping of str to mapping of str to float
-        By ARKit shape: weights of the figure's morphs.
+        Weights of the figure's morphs by ARKit shape.
     missing : tuple of str
-        Shapes that the face cannot make.
+        Shapes that the face lacks.
     """
 
     profile: str
@@ -45,17 +45,17 @@ class FaceMapping:
 
 
 def map_morphs(figure: Figure, requested: Mapping[str, Mapping[str, float]] | None = None) -> FaceMapping:
-    """Find what makes the ARKit shapes of a figure's face.
+    """Return the morphs that produce the ARKit shapes of a figure's face.
 
     Parameters
     ----------
     requested : mapping of str to mapping of str to float
-        The user's corrections, weights of own morphs by shape; none: the face does not make it.
+        The user's corrections: weights of morphs by shape; empty if the face lacks the shape.
 
     Raises
     ------
     FileError
-        A correction names a shape or a morph that there is not.
+        A correction refers to an unknown shape or morph.
     """
     found = _found(figure)
     order = sorted(found, key=lambda name: (-len(found[name]), name))
@@ -79,7 +79,7 @@ _kept: WeakKeyDictionary[Figure, dict[str, dict[str, dict[str, float]]]] = WeakK
 
 
 def _found(figure: Figure) -> dict[str, dict[str, dict[str, float]]]:
-    """Mapping of a figure by each table, made once for each figure: every correction asks for it."""
+    """Return the mapping of a figure by each table, cached, since every correction needs it."""
     known = _kept.get(figure)
     if known is None:
         known = _kept[figure] = {name: _shapes(figure, table) for name, table in load_face_names().items()}
@@ -95,7 +95,7 @@ def _check(figure: Figure, shape: str, own: Mapping[str, float]) -> None:
 
 
 def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
-    """Mapping of a figure by a table."""
+    """Return the mapping of a figure by a table."""
     ways = {shape: table.ways(shape) for shape in table.morphs}
     known = {name for own in ways.values() for way in own for name in way}
     if table.of == "expressions":
@@ -118,7 +118,7 @@ def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
 
 
 def _named(morphs: Iterable[str], known: set[str]) -> dict[str, list[str]]:
-    """The morphs of a figure for each name of a table, disregarding a prefix or suffix that all of them share."""
+    """Return the morphs of a figure for each name of a table, without a prefix or suffix that all of them share."""
     keys = {morph: morph_key(morph) for morph in morphs}
     affixes: dict[tuple[str, str], set[str]] = defaultdict(set)
     for key in keys.values():

@@ -1,6 +1,6 @@
-"""A figure from what any file has: nodes that may be scaled, and meshes bound to them in whatever space.
+"""Conversion of a file's content to a figure, from nodes with scales and meshes in different spaces.
 
-Scales are multiplied out and every vertex is put where it is in the world at rest.
+Scales are applied to the geometry, and every vertex is moved to its world position at rest.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ from app.rig.mesh import Mesh, Morph, scaled_mesh
 MOST_BONES: Final = 5000
 MOST_VERTICES: Final = 3_000_000
 PLAUSIBLE_M: Final = (0.3, 4.0)
-"""Heights of figures, from a doll to a giant, that are taken as they are."""
+"""Plausible heights of figures in metres, from a doll to a giant."""
 TALLEST_M: Final = 2.5
-"""No person with a hat is taller: a taller figure is taken as it is, and that is said."""
+"""Height in metres above any person with a hat: a taller figure is accepted with a note."""
 ODD_HEIGHT: Final = "figure.odd_height"
-"""Message about a figure that is taller, or smaller than a doll, and that no unit explains."""
+"""Id of the note about a figure of implausible height that no unit explains."""
 PERSON_M: Final = (0.9, 2.3)
 GROWN_M: Final = (1.4, 2.1)
-"""Heights that a corrected unit must lead to: powers of ten, and inches, which must explain it better."""
+"""Heights in metres that a corrected unit must produce; the units are powers of ten and inches."""
 INCH_M: Final = 0.0254
 AGREEMENT: Final = 1e-3
-"""Largest difference of transforms that count as one, in parts of their size."""
+"""Largest relative difference of transforms that count as equal."""
 SINGULAR: Final = 1e-18
-"""The determinant of a transform that makes everything flat."""
+"""Determinant of a transform below which it is degenerate."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,17 +44,17 @@ class NodeHierarchy:
     Attributes
     ----------
     parents : sequence of int
-        In any order; -1: none.
+        Parents in any order; -1 for none.
     world_from_node : (N, 4, 4) float64
         At rest, scales and all.
     joints : collection of int
-        Nodes that the file treats as bones: those of skins, of the humanoid.
+        Nodes that the file uses as bones: of skins or of the humanoid.
     other : collection of int
-        Nodes that are no bones even below one: meshes, cameras, lights.
+        Nodes that are never bones: meshes, cameras, lights.
     skipped : collection of int
-        The file's own root, which is not shown.
+        Root node of the file, which is omitted.
     posed : (N, 4, 4) float64 or None
-        As a VRM file has its nodes: in its T-pose.
+        Transforms of the nodes as stored in a VRM file, which is its T-pose.
     """
 
     names: Sequence[str]
@@ -68,14 +68,14 @@ class NodeHierarchy:
 
 @dataclass(frozen=True, eq=False)
 class FigurePart:
-    """A mesh in its own space, with the nodes that move it.
+    """A mesh in its own space, and the nodes that move it.
 
     Attributes
     ----------
     mesh : Mesh
         `Mesh.joints` are places in `nodes`.
     world_from_mesh : (M, 4, 4) float64
-        For each of them, at rest.
+        Transform of the mesh's space for each of these nodes, at rest.
     """
 
     mesh: Mesh
@@ -91,7 +91,7 @@ def build_figure(
     humanoid: Mapping[str, int] | None = None,
     expressions: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Figure:
-    """Build a figure.
+    """Return a figure built from nodes and meshes.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def build_figure(
     Raises
     ------
     FileError
-        It has no bones, or more of anything than a character.
+        There are no bones, or the counts exceed those of any character.
     """
     if len(nodes.names) > MOST_BONES or sum(len(part.mesh.positions_m) for part in parts) > MOST_VERTICES:
         raise FileError("figure.too_large", file=file)
@@ -140,21 +140,21 @@ def build_figure(
 
 
 def transforms_differ(a: FloatArray, b: FloatArray) -> bool:
-    """Return whether two transforms (4, 4) differ too much to be those of one bone in one pose."""
+    """Return whether two transforms (4, 4) differ too much to be of the same bone in the same pose."""
     return bool(np.abs(a - b).max() > AGREEMENT * max(1e-6, float(np.abs(a[:3]).max())))
 
 
 def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, FloatArray]) -> FloatArray:
-    """Rest transforms (N, 4, 4): bound joints as they were bound, the others as they hang from those.
+    """Return rest transforms (N, 4, 4): joints as bound, other nodes relative to these.
 
-    The skin is exact in that pose alone: in any other, vertices of several bones are blended twice.
+    Skinning is exact only in that pose; in others, vertices with several bones are blended twice.
 
     Parameters
     ----------
     parents : sequence of int
-        In any order; -1: none.
+        Parents in any order; -1 for none.
     posed : (N, 4, 4) float64
-        World transforms as the file poses its nodes.
+        World transforms of the nodes as stored in the file.
     bound : mapping of int to (4, 4) float64
         World transforms of nodes when their skin was bound.
     """
@@ -177,7 +177,7 @@ def rest_pose(parents: Sequence[int], posed: FloatArray, bound: Mapping[int, Flo
 def turned(
     nodes: NodeHierarchy, parts: Sequence[FigurePart], turn: FloatArray
 ) -> tuple[NodeHierarchy, tuple[FigurePart, ...]]:
-    """The figure with its world turned by a (4, 4) matrix."""
+    """Return the figure with its world rotated by a matrix (4, 4)."""
     return (
         replace(
             nodes,
@@ -189,10 +189,10 @@ def turned(
 
 
 def _bones(nodes: NodeHierarchy) -> list[int]:
-    """Nodes that become bones, parents first, a parent's children in the file's order.
+    """Return the nodes that become bones, parents first, children in the file's order.
 
-    Bones are what the file says, everything they hang from, and what hangs from them and is nothing else. A file whose
-    parts merely hang from one another has all its nodes as bones.
+    Bones are the nodes that the file uses as bones, their ancestors, and their descendants without another purpose. In
+    a file without skins all nodes are bones.
     """
     children: dict[int, list[int]] = {}
     for node, parent in enumerate(nodes.parents):
@@ -216,14 +216,14 @@ def _bones(nodes: NodeHierarchy) -> list[int]:
 
 
 def _nearest_above(nodes: NodeHierarchy, node: int, bone_of: Mapping[int, int]) -> int:
-    """The bone that a node is or hangs from; -1: none."""
+    """Return the bone of a node or of its nearest ancestor with a bone; -1 if there is none."""
     while node >= 0 and node not in bone_of:
         node = nodes.parents[node]
     return bone_of.get(node, -1)
 
 
 def nearest_rotations(world: FloatArray) -> FloatArray:
-    """The rotations (N, 4) nearest to transforms that may also scale, shear and mirror."""
+    """Return the rotations (N, 4) nearest to transforms that may scale, shear and mirror."""
     left, _, right = np.linalg.svd(world[:, :3, :3])
     left[:, :, 2] *= np.linalg.det(left @ right)[:, None]
     return quaternion.from_matrix(left @ right)
@@ -235,7 +235,7 @@ def _named_apart(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
 
 
 def _unheld(part: FigurePart, file: str) -> Message | None:
-    """A note on vertices that no bone moves, if there are any in a mesh that bones move."""
+    """Return a note about vertices without bones in a skinned mesh, if there are any."""
     count = int((part.mesh.weights.sum(axis=1) <= 0.0).sum())
     if not count:
         return None
@@ -243,7 +243,7 @@ def _unheld(part: FigurePart, file: str) -> Message | None:
 
 
 def _at_rest(part: FigurePart, above: Sequence[int]) -> Mesh:
-    """The mesh with its vertices in the world at rest and bones as its joints."""
+    """Return the mesh with its vertices in the world at rest, with bones as joints."""
     mesh = part.mesh
     weights = np.maximum(mesh.weights.astype(np.float64), 0.0)
     total = weights.sum(axis=1)
@@ -298,7 +298,7 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _in_metres(figure: Figure) -> Figure:
-    """The figure at a height that a figure can have, as far as one unit alone explains the height it has."""
+    """Return the figure scaled to a plausible height, if exactly one unit explains its height."""
     height_m = figure_height(figure)
     if height_m is None:
         return figure
@@ -313,7 +313,7 @@ def _in_metres(figure: Figure) -> Figure:
 
 
 def figure_height(figure: Figure) -> float | None:
-    """Height from the lowest to the highest vertex, metres; None where there is no mesh."""
+    """Return the height from the lowest to the highest vertex in metres; None if there are no meshes."""
     heights = [mesh.positions_m[:, 1] for mesh in figure.meshes if len(mesh.positions_m)]
     if not heights:
         return None
@@ -321,12 +321,12 @@ def figure_height(figure: Figure) -> float | None:
 
 
 def has_odd_height(figure: Figure) -> bool:
-    """Return whether a figure is smaller than a doll or taller than any person, and no unit explains it."""
+    """Return whether a figure has an implausible height that no unit explains."""
     return any(note.id == ODD_HEIGHT for note in figure.notes)
 
 
 def at_height(figure: Figure, height_m: float) -> Figure:
-    """The figure in another size; unchanged where the height is 0 or the figure has none."""
+    """Return the figure scaled to a height; unchanged if the height is 0 or the figure has no mesh."""
     own_m = figure_height(figure)
     if not height_m or not own_m:
         return figure
@@ -343,7 +343,7 @@ def _scaled(figure: Figure, factor: float) -> Figure:
 
 
 def unit_factor(height_m: float) -> float | None:
-    """The factor to metres that gives a human height; None where no unit, or more than one, does."""
+    """Return the factor to metres that gives a human height; None unless exactly one unit does."""
     if not height_m > 0.0:
         return None
     found = [10.0**power for power in range(-5, 6) if PERSON_M[0] <= height_m * 10.0**power <= PERSON_M[1]]

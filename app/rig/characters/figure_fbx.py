@@ -1,7 +1,6 @@
-"""Figures from FBX files of other programs.
+"""Reading of figures from FBX files.
 
-The rest pose is the one that the skins were bound in, as Unreal takes it, wherever all skins agree about it; a file
-whose skins do not is at rest as its nodes are posed.
+The rest pose is the bind pose of the skins, as in Unreal, if all skins agree; else the pose of the nodes.
 """
 
 from __future__ import annotations
@@ -59,7 +58,7 @@ def fbx_figure(path: Path) -> Figure:
 
 
 def fbx_images(path: Path) -> dict[str, bytes]:
-    """Read the images beside an FBX file that it shows, by their names. Raises FileError."""
+    """Read the images beside an FBX file that it uses, by name. Raises FileError."""
     content = read_foreign_fbx(path)
     textures = FbxTextures(path, content)
     for mesh in content.meshes:
@@ -69,8 +68,7 @@ def fbx_images(path: Path) -> dict[str, bytes]:
 
 
 def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
-    """Return where each bone of a skin was when it was bound; empty where skins contradict one another or
-    themselves."""
+    """Return the transform of each bone when its skin was bound; empty if skins contradict each other."""
     bound: dict[int, FloatArray] = {}
     for mesh in content.meshes:
         for skin in mesh.skins:
@@ -87,7 +85,7 @@ def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
 
 
 def _hidden(nodes: tuple[FbxNode, ...]) -> frozenset[int]:
-    """Nodes that are not shown: invisible ones, and all levels of detail but the first of each group."""
+    """Return the hidden nodes: invisible ones, and all but the first level of detail in each group."""
     hidden: set[int] = set()
     grouped: set[int] = set()
     for index, node in enumerate(nodes):
@@ -145,8 +143,9 @@ def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.
 
 
 def _triangulated(mesh: FbxMesh, textures: FbxTextures) -> tuple[Mesh, IntArray]:
-    """The mesh with one vertex per point, normal and texture coordinate that belong together, without its skin, and the
-    point of each vertex."""
+    """Return the mesh without its skin, with a vertex for each combination of point, normal and texture coordinate, and
+    the point of each vertex.
+    """
     corners = mesh.corners
     normals = np.zeros((len(corners), 3)) if mesh.normals is None else mesh.normals
     uvs = np.zeros((len(corners), 2)) if mesh.uvs is None else mesh.uvs
@@ -209,6 +208,6 @@ def _morphs(file: str, mesh: FbxMesh, points: IntArray) -> tuple[Morph, ...]:
 
 
 def _counted(counts: IntArray) -> IntArray:
-    """0 .. n - 1 for each of these counts."""
+    """Return the numbers 0 to n - 1 for each count n, concatenated."""
     result: IntArray = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     return result

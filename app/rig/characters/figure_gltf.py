@@ -1,7 +1,7 @@
-"""Figures from glTF 2.0 and VRM 0.x and 1.0 files.
+"""Reading of figures from glTF 2.0 and VRM 0.x and 1.0 files.
 
-Sources: VRM consortium, "VRMC_vrm-1.0" (humanoid.md, expressions.md) and "VRM 0.0" (the JSON schema); a VRM 0.x figure
-faces -Z and is turned here.
+Sources: VRM consortium, "VRMC_vrm-1.0" (humanoid.md, expressions.md) and "VRM 0.0" (the JSON schema). A VRM 0.x figure
+faces -Z and is rotated here.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ PRESETS_OF_VRM0: Final = {
     "lookright": "lookRight",
     "neutral": "neutral",
 }
-"""VRM 0.x presets as VRM 1.0 names them; groups without a preset keep their own names."""
+"""VRM 1.0 names of VRM 0.x presets; groups without a preset keep their own names."""
 ABOUT_FACE: Final = np.diag([-1.0, 1.0, -1.0, 1.0])
 
 
@@ -74,10 +74,10 @@ def gltf_figure(path: Path) -> Figure:
 
 
 def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
-    """Return where each joint of a skin was when it was bound; empty where skins contradict one another.
+    """Return the transform of each joint when its skin was bound; empty if skins contradict each other.
 
-    A skin is bound in a space of its own: where that lies in the world, the joint says that all others hang from, or
-    one that another skin has bound.
+    A skin is bound in a space of its own, whose place in the world follows from the root joint of the skin, or from a
+    joint that another skin has bound too.
     """
     bound: dict[int, FloatArray] = {}
     depths = _depths(source)
@@ -98,7 +98,7 @@ def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
 
 
 def _depths(source: GltfSource) -> list[int]:
-    """Return how many nodes each node hangs from."""
+    """Return the number of ancestors of each node."""
     depths = []
     for node in source.gltf.nodes:
         depth, above = 0, node.parent
@@ -146,21 +146,21 @@ def _parts(source: GltfSource) -> list[FigurePart]:
 
 
 def _lower_levels(source: GltfSource) -> frozenset[int]:
-    """Nodes that are shown in the place of others from further away (MSFT_lod)."""
+    """Return the nodes that replace others at a distance (extension MSFT_lod)."""
     levels = (entry.extensions.get("MSFT_lod") for entry in source.gltf.nodes)
     ids = (one.get("ids") for one in levels if isinstance(one, dict))
     return frozenset(id for some in ids if isinstance(some, list) for id in some if isinstance(id, int))
 
 
 def morph_name(source: GltfSource, mesh: int, name: str) -> str:
-    """A morph's name; one that the file does not name is distinguished from those of other meshes."""
+    """Return a morph's name; an unnamed morph gets the name of its mesh as a prefix."""
     if re.fullmatch(r"morph_\d+", name) and len(source.gltf.meshes) > 1:
         return f"{source.gltf.meshes[mesh].name}.{name}"
     return name
 
 
 def _members(owner: object, name: str) -> list[dict[str, Any]]:
-    """Objects in a list of a JSON object that may hold anything."""
+    """Return the objects in a list of a JSON object of unknown content."""
     values = owner.get(name) if isinstance(owner, dict) else None
     return [value for value in values if isinstance(value, dict)] if isinstance(values, list) else []
 
@@ -224,7 +224,7 @@ def _vrm0(vrm: dict[str, Any], source: GltfSource) -> tuple[dict[str, int], dict
 def _add(
     weights: dict[str, float], source: GltfSource, mesh: int | None, index: object, weight: object, unit: float
 ) -> None:
-    """Add one of an expression's binds; one that points nowhere adds nothing, as in the viewers of such files."""
+    """Add a bind of an expression to its weights; invalid binds are ignored, as in viewers of such files."""
     share = _number(weight)
     if mesh is None or share is None or not source.gltf.meshes[mesh].primitives:
         return

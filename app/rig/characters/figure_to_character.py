@@ -1,12 +1,12 @@
-"""A figure as a character: its joints known, its skeleton normalised, what it lacks supplied.
+"""Conversion of a figure with known joints to a character: normalised skeleton, missing joints added.
 
-The vertices stay where the file's rest pose has them; that pose is the bind pose of the character, and the T-pose its
-skeleton's. A joint that the file lacks is supplied so that the motion can be given back to the file's bones exactly:
+Vertices stay in the file's rest pose, which is the bind pose of the character; the skeleton's rest pose is the T-pose.
+A joint missing in the file is added in a way that allows exact transfer of the motion to the file's bones:
 
-- between a bone and the next one above it, it lies on the upper of them (a neck on the head, a shoulder on the arm);
-- of the trunk's joints the highest one that has no bone of its own takes the bone below, because shoulders and neck
-  hang from it; the joints between lie on it too;
-- at the end of a chain (fingers of a mitten, toes, eyes) it follows our own bodies' proportions and carries nothing.
+- between two bones, it coincides with the upper one (a neck with the head, a shoulder with the arm); - in the trunk,
+the highest joint without a bone takes the bone below, since shoulders and neck depend on it, and joints between
+coincide with it too; - at the end of a chain (fingers of a mitten, toes, eyes) it is placed by the proportions of
+bundled bodies and moves nothing.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from metadata.load import load_skeleton
 from metadata.model import REQUIRED_JOINTS
 
 OPTIONAL: Final = frozenset({"jaw"})
-"""Joints that are not supplied: nothing is the worse for their lack."""
+"""Joints that are not added if missing, since they are not needed."""
 EYES: Final = ("leftEye", "rightEye")
 TRUNK: Final = ("hips", "spine", "chest", "upperChest")
 AT_ONE_PLACE: Final = 0.01
-"""Bones that are nearer to one another than this part of the forearm begin at one place."""
+"""Distance relative to the forearm below which bones begin at the same place."""
 
 
 def figure_character(
@@ -46,14 +46,14 @@ def figure_character(
     morphs: Mapping[str, Mapping[str, float]],
     height_m: float = 0.0,
 ) -> Character:
-    """Make a character of a figure.
+    """Return a character made from a figure.
 
     Parameters
     ----------
     bones : mapping of str to int
-        The bone of each VRM 1.0 joint that has one.
+        Bone of each VRM 1.0 joint that has one.
     morphs : mapping of str to mapping of str to float
-        By ARKit name: weights of the figure's morphs that make it.
+        Weights of the figure's morphs by ARKit shape.
     height_m : float
         Of the character; 0: as tall as the figure is.
 
@@ -92,7 +92,7 @@ def figure_character(
 
 
 def _fitted(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> Fit:
-    """Joints in the profile's order; those at the ends of chains that have no bone are not placed yet (NaN)."""
+    """Return the joints in the profile's order; missing ends of chains have no position yet (NaN)."""
     profile = [joint for joint in load_skeleton().joints if joint.name not in OPTIONAL or joint.name in bones]
     names = tuple(joint.name for joint in profile)
     index = {name: place for place, name in enumerate(names)}
@@ -120,7 +120,7 @@ def _fitted(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> Fit:
 def _attributed(
     names: Sequence[str], parents: Sequence[int], bones: Mapping[str, int]
 ) -> tuple[list[int], dict[int, int]]:
-    """The bone of each joint, and the joint that one without a bone lies on (see the module's text)."""
+    """Return the bone of each joint, and the joint whose position each joint without a bone shares (see the module)."""
     own = [bones.get(name, -1) for name in names]
     index = {name: place for place, name in enumerate(names)}
     lies_on: dict[int, int] = {}
@@ -143,8 +143,9 @@ def _attributed(
 
 
 def _bones_beside_hands(figure: Figure, rest: Rest, fit: Fit) -> dict[int, int]:
-    """The hand's joint of each bone that begins where the hand's own does and hangs from the same: of a hand that is
-    made of a bone for each finger."""
+    """Return the hand joint for additional bones that begin at the same place as the hand's bone with the same parent,
+    as in hands with a bone for each finger.
+    """
     mapped, found = set(fit.bones), {}
     for side in ("left", "right"):
         joint, arm = (fit.names.index(side + name) for name in ("Hand", "LowerArm"))
@@ -158,8 +159,9 @@ def _bones_beside_hands(figure: Figure, rest: Rest, fit: Fit) -> dict[int, int]:
 
 
 def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit, beside: Mapping[int, int]) -> npt.NDArray[np.int32]:
-    """The joint that carries each bone's skin: its own, the nearest above, the hips for what those hang from, the
-    nearest one in space for what hangs from no joint."""
+    """Return the joint that moves each bone's skin: its own, the nearest ancestor, the hips for ancestors of the hips,
+    or the nearest in space.
+    """
     hips = fit.names.index("hips")
     joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0} | dict(beside)
     carried = np.full(len(figure.parents), -1, dtype=np.int32)
@@ -214,7 +216,7 @@ def _mesh(mesh: Mesh, joint_of_bone: npt.NDArray[np.int32], morphs: Mapping[str,
 
 
 def _without_turned_balls(mesh: Mesh, eyes: Sequence[int]) -> Mesh:
-    """A mesh whose eyeLook morphs leave alone what the joints of eyes turn: both would turn it twice."""
+    """Return a mesh whose eyeLook morphs do not move vertices of the eye joints, which would rotate twice."""
     shares = np.where(np.isin(mesh.joints, eyes), mesh.weights, 0.0).sum(axis=1)
     if not shares.any():
         return mesh
@@ -243,7 +245,7 @@ def _merged(joints: npt.NDArray[np.int32], weights: FloatArray) -> tuple[npt.NDA
 
 
 def _composed(own: Sequence[Morph], morphs: Mapping[str, Mapping[str, float]]) -> tuple[Morph, ...]:
-    """The named morphs, each the weighted sum of those of this mesh that make it."""
+    """Return the named morphs, each a weighted sum of morphs of this mesh."""
     known = {morph.name: morph for morph in own}
     found = []
     for name, recipe in morphs.items():

@@ -1,7 +1,7 @@
-"""Mapping from a foreign figure's bones to joints: by what the file says, by the names, by shape.
+"""Mapping from a figure's bones to joints: by the file's own data, by names, and by shape.
 
-Names come from the tables in ``metadata/bone_names``; of all tables the one counts that most joints and the hierarchy
-agree with. Left is where +X is, whatever a name says.
+Names come from tables in ``metadata/bone_names``; the table with most joints in a consistent hierarchy is used. The
+left side is at +X, regardless of names.
 """
 
 from __future__ import annotations
@@ -32,31 +32,33 @@ from metadata.load import load_bone_names, load_skeleton
 from metadata.model import REQUIRED_JOINTS
 
 ENDS: Final = re.compile(r"(Toes|Eye|Metacarpal|Proximal|Intermediate|Distal)$")
-"""Joints that names may add to what a file says of itself."""
+"""Joints that names may add to the file's own data."""
 LEGS: Final = re.compile(r"(UpperLeg|LowerLeg|Foot|Toes)$")
 ARMS: Final = re.compile(r"(Shoulder|UpperArm|LowerArm|Hand|Metacarpal|Proximal|Intermediate|Distal)$")
 TRUNK: Final = re.compile(r"^(hips|spine|chest|upperChest|neck|head)$")
 LIMBS: Final = re.compile(rf"{LEGS.pattern}|{ARMS.pattern}")
 UNLIKE: Final = 0.2
-"""A pair of unnamed bones differs by less than this part of their length."""
+"""Relative difference of the bones' length below which a pair of unnamed bones is symmetrical."""
 SIDES: Final = ("left", "right")
 ANY: Final = re.compile("")
 FINGER: Final = re.compile("Metacarpal|Proximal|Intermediate|Distal")
 OPTIONAL: Final = (FINGER, *map(re.compile, ("Toes", "Shoulder", "^neck", "^chest")))
-"""Parts that names may not know at all."""
+"""Parts of the body that may be missing in names."""
 FIRST_BELOW: Final = {"Shoulder": "UpperArm", "neck": "head"}
-"""Joints below a part that names and shape must agree on, too."""
+"""Joint below an optional part that names and shape must agree on."""
 CLEARLY: Final = 0.5
-"""Sides are swapped where this part of the way from right to left leads to -X: not where a figure faces sideways."""
+"""Share of the distance from right to left that must point to -X for the sides to be exchanged; less means that a
+figure faces sideways.
+"""
 NUMBERED: Final = re.compile(r"[_.]\d+$")
 MOST_NUMBERED: Final = 0.8
-"""Share of names that end in a number from which the numbers are some program's, not the names'."""
+"""Share of names ending in a number above which the numbers are ignored."""
 ENOUGH: Final = 8
-"""A table that knows fewer of the required joints than this is not the figure's."""
+"""Least number of required joints that a suitable table of names contains."""
 THUMB_BASE: Final = 0.5
-"""A thumb's bone that begins nearer to the wrist than this, of the way to the index finger, is the metacarpal."""
+"""Share of the distance from the wrist to the index finger within which the thumb's first bone is the metacarpal."""
 SHORTEST_AFFIXED: Final = 3
-"""Names shorter than this count only as they are: too many others end in them."""
+"""Names shorter than this number of characters must match exactly, since many others end in them."""
 
 
 @dataclass(frozen=True)
@@ -66,13 +68,13 @@ class JointMapping:
     Attributes
     ----------
     profile : str
-        Id of the table of names, ``vrm0`` or ``vrm1`` where the file itself says it, empty where it went by shape.
+        Id of the table of names; ``vrm0`` or ``vrm1`` if the file contains the mapping; empty if mapped by shape.
     bones : mapping of str to int
         Bone of the figure by VRM 1.0 joint.
     missing : tuple of str
         Joints without a bone.
     doubtful : tuple of str
-        Joints that were guessed, or whose bone lies elsewhere in the tree or on the other side than its name says.
+        Joints that were guessed, or whose bone has another place in the hierarchy or side than its name indicates.
     """
 
     profile: str
@@ -83,14 +85,14 @@ class JointMapping:
 
 @dataclass(frozen=True)
 class _Found:
-    """Result of one way of mapping."""
+    """Result of one method of mapping."""
 
     profile: str
     bones: dict[str, int]
     astray: frozenset[str]
-    """Joints whose bone is not below the bone of the joint above."""
+    """Joints whose bone is not below the bone of the parent joint."""
     skinned: int
-    """Number of bones that move skin: controls and mechanics of a rig have the same names."""
+    """Number of mapped bones with skin, since controls of a rig may have the same names."""
 
     @property
     def required(self) -> int:
@@ -102,17 +104,17 @@ class _Found:
 
 
 def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> JointMapping:
-    """Find the joints of a figure.
+    """Return the joints of a figure.
 
     Parameters
     ----------
     requested : mapping of str to str
-        The user's corrections, bone by joint; empty: the figure has no such joint.
+        The user's corrections, bone by joint; empty if the figure lacks the joint.
 
     Raises
     ------
     FileError
-        A correction names a joint or a bone that there is not.
+        A correction refers to an unknown joint or bone.
     """
     tree, found, guessed = _without_help(figure)
     bones = dict(found.bones)
@@ -125,12 +127,12 @@ def map_joints(figure: Figure, requested: Mapping[str, str] | None = None) -> Jo
 def corrected(
     figure: Figure, mapping: JointMapping, requested: Mapping[str, str], joints: Sequence[str] = ()
 ) -> JointMapping:
-    """Mapping with a user's corrections, see `map_joints`.
+    """Return a mapping with the user's corrections, see `map_joints`.
 
     Parameters
     ----------
     joints : sequence of str
-        Joints that can be corrected; empty: all.
+        Joints that can be corrected; empty for all.
     """
     bones, doubtful = dict(mapping.bones), set(mapping.doubtful)
     for joint, bone in _corrections(figure, requested, joints or _joints()).items():
@@ -158,8 +160,9 @@ _kept: WeakKeyDictionary[Figure, tuple[Tree, _Found, set[str]]] = WeakKeyDiction
 
 
 def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
-    """Mapping without the user's help, made once for each figure: it takes seconds where there are thousands of bones,
-    and every correction asks for it."""
+    """Return the mapping without corrections, cached for each figure, since it takes seconds with thousands of
+    bones.
+    """
     known = _kept.get(figure)
     if known is None:
         tree = _tree(figure)
@@ -168,7 +171,7 @@ def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
 
 
 def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
-    """The best mapping without the user's help, and which joints of it are guessed."""
+    """Return the best automatic mapping, and its guessed joints."""
     named = _by_names(figure, tree)
     if figure.humanoid:
         found = _as_the_file_says(figure, tree, named)
@@ -190,7 +193,9 @@ def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
 
 
 def _add_unnamed(tree: Tree, bones: dict[str, int]) -> None:
-    """Add fingers, toes, shoulders, neck and chest by shape, where names know none and agree on what is above them."""
+    """Add fingers, toes, shoulders, neck and chest by shape if they are not found by names and the joints above
+    agree.
+    """
     lacking = [part for part in OPTIONAL if not any(part.search(joint) for joint in bones)]
     if not lacking:
         return
@@ -211,7 +216,7 @@ def _add_unnamed(tree: Tree, bones: dict[str, int]) -> None:
 
 
 def _mirrored(tree: Tree, shape: Mapping[str, int], joint: str) -> bool:
-    """Return whether a joint of one side lies to what it hangs on as that of the other side does."""
+    """Return whether a joint lies relative to its parent as the mirror image of the other side's joint."""
     if not joint.startswith(SIDES):
         return True
     left = re.sub("^right", "left", joint)
@@ -224,7 +229,7 @@ def _mirrored(tree: Tree, shape: Mapping[str, int], joint: str) -> bool:
 
 
 def _as_the_file_says(figure: Figure, tree: Tree, named: _Found) -> _Found:
-    """Joints that a VRM file names itself, and ends of chains that its bones' names add."""
+    """Return the joints that a VRM file contains, with ends of chains added by names."""
     bones = {joint: bone for joint, bone in figure.humanoid.items() if joint in _joints()}
     for joint, bone in named.bones.items():
         if joint not in bones and ENDS.search(joint) and bone not in bones.values():
@@ -235,16 +240,16 @@ def _as_the_file_says(figure: Figure, tree: Tree, named: _Found) -> _Found:
 
 
 def _completed(tree: Tree, found: _Found, fixed: Set[str]) -> dict[str, int]:
-    """The mapping with what the names leave out found by shape.
+    """Return the mapping with joints that names miss added by shape.
 
-    A part of the body of which names leave out a required joint goes by shape altogether where shape knows all of it:
-    names that skip a joint are another program's for those beside it (a shoulder is an upper arm, a chest a spine).
-    The trunk lies between the limbs, whichever way those were found.
+    A part of the body in which names miss a required joint is mapped by shape entirely, if possible: names that skip a
+    joint usually mean other joints (a shoulder is an upper arm, a chest a spine). The trunk is determined by the limbs,
+    however these were found.
 
     Parameters
     ----------
     fixed : set of str
-        Joints that stay: the file itself says them.
+        Joints from the file's own data, which do not change.
     """
     shape = joints_by_shape(tree)
     bones = dict(found.bones)
@@ -270,8 +275,9 @@ def _completed(tree: Tree, found: _Found, fixed: Set[str]) -> dict[str, int]:
 
 
 def _trunk_beside(tree: Tree, bones: Mapping[str, int]) -> dict[str, int]:
-    """The trunk between the limbs where names know but the upper part of it, or hips that do not carry the legs; empty
-    where they know it, or where bones do not hang on one another."""
+    """Return the trunk determined by the limbs, if names give only its upper part or hips that do not carry the legs;
+    empty otherwise, or if bones have no hierarchy.
+    """
     if _lacks(bones, LIMBS):
         return {}
     trunk = trunk_by_limbs(tree, bones)
@@ -290,7 +296,7 @@ def _lacks(bones: Mapping[str, int], part: re.Pattern[str]) -> bool:
 
 
 def _replace_part(bones: dict[str, int], shape: Mapping[str, int], part: re.Pattern[str], fixed: Set[str]) -> None:
-    """Take a part's joints from the shape where names lack a required one of them and the shape lacks none."""
+    """Replace a part's joints by those found by shape, if names miss a required one and shape does not."""
     if not _lacks(bones, part) or _lacks({**shape, **{joint: bones[joint] for joint in fixed if joint in bones}}, part):
         return
     for joint in [joint for joint in bones if part.search(joint) and joint not in fixed]:
@@ -308,7 +314,7 @@ def _joints() -> tuple[str, ...]:
 
 
 def _joint_above(joint: str, bones: Mapping[str, int]) -> str | None:
-    """The nearest joint above that has a bone."""
+    """Return the nearest ancestor of a joint that has a bone."""
     profile = load_skeleton()
     parent = profile.joint(joint).parent
     while parent and parent not in bones:
@@ -348,7 +354,7 @@ def _by_names(figure: Figure, tree: Tree) -> _Found:
 
 
 def _affixes(keys: list[str], known: set[str]) -> list[tuple[str, str]]:
-    """Prefixes and suffixes of the known names in most of a figure's names; the empty pair comes first."""
+    """Return pairs of prefix and suffix around known names in most of a figure's names; the empty pair comes first."""
     votes: Counter[tuple[str, str]] = Counter()
     names = [name for name in known if len(name) >= SHORTEST_AFFIXED]
     # Most keys of a figure with thousands of bones hold no known name.
@@ -382,7 +388,7 @@ def _found(profile: str, tree: Tree, named: Mapping[str, int | None]) -> _Found:
 
 
 def _astray(tree: Tree, bones: Mapping[str, int]) -> frozenset[str]:
-    """Joints whose bone is not below that of the joint above."""
+    """Return the joints whose bone is not below that of the parent joint."""
     return frozenset(
         joint
         for joint, bone in bones.items()
@@ -391,7 +397,7 @@ def _astray(tree: Tree, bones: Mapping[str, int]) -> frozenset[str]:
 
 
 def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
-    """Swap what is called left and is at -X; returns the joints swapped."""
+    """Exchange sides if joints named left are at -X, and return the exchanged joints."""
     turned: set[str] = set()
     for at, own in (
         ("UpperLeg", LEGS),
@@ -415,7 +421,7 @@ def _turn_sides(tree: Tree, bones: dict[str, int]) -> set[str]:
 
 
 def _place_thumbs(tree: Tree, bones: dict[str, int]) -> None:
-    """A thumb of one or two bones has no metacarpal where it begins away from the wrist."""
+    """Remove the metacarpal of a thumb with one or two bones that begins away from the wrist."""
     for side in ("left", "right"):
         base, next_, last = (f"{side}Thumb{part}" for part in ("Metacarpal", "Proximal", "Distal"))
         hand, index = bones.get(f"{side}Hand"), bones.get(f"{side}IndexProximal")

@@ -1,6 +1,6 @@
-"""Mapping from bones to joints by shape alone: symmetry, chains and extents. For skeletons whose names say nothing.
+"""Mapping from bones to joints by shape only (symmetry, chains, extents), for skeletons with meaningless names.
 
-Everything found here is a guess from a usual figure's proportions and must be reported as one.
+All results are guesses based on common proportions and must be reported as such.
 """
 
 from __future__ import annotations
@@ -16,30 +16,34 @@ import numpy as np
 from app.arrays import FloatArray
 
 MIRROR_TOLERANCE: Final = 0.03
-"""Largest distance of a bone from its partner's mirror image, in parts of the figure's height."""
+"""Largest distance of a bone from its partner's mirror image, relative to the figure's height."""
 OFF_CENTRE: Final = 0.02
-"""A bone farther from the middle than this belongs to a side."""
+"""Distance from the middle above which a bone belongs to a side, relative to the figure's height."""
 IN_MIDDLE: Final = 0.004
-"""The limit for a bone that has a partner on the other side."""
+"""Same limit for a bone with a partner on the other side."""
 ALIKE: Final = 0.1
-"""Distances that differ by less than this part are alike."""
+"""Relative difference below which distances are similar."""
 HIP_BESIDE: Final = 0.03
-"""A leg begins farther from the middle than this."""
+"""Least distance of a leg's start from the middle, relative to the figure's height."""
 ANKLE_HEIGHT: Final = 0.045
 FOOT_HEIGHT: Final = 0.12
-"""No ankle is higher."""
+"""Distance from shoulder to wrist relative to the figure's height."""
 ARM_LENGTH: Final = 0.30
-"""Shoulder to wrist."""
+"""Least distance of a hand from the start of the arm, relative to the figure's height."""
 HAND_AWAY: Final = 0.15
-"""No hand is nearer to where the arm begins."""
+"""Distance from a forearm beyond which chains of fingers begin, relative to the preceding bone; chains from a hand
+begin nearer.
+"""
 PALM_AWAY: Final = 0.5
-"""Chains of fingers begin farther from a forearm than this, of the length of the bone before it; from a hand nearer."""
+"""Distance below which bones begin at the same place, relative to the preceding bone."""
 AT_ONE_PLACE: Final = 0.02
-"""Bones begin at one place that are nearer to one another than this, of that distance."""
+"""Least upward share of a neck's direction; a jaw points forward."""
 UPWARDS: Final = 0.3
-"""A neck leads up by more than this part of its length; a jaw leads ahead."""
+"""Distance above the preceding bone beyond which a last bone is the top of the head, relative to the figure's
+height.
+"""
 HEAD_TOP: Final = 0.1
-"""Distance above the bone before from which a last bone is the top of a head, not the head."""
+"""Largest distance of the hips below the upper legs relative to the legs' length."""
 NEAR_LEGS: Final = 0.4
 """Hips lie below the height of the upper legs by less than this part of the legs' length."""
 LEG_LENGTH: Final = 0.46
@@ -56,14 +60,14 @@ class Tree:
     Attributes
     ----------
     parents : tuple of int
-        A parent before its children.
+        Parents, each before its children.
     above : tuple of frozenset of int
         All bones above each.
     below : tuple of int
-        How many bones hang from each.
+        Number of descendants of each bone.
     positions_m : (B, 3) float64
     skinned : frozenset of int
-        Bones that carry skin; all, where none does.
+        Bones with skin; all bones if none has skin.
     """
 
     parents: tuple[int, ...]
@@ -81,11 +85,11 @@ class Tree:
         return found[::-1]
 
     def distance(self, one: int, other: int) -> float:
-        """Metres, straight."""
+        """Return the straight distance of two bones in metres."""
         return float(np.linalg.norm(self.positions_m[one] - self.positions_m[other]))
 
     def depth(self, bone: int) -> int:
-        """Return how many bones are above."""
+        """Return the number of ancestors of a bone."""
         return len(self.above[bone])
 
 
@@ -143,7 +147,7 @@ class _Halves:
         return 0 if abs(off) < in_middle else (1 if off > 0.0 else -1)
 
     def left_ends(self, below: int) -> list[int]:
-        """The last bones of the left half below a bone, that have a partner."""
+        """Return the last bones of the left side below a bone that have a partner."""
         return [
             bone
             for bone in self.used
@@ -154,18 +158,18 @@ class _Halves:
         ]
 
     def meeting(self, bone: int) -> int | None:
-        """The deepest bone above both a bone and its partner."""
+        """Return the deepest common ancestor of a bone and its partner."""
         both = self.tree.above[bone] & self.tree.above[self.partner[bone]]
         return max(both, key=self.tree.depth) if both else None
 
     def way(self, end: int) -> list[int]:
-        """Bones from below the one where a chain meets its mirror image down to its end."""
+        """Return the bones from below the common ancestor of a chain and its mirror image to its end."""
         top = self.meeting(end)
         return self.tree.path(-1 if top is None else top, end)
 
 
 def joints_by_shape(tree: Tree) -> dict[str, int]:
-    """Bones by VRM 1.0 joint, as far as they can be reported; empty where there is no body to be seen."""
+    """Return bones by VRM 1.0 joint as far as they can be recognised; empty if no body is found."""
     if not tree.parents:
         return {}
     halves = _Halves(tree)
@@ -203,7 +207,9 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
 
 
 def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
-    """Hips, spine and head of a figure whose upper legs and upper arms are known; empty where no bones are between."""
+    """Return hips, spine and head of a figure with known upper legs and upper arms; empty if there are no bones
+    between.
+    """
     legs = [limbs[side + "UpperLeg"] for side in ("left", "right")]
     arms = [limbs.get(side + "Shoulder", limbs[side + "UpperArm"]) for side in ("left", "right")]
     under_legs = frozenset.intersection(*(tree.above[bone] for bone in legs))
@@ -221,14 +227,14 @@ def trunk_by_limbs(tree: Tree, limbs: Mapping[str, int]) -> dict[str, int]:
 
 
 def _hips(tree: Tree, limbs: Mapping[str, int], carrier: int, chain: list[int]) -> tuple[int, list[int]]:
-    """The hips and the bones from there to the chest: legs may hang beside them, from a root or a control.
+    """Return the hips, and the bones from there to the chest; legs may be attached beside them, to a root or control.
 
     Parameters
     ----------
     carrier : int
-        The bone that legs and trunk hang from.
+        Common ancestor of legs and trunk.
     chain : list of int
-        From below it to the chest.
+        Bones from below it to the chest.
     """
     places = tree.positions_m
     legs = [limbs[f"{side}UpperLeg"] for side in ("left", "right")]
@@ -240,10 +246,9 @@ def _hips(tree: Tree, limbs: Mapping[str, int], carrier: int, chain: list[int]) 
 
 
 def _legs(halves: _Halves, ends: list[int]) -> tuple[int | None, dict[str, int]]:
-    """Hips and legs: of the ways down the lowest that ends in a foot which points ahead, or the lowest of all.
+    """Return hips and legs: the lowest chain that ends in a foot pointing forward, or the lowest chain.
 
-    A foot that hangs from the root and not from its leg, as a rig's with inverse kinematics does, lies at the end of a
-    leg that has none of its own.
+    A foot attached to the root, as in a rig with inverse kinematics, belongs to a leg without a foot that ends at it.
     """
     tree = halves.tree
     loose = [way for end in ends if len(way := halves.way(end)) <= 2 and _low(halves, way[0])]
@@ -277,12 +282,12 @@ def _low(halves: _Halves, bone: int) -> bool:
 
 
 def _alike(halves: _Halves, one: int, other: int) -> bool:
-    """Return whether two bones lie at one place."""
+    """Return whether two bones are at the same place."""
     return halves.tree.distance(one, other) < MIRROR_TOLERANCE * halves.height
 
 
 def _loose_foot(halves: _Halves, way: list[int], loose: list[list[int]]) -> list[int]:
-    """The foot below a leg without one; empty where the leg has its own."""
+    """Return the separate foot of a leg without one; empty if the leg has a foot."""
     if len(way) < 2 or (len(way) > 2 and way[-1] in halves.tree.skinned and _low(halves, way[-1])):
         return []
     if _low(halves, way[0]):
@@ -313,8 +318,9 @@ def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
 
 
 def _ankle(halves: _Halves, path: list[int]) -> int:
-    """Return where the way down turns ahead, near the floor; without a foot that points ahead, what is as high as an
-    ankle."""
+    """Return the bone at which a chain turns forward near the floor; if the foot does not point forward, the bone at
+    the height of an ankle.
+    """
     places, floor = halves.tree.positions_m, halves.floor
     ankle = _points_ahead(halves, path)
     if ankle is not None:
@@ -323,7 +329,7 @@ def _ankle(halves: _Halves, path: list[int]) -> int:
 
 
 def _points_ahead(halves: _Halves, path: list[int]) -> int | None:
-    """The bone near the floor from which a way leads ahead."""
+    """Return the bone near the floor from which a chain leads forward."""
     for bone, next_ in pairwise(path):
         ahead = halves.tree.positions_m[next_] - halves.tree.positions_m[bone]
         if _low(halves, bone) and ahead[2] > 0.5 * np.linalg.norm(ahead):
@@ -355,7 +361,7 @@ def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
 
 
 def _hand_of_fingers(halves: _Halves, path: list[int]) -> int | None:
-    """The bone along an arm that three or more chains hang from, where there is one."""
+    """Return the bone of an arm with three or more chains attached, if there is one."""
     tree = halves.tree
     for bone in path:
         if len(_chains(tree, bone)) >= 3 and tree.distance(path[0], bone) > HAND_AWAY * halves.height:
@@ -364,16 +370,16 @@ def _hand_of_fingers(halves: _Halves, path: list[int]) -> int | None:
 
 
 def _chains(tree: Tree, bone: int) -> list[int]:
-    """The first bones of the chains of two and more that hang from a bone."""
+    """Return the first bones of the chains of at least two bones attached to a bone."""
     used = tree.skinned.union(*(tree.above[skin] for skin in tree.skinned))
     return [child for child in tree.children[bone] if not used.isdisjoint(tree.children[child])]
 
 
 def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, int]:
-    """The hand and the fingers of a forearm from which a bone for each finger leads on from the wrist; empty where one
+    """Return the hand and fingers of a forearm with a bone for each finger attached at the wrist; empty if a single
     bone is the hand.
 
-    Of these bones the middle finger's stands for the hand.
+    The bone of the middle finger is used as the hand.
     """
     far = PALM_AWAY * tree.distance(upper, forearm)
     away = [bone for bone in _chains(tree, forearm) if tree.distance(forearm, bone) > far]
@@ -391,7 +397,7 @@ def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, 
 
 
 def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
-    """Return where a limb begins and its middle joint: halves alike, and about as long as a limb is."""
+    """Return the start of a limb and its middle joint, for equal halves and a plausible length."""
     return min(
         _pairs(upper),
         key=lambda pair: (
@@ -406,8 +412,9 @@ def _pairs(upper: list[int]) -> list[tuple[int, int]]:
 
 
 def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
-    """Difference between the best limb of some bones and a usual one, whose halves are alike: in ratios, since a child
-    of a toy has arms half as long."""
+    """Return the deviation, in ratios, of the best limb among bones from a usual one with equal halves; a toy child's
+    arms may be half as long.
+    """
     ratios = []
     for start, middle in _pairs(upper):
         halves = np.maximum((tree.distance(start, middle), tree.distance(middle, end)), 1e-9)
@@ -416,14 +423,14 @@ def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
 
 
 def fingers(tree: Tree, side: str, hand: int, palms: Sequence[int] = ()) -> dict[str, int]:
-    """Chains from the hand: the one that leads away most is the thumb, the others follow by their distance from it.
+    """Return the fingers of a hand: the chain farthest aside is the thumb, the others follow by their distance from it.
 
     Parameters
     ----------
     hand : int
-        The bone they hang from.
+        Bone that the chains are attached to.
     palms : sequence of int
-        Bones at the wrist that belong to no finger but the thumb.
+        Bones at the wrist that belong to fingers other than the thumb.
     """
     tips = [bone for bone, above in enumerate(tree.above) if hand in above and not tree.children[bone]]
     paths = [tree.path(hand, tip) for tip in tips]
@@ -453,8 +460,7 @@ def fingers(tree: Tree, side: str, hand: int, palms: Sequence[int] = ()) -> dict
 
 
 def spread_spine(tree: Tree, chain: Sequence[int]) -> dict[str, int]:
-    """Spine, chest and upper chest from the bones between hips and neck, upwards: the lowest, the one nearest the
-    middle and the highest."""
+    """Return spine, chest and upper chest of the bones from hips to neck: the lowest, the middle and the highest."""
     if len(chain) <= 2:
         return dict(zip(("spine", "chest"), chain, strict=False))
     first, last = chain[0], chain[-1]

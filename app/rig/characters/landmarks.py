@@ -1,7 +1,7 @@
-"""Landmarks of a character that brings none: found from joints, skin weights, normals, and the face's morph or shape.
+"""Landmarks for a character without them, found from joints, skin weights, normals, and the face's morph or shape.
 
-Names are those of our own characters: ``right.index.pad``, ``left.palm``, ``lips.contact``, ``left.foot.sole`` ...
-A finger whose skin hangs on the hand (a mitten) has its places on that skin, where the finger would be.
+Names are those of bundled characters: ``right.index.pad``, ``left.palm``, ``lips.contact``, ``left.foot.sole`` and so
+on. Landmarks of a finger whose skin moves with the hand (a mitten) are on that skin at the finger's place.
 """
 
 from __future__ import annotations
@@ -20,24 +20,25 @@ from metadata.load import load_skeleton
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 JAW_MORPHS = ("jawOpen", "aa", "A")
-"""Morphs that open the mouth, by the names that files use."""
+"""Morphs that open the mouth, by common names."""
 PAD_VERTICES, SIDE_VERTICES, PALM_VERTICES, WEB_VERTICES, LIP_VERTICES = 6, 4, 8, 5, 6
 MIDLINE_M, SOLE_M = 0.008, 0.008
 COINCIDE_M = 1e-6
-"""Joints nearer to one another lie on one another."""
+"""Distance in metres below which joints coincide."""
 PATCH_M = 0.006
-"""Radius over the skin of a place's vertices, or little more than the distance of its nearest one: a mean over
-vertices all around a finger would lie deep in its flesh."""
+"""Radius in metres of the area of a landmark's vertices around the nearest one; larger areas would have a centre deep
+inside a finger.
+"""
 BARE_MIDDLE = (0.62, 0.5, 0.55)
-"""Middles of what is bare of the phalanges, as shares of their lengths: the web covers half of the first."""
+"""Middle of the visible part of each phalanx, as a share of its length; the web covers half of the first."""
 PALM_M = 0.014
-"""The same of a palm, whose skin is flat and has few vertices."""
+"""Radius in metres of the palm's area, which is flat and has few vertices."""
 FACING = (0.7, 0.5)
-"""A place's skin looks its way by this (the cosine), or by that where none does."""
+"""Least cosine between a landmark's normals and its direction, and a second value if there are no such normals."""
 LEAST_WEIGHTS = (0.5, 0.25)
-"""Least weights, tried in turn, of skin that belongs to a joint, where none clearly does."""
+"""Least skin weights of a joint's vertices, tried in turn."""
 EYES_M, HEAD_M = 0.06, 0.217
-"""Sizes of the heads whose lips the lengths here were chosen for: between the eyes, and the height of their skin."""
+"""Distance of the eyes, and height of the head's skin, in metres, for which the lengths in this module were chosen."""
 STEPS = 40
 BREAK = 0.2
 """A profile that goes back for more than this share of its height is broken there: below is no face."""
@@ -47,7 +48,7 @@ NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, 0.6, 0.4
 """A nose stands out from the chin by so much of that height, and ends where so much of it is lost, not farther below
 its tip than so much: a face that is round altogether has none."""
 MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
-"""From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
+"""Position of the lips as a share of the way from eyes to chin, and its tolerance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +62,9 @@ class _Skin:
 
 
 def found_landmarks(skeleton: Skeleton, joint_from_mesh: FloatArray, meshes: tuple[Mesh, ...]) -> dict[str, Landmark]:
-    """Find the landmarks of a character.
+    """Return the landmarks of a character.
 
-    A landmark for which the character has nothing (no skin on the hand: no palm) is absent.
+    A landmark that cannot be found (a palm on a hand without skin) is omitted.
     """
     skins = [_rest_skin(skeleton, joint_from_mesh, mesh) for mesh in meshes if len(mesh.positions_m)]
     found: dict[str, Landmark] = {}
@@ -91,15 +92,16 @@ def _rest_skin(skeleton: Skeleton, joint_from_mesh: FloatArray, mesh: Mesh) -> _
 
 
 def _own(skin: _Skin, joints: list[int], least: float) -> IndexArray:
-    """The vertices that belong to some joints."""
+    """Return the vertices that belong to some joints."""
     return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
 
 
 def _patch(
     skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArray, count: int, within_m: float = PATCH_M
 ) -> IndexArray:
-    """Vertices about the place where a ray from inside a limb leaves its skin, or nearest to there where none faces
-    that way."""
+    """Return the vertices around the point at which a ray from inside a limb leaves its skin, or the nearest if none
+    faces that direction.
+    """
     off = skin.positions[own] - origin
     along = off @ direction
     across = np.linalg.norm(off - along[:, None] * direction, axis=1)
@@ -169,8 +171,9 @@ def _hand(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landm
 
 
 def _of_phalanx(hand: _Skin, skins: list[_Skin], joint: int, least: float) -> tuple[_Skin, IndexArray]:
-    """The skin of a phalanx and its vertices there: that of the hand, or another one that has most of it, since gloves
-    without tips and sleeves with half a hand are meshes of their own. No vertices where nothing follows the joint."""
+    """Return the mesh and vertices of a phalanx: of the hand, or of another mesh with most of the phalanx (gloves,
+    sleeves). No vertices if nothing moves with the joint.
+    """
     for weight in (least, *LEAST_WEIGHTS):
         own = {id(skin): _own(skin, [joint], weight) for skin in skins}
         most = max(skins, key=lambda skin: len(own[id(skin)]))
@@ -181,7 +184,7 @@ def _of_phalanx(hand: _Skin, skins: list[_Skin], joint: int, least: float) -> tu
 
 
 def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
-    """The lowest skin of a foot: of a shoe, where there is one; of the leg, where nothing hangs on the foot."""
+    """Return the lowest skin of a foot: of its shoe, or of the leg if nothing moves with the foot."""
     named = (f"{side}Foot", f"{side}Toes"), (f"{side}LowerLeg",)
     for names in named:
         joints = [skeleton.names.index(name) for name in names if name in skeleton.names]
@@ -200,13 +203,13 @@ class _Head:
     Attributes
     ----------
     joints : list of int
-        The head's and all that hang on it.
+        The head's joint and all joints below it.
     place : (3,) float64
-        Of its joint.
+        Position of the head's joint.
     eyes_m : float or None
         Height of the eyes.
     size : float
-        As a multiple of the head that lengths here were chosen for.
+        Size relative to the head for which the lengths in this module were chosen.
     """
 
     joints: list[int]
@@ -230,7 +233,7 @@ class _Head:
 
 
 def eye_distance(character: Character) -> float:
-    """Return how far the eyes are apart, metres; where there are none, as far as in another head of this height."""
+    """Return the distance of the eyes in metres; estimated from the head's height if there are none."""
     eyes = _eyes(character.skeleton, character.meshes)
     if eyes is not None:
         return float(np.linalg.norm(eyes[0] - eyes[1]))
@@ -239,7 +242,7 @@ def eye_distance(character: Character) -> float:
 
 
 def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, FloatArray] | None:
-    """Return where the eyes are; None where there are none, or only joints that were supplied and carry nothing."""
+    """Return the positions of the eyes; None if there are none, or only added joints without skin."""
     names = ("leftEye", "rightEye")
     if not set(names) <= set(skeleton.names):
         return None
@@ -251,7 +254,9 @@ def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, Flo
 
 
 def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
-    """Return where the mouth parts: at the midline, vertices the jaw's morph takes along next to such it leaves."""
+    """Return the landmarks of the lips by the jaw's morph: adjacent vertices at the midline that it moves and does not
+    move.
+    """
     jaw = next((morph for name in JAW_MORPHS for morph in skin.mesh.morphs if morph.name == name), None)
     if jaw is None or not len(jaw.vertices):
         return {}
@@ -278,8 +283,9 @@ def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
 
 
 def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
-    """Return where the lips meet on a face that does not move: about so far down from the eyes to the chin, in the
-    notch of the profile if there is one."""
+    """Return the landmarks of the lips on a face without morphs: at a share of the way from eyes to chin, in the notch
+    of the profile if there is one.
+    """
     profiles = [_profile(skin, head) for skin in skins]
     # Hair, lashes and teeth hang on the head too: the face covers most of its front's lower half.
     place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
@@ -361,7 +367,9 @@ def _at_height(profile: FloatArray, height_m: float, patch_m: float) -> IndexArr
 
 
 def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
-    """Height at which a profile (V, 3) goes in between two lips; where it does not, as on most faces."""
+    """Return the height of the notch between the lips in a profile (V, 3); where there is none, as on most faces, the
+    expected height.
+    """
     steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
     low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
     depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])
@@ -375,7 +383,7 @@ def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
 
 
 def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
-    """Return how many steps of height some vertices cover that lie before the head's joint and not above its eyes."""
+    """Return the number of height steps with vertices in front of the head's joint and below its eyes."""
     at = skin.positions[front]
     eyes_m = head.place[1] + 0.3 * HEAD_M * head.size if head.eyes_m is None else head.eyes_m
     before = (at[:, 2] > head.place[2]) & (at[:, 1] < eyes_m)

@@ -1,4 +1,4 @@
-"""Loads characters: our own glTF binaries as they are, others as figures (`app.rig.characters.figure_to_character`)."""
+"""Loading of characters: bundled glTF files directly, others as figures (`app.rig.characters.figure_to_character`)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from metadata.model import REQUIRED_JOINTS
 
 @dataclass(frozen=True, eq=False)
 class CharacterFigure:
-    """A figure with its joints and face identified.
+    """A figure with identified joints and face.
 
     Attributes
     ----------
@@ -44,25 +44,25 @@ def load_character(
     height_m: float = 0.0,
     hidden: Collection[str] = (),
 ) -> Character:
-    """Load a character from a file: VRM, glTF or FBX.
+    """Load a character from a VRM, glTF or FBX file.
 
     Parameters
     ----------
     id : str
-        The character's; by the file's name where empty.
+        Id of the character; empty for the file's name.
     joints : mapping of str to str
-        By VRM 1.0 joint: the bone that is it, whatever its name suggests; empty: none is.
+        Bone of each corrected VRM 1.0 joint, regardless of the bone's name; empty if there is no bone.
     morphs : mapping of str to mapping of str to float
-        By ARKit name: weights of the file's own morphs that make it.
+        Weights of the file's morphs for each corrected ARKit shape.
     height_m : float
         Of the character; 0: as tall as in the file.
     hidden : collection of str
-        Meshes of the file that are left out.
+        Meshes of the file to omit.
 
     Raises
     ------
     FileError
-        The file cannot be read, or holds no humanoid that can play.
+        The file cannot be read, or contains no humanoid that can play.
     """
     try:
         if is_glb(path):
@@ -79,7 +79,7 @@ def load_character(
 def read_character(
     path: Path, joints: Mapping[str, str] | None = None, morphs: Mapping[str, Mapping[str, float]] | None = None
 ) -> CharacterFigure:
-    """Read a figure and find out what of it is what. Raises FileError; a figure that lacks joints raises none.
+    """Read a figure, and identify its joints and face. Raises FileError, but not for missing joints.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def read_character(
 
 
 def _ours(source: GltfSource, id: str) -> Character:
-    """One of our own: its nodes are the skeleton, normalised already, and one skin binds all meshes."""
+    """Return a bundled character: its nodes are a normalised skeleton, and a single skin binds all meshes."""
     nodes, (skin,) = source.gltf.nodes, source.gltf.skins
     root = nodes[min(skin.joints)].parent
 

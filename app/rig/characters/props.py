@@ -1,7 +1,7 @@
-"""Props that a figure's file puts into its hands: swords, shields and cups lie where an instrument is to be.
+"""Detection of props in a figure's hands (swords, shields, cups), which are in the way of an instrument.
 
-What is said and left out is a mesh that moves with one hand as a whole, while the hand's own skin is another mesh. It
-hangs on a bone that is no joint (a slot for props), or reaches farther than any hand.
+A reported and hidden prop is a mesh that moves with a hand as a whole, while the hand has another mesh. It is attached
+to a bone that is not a joint, or is longer than any hand.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from app.rig.figure import Figure
 from app.rig.mesh import Mesh
 
 WHOLLY: Final = 0.999
-"""Least weight of every vertex by the bones of one hand."""
+"""Least weight of every vertex for the bones of one hand."""
 REACHES: Final = 1.2
-"""A prop is longer than so many forearms, wherever it hangs."""
+"""Length above which a mesh is a prop, relative to the forearm."""
 LEAST_SKIN: Final = 8
-"""Vertices that a hand's own skin has at least."""
+"""Least number of vertices of a hand's own skin."""
 
 
 def props_in_hands(figure: Figure, joints: Mapping[str, int]) -> tuple[str, ...]:
-    """Find the meshes that are held.
+    """Return the names of the meshes that are held props.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def props_in_hands(figure: Figure, joints: Mapping[str, int]) -> tuple[str, ...]
 
 
 def _below(figure: Figure, bone: int) -> BoolArray:
-    """The bones (B,) that are one or hang from it."""
+    """Return which bones (B,) are a bone or its descendants."""
     below = np.zeros(len(figure.parents), dtype=np.bool_)
     below[bone] = True
     for other, parent in enumerate(figure.parents):
@@ -68,6 +68,6 @@ def _below(figure: Figure, bone: int) -> BoolArray:
 
 
 def _held(mesh: Mesh, bones: BoolArray) -> np.ndarray:
-    """Weight of every vertex (V,) by some bones."""
+    """Return the weight of every vertex (V,) for some bones."""
     weights: np.ndarray = np.where(bones[mesh.joints], mesh.weights, 0.0).sum(axis=1)
     return weights

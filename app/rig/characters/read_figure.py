@@ -1,4 +1,4 @@
-"""Opening a character's file, whatever its format: glTF, GLB, VRM 0.x and 1.0, FBX."""
+"""Reading of a character's file in any format: glTF, GLB, VRM 0.x and 1.0, FBX."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ SUFFIXES: Final = (".vrm", ".glb", ".gltf", ".fbx")
 
 
 def is_glb(path: Path) -> bool:
-    """Return whether a file is a glTF binary by its content. Raises FileError where it cannot be read."""
+    """Return whether a file is a glTF binary by its content. Raises FileError if it cannot be read."""
     with open_file(path) as opened:
         return opened.read(4) == MAGIC
 
 
 def read_figure(path: Path) -> Figure:
-    """Read the figure a file holds.
+    """Read the figure in a file.
 
     Raises
     ------
     FileError
-        It cannot be read, is of no known format, damaged, absurdly large, or holds no skeleton.
+        The file cannot be read, is damaged, too large or of an unknown format, or contains no skeleton.
     """
     with open_file(path) as opened:
         start = opened.read(64)

@@ -1,4 +1,4 @@
-"""The T-pose of a figure's joints: those at the ends of chains that its file lacks supplied, its soles on the floor."""
+"""The T-pose of a figure's joints, with missing ends of chains added and the soles on the floor."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from app.rig.mesh import Mesh
 
 SIDES: Final = ("left", "right")
 OFF_CENTRE: Final = 0.1
-"""A figure stands at the origin if its feet are nearer to it than this part of its height."""
+"""Distance of the feet from the origin, relative to the height, below which a figure counts as standing there."""
 OWN_VERTEX: Final = 0.5
-"""A vertex belongs to the joints that hold more than this share of it."""
+"""Share of a vertex's weight above which it belongs to a joint."""
 HAND_M: Final = (
     {
         "ThumbMetacarpal": (0.028, -0.002, 0.018),
@@ -40,23 +40,23 @@ HAND_M: Final = (
         "LittleDistal": (0.127, -0.005, -0.033),
     },
 )
-"""Our own adult's left fingers in the T-pose, from the wrist."""
+"""Positions of a bundled adult's left fingers in the T-pose from the wrist, in metres."""
 HAND_REACH_M: Final = 0.195
-"""From its wrist to the tip of the middle finger."""
+"""Distance from that adult's wrist to the tip of the middle finger, in metres."""
 EYE_M: Final = np.array([0.031, 0.042, 0.091])
 HEAD_TOP_M: Final = 0.13
-"""From the head's joint: its left eye and its crown."""
+"""Positions of that adult's left eye and crown from the head's joint, in metres."""
 TOES_M: Final = np.array([0.0, -0.048, 0.153])
 ANKLE_M: Final = 0.1
-"""From its ankle: the toes' joint; the ankle's height."""
+"""Positions of that adult's toes from the ankle, and the ankle's height, in metres."""
 HEAD_HEIGHT_M: Final = 1.671
-"""Height of its head's joint."""
+"""Height of that adult's head joint in metres."""
 UP: Final = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Joints of the character and how they were matched, J of them.
+    """Joints of the character with their matching, J of them.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Fit:
 
 
 def supplied_ends(fit: Fit, meshes: Sequence[Mesh]) -> Fit:
-    """Place the joints at the ends of chains that the file lacks."""
+    """Return the fit with missing joints at the ends of chains added."""
     rest_m, places = fit.rest_m.copy(), fit.places_m.copy()
     index = {name: joint for joint, name in enumerate(fit.names)}
     for joint, name in enumerate(fit.names):
@@ -108,7 +108,7 @@ def _finger_offset(
     meshes: Sequence[Mesh],
     fit: Fit,
 ) -> FloatArray:
-    """Offset from the parent, of a left hand: by the length of the bone before it, or of the whole hand."""
+    """Return the offset of a left finger joint from its parent, by the length of the preceding bone or of the hand."""
     chain = next(chain for chain in HAND_M if part in chain)
     order = list(chain).index(part)
     ways = np.diff(np.vstack([np.zeros(3), *chain.values()]), axis=0)
@@ -131,8 +131,9 @@ def _of_hand(name: str) -> bool:
 
 
 def _extent(fit: Fit, meshes: Sequence[Mesh], joints: Sequence[int], direction: FloatArray) -> float:
-    """Return how far the skin of joints goes in a direction from the first of them, in the T-pose; as an adult's if
-    none."""
+    """Return the extent of joints' skin in a direction from the first of them, in the T-pose; an adult's value if there
+    is no skin.
+    """
     joint_from_mesh = inverse_binds(fit)
     found = 0.0
     for mesh in meshes:
@@ -162,7 +163,7 @@ def _floor(fit: Fit, meshes: Sequence[Mesh]) -> float:
 
 
 def on_the_floor(fit: Fit, meshes: Sequence[Mesh]) -> Fit:
-    """The T-pose with its soles on the floor, at the origin; where it stands as good as there, it is left there."""
+    """Return the T-pose with the soles on the floor at the origin; unchanged if they nearly are."""
     floor = _floor(fit, meshes)
     feet = [fit.names.index(side + "Foot") for side in SIDES]
     middle = fit.places_m[feet].mean(axis=0)
@@ -176,7 +177,7 @@ def on_the_floor(fit: Fit, meshes: Sequence[Mesh]) -> Fit:
 
 
 def inverse_binds(fit: Fit) -> FloatArray:
-    """``joint_from_mesh`` where vertices are in the rest pose."""
+    """Return ``joint_from_mesh`` for vertices in the rest pose."""
     result = np.tile(np.eye(4), (len(fit.names), 1, 1))
     result[:, :3, :3] = quaternion.to_matrix(fit.turns)
     result[:, :3, 3] = -np.einsum("jab,jb->ja", result[:, :3, :3], fit.rest_m)
@@ -196,6 +197,6 @@ def _t_posed(fit: Fit, joint_from_mesh: FloatArray, mesh: Mesh) -> FloatArray:
 
 
 def _held(mesh: Mesh, joints: Sequence[int]) -> BoolArray:
-    """Vertices that belong to some joints."""
+    """Return which vertices belong to some joints."""
     held: BoolArray = np.where(np.isin(mesh.joints, joints), mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
     return held

@@ -1,8 +1,8 @@
-"""The T-pose of a figure: arms along +-X with the palms down, legs straight down, fingers along the arm, feet ahead.
+"""The T-pose of a figure: arms along +-X with palms down, legs straight down, fingers along the arm, feet forward.
 
-Each joint of a figure gets the rotation that takes it from the rest pose of its file to the T-pose, by the rules that
-our own characters are built by (``resources/build/character_skeleton.py``): an elbow's or a finger's hinge is where it
-is bent at rest, a hand's frame is that of its knuckles, a thumb is swung within its hand. The trunk stays as modelled.
+Each joint gets the rotation from the file's rest pose to the T-pose, by the rules of the bundled characters
+(``resources/build/character_skeleton.py``): the hinge of an elbow or finger is where it is bent at rest, a hand's
+orientation is that of its knuckles, a thumb rotates within its hand. The trunk is unchanged.
 """
 
 from __future__ import annotations
@@ -25,17 +25,19 @@ THUMB: Final = ("ThumbMetacarpal", "ThumbProximal", "ThumbDistal")
 THUMB_DIRECTION: Final = np.array([1.0, 0.0, 1.0]) / np.sqrt(2.0)
 """Direction of the left thumb; the right one is its mirror image."""
 BENT_DEG: Final = (3.0, 8.0)
-"""A joint bent less than the first says nothing about its hinge, one bent more than the second says it for sure."""
+"""Bend in degrees below which a joint's hinge is unknown, and above which it is certain."""
 MOST_HINGE_DEG: Final = 75.0
-"""A hinge farther than this from where the shortest way leads is no elbow's or finger's."""
+"""Greatest angle in degrees of a plausible hinge from the shortest rotation."""
 WRIST_TWIST_DEG: Final = 30.0
-"""Largest turn of a hand about the arm that is the wrist's; the rest is the forearm's."""
+"""Largest rotation of a hand about the arm that is attributed to the wrist; the rest is the forearm's."""
 ALIKE: Final = float(np.cos(np.radians(8.0)))
-"""Bones whose own axes point along them do so at least this well."""
+"""Least cosine between a bone's own axis and its direction for them to agree."""
 BACKWARDS: Final = 0.3
-"""Feet point back if they reach so much farther behind the ankle than before it, of their length."""
+"""Excess of the foot's extent behind the ankle over that in front, relative to its length, from which feet point
+backwards.
+"""
 ASKEW_DEG: Final = 20.0
-"""Turn of a figure up to which it is taken to stand as intended."""
+"""Rotation in degrees up to which a figure is considered to be standing as intended."""
 UP: Final = np.array([0.0, 1.0, 0.0])
 AHEAD: Final = np.array([0.0, 0.0, 1.0])
 
@@ -56,12 +58,12 @@ class Rest:
 
 
 def rest_of(figure: Figure) -> Rest:
-    """Return where a figure's bones are at rest."""
+    """Return the rest transforms of a figure's bones."""
     return Rest(*world_placements(figure.parents, figure.translations_m, figure.rotations))
 
 
 def heaviest(figure: Figure) -> tuple[FloatArray, IntArray]:
-    """All vertices (V, 3) at rest and the bone (V,) that holds most of each."""
+    """Return all vertices (V, 3) at rest and the bone (V,) with the greatest weight for each."""
     points, holders = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
     for mesh in figure.meshes:
         points.append(mesh.positions_m.astype(np.float64))
@@ -71,9 +73,9 @@ def heaviest(figure: Figure) -> tuple[FloatArray, IntArray]:
 
 
 def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
-    """The figure turned to stand up and face +Z, as its legs and its head say; itself where it does.
+    """Return the figure rotated to stand upright and face +Z by its legs and head; unchanged if it does.
 
-    Axes that a file names wrongly are a matter of right angles; only a figure that stands obliquely is turned by less.
+    Wrongly named axes require right angles; only an oblique figure is rotated by other angles.
     """
     places = rest_of(figure).positions_m
 
@@ -99,14 +101,14 @@ def upright(figure: Figure, bones: Mapping[str, int]) -> Figure:
 
 
 def facing_ahead(figure: Figure, bones: Mapping[str, int], tips_m: Mapping[str, FloatArray] | None = None) -> Figure:
-    """The figure turned about where its feet point back; itself where they point ahead or nowhere.
+    """Return the figure rotated by half a turn if its feet point backwards; otherwise unchanged.
 
     Parameters
     ----------
     bones : mapping of str to int
-        By VRM 1.0 joint.
+        Bones by VRM 1.0 joint.
     tips_m : mapping of str to (3,) float64, optional
-        Where the feet end at rest, by ``left`` and ``right``, of a figure that has neither toes nor a skin.
+        End of each foot at rest by ``left`` and ``right``, for a figure without toes and skin.
     """
     rest = rest_of(figure)
     ahead, size = 0.0, 0.0
@@ -128,7 +130,7 @@ def facing_ahead(figure: Figure, bones: Mapping[str, int], tips_m: Mapping[str, 
 
 
 def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
-    """The figure turned about the world's origin by a rotation matrix."""
+    """Return the figure rotated about the origin by a matrix."""
     roots = np.array([parent < 0 for parent in figure.parents])
     translations, rotations = figure.translations_m.copy(), figure.rotations.copy()
     translations[roots] = translations[roots] @ turn.T
@@ -160,14 +162,14 @@ def turned_figure(figure: Figure, turn: FloatArray) -> Figure:
 
 
 def turns_to_t_pose(figure: Figure, rest: Rest, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """World rotations (4,) that take joints from the rest pose to the T-pose; of those not named, the parent's.
+    """Return world rotations (4,) of joints from the rest pose to the T-pose; omitted joints follow their parent.
 
     Parameters
     ----------
     figure : Figure
         Upright.
     bones : mapping of str to int
-        By VRM 1.0 joint; the required ones are there.
+        Bones by VRM 1.0 joint, including all required ones.
     """
     pose = _Pose(figure, rest, bones)
     turns: dict[str, FloatArray] = {}
@@ -192,7 +194,7 @@ class _Pose:
         return self._rest.positions_m[self._bones[name]] if name in self._bones else None
 
     def _way(self, start: str, end: str) -> FloatArray | None:
-        """Unit direction between joints; None where one is missing or they coincide."""
+        """Return the unit direction between joints; None if one is missing or they coincide."""
         a, b = self._at(start), self._at(end)
         if a is None or b is None or np.linalg.norm(b - a) < 1e-6:
             return None
@@ -243,7 +245,7 @@ class _Pose:
         return quaternion.from_matrix(rest_frame.T)
 
     def _mitten(self, side: str) -> FloatArray | None:
-        """The middle of a hand without fingers, the thumb left out; None where it has no skin."""
+        """Return the middle of a hand without fingers and thumb; None if it has no skin."""
         own = {self._bones[side + "Hand"]}
         thumbs = {self._bones[side + name] for name in THUMB if side + name in self._bones}
         for bone, parent in enumerate(self._figure.parents):
@@ -254,14 +256,13 @@ class _Pose:
         return points[held].mean(axis=0) if held.any() else None
 
     def _chain(self, joints: Sequence[str]) -> list[tuple[str, FloatArray | None]]:
-        """Present joints of a chain and where each points."""
+        """Return the existing joints of a chain with their directions."""
         present = [name for name in joints if name in self._bones]
         ways = [self._way(a, b) for a, b in pairwise(present)]
         return [*zip(present, [*ways, self._tip(present)] if present else [], strict=True)]
 
     def _tip(self, present: Sequence[str]) -> FloatArray | None:
-        """Return where the last bone of a chain points: to the bone at its end, or as its own axes do if all of them
-        agree."""
+        """Return the direction of a chain's last bone: to the bone at its end, or along its own axes if all agree."""
         last = self._bones[present[-1]]
         ends = [child for child in self._children.get(last, []) if child not in self._joint_of]
         if len(ends) == 1:
@@ -328,7 +329,7 @@ class _Pose:
         return turns
 
     def _heading(self, side: str) -> FloatArray:
-        """Return where a foot points, level; ahead where nothing says."""
+        """Return the horizontal direction of a foot; forward if unknown."""
         foot = self._at(side + "Foot")
         assert foot is not None
         ends = [self._at(side + "Toes")]
@@ -347,7 +348,7 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _swung(way: FloatArray, target: FloatArray, before: FloatArray) -> FloatArray:
-    """Shortest rotation that takes a rest direction to its target, from a rotation that is there already."""
+    """Return the shortest rotation from a rest direction to a target, applied after an existing rotation."""
     return quaternion.multiply(quaternion.between(quaternion.rotate(before, way), target), before)
 
 
@@ -358,8 +359,9 @@ def _hinged(
     bends: Sequence[tuple[FloatArray, FloatArray]],
     hinge: FloatArray,
 ) -> FloatArray:
-    """Rotation of `_swung`, then turned about the target so that the bends at rest are about where the hinge is to
-    be."""
+    """Return the rotation of `_swung`, followed by a rotation about the target that puts the bends at rest about the
+    intended hinge.
+    """
     swung = _swung(way, target, before)
     axis = np.sum([np.cross(a, b) for a, b in bends], axis=0) if bends else np.zeros(3)
     bent_deg = float(np.degrees(np.arcsin(min(float(np.linalg.norm(axis)), 1.0))))

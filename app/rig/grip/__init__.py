@@ -1,1 +1,1 @@
-"""Grips of a body on an instrument."""
+"""Grips: how bodies hold instruments."""

@@ -1,6 +1,6 @@
-"""Size of a body relative to a grown-up player, and scaling of bodies, models and grips as a whole.
+"""Size of a body relative to an adult's, and scaling of bodies, models and grips as a whole.
 
-What is between the sizes of our own two grown-ups counts as theirs: instruments are built for all of them.
+Sizes between those of the two bundled adults count as 1, since instruments are built for them.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ _Value = TypeVar("_Value")
 
 
 def ratio_to_grown_up(length_m: float, grown_up_m: Range) -> float:
-    """A length as a multiple of the nearest of a grown-up's; 1 for one that a grown-up may have."""
+    """Return a length relative to the nearest of an adult's range; 1 within the range."""
     return length_m / min(max(length_m, grown_up_m[0]), grown_up_m[1])
 
 
 @lru_cache(maxsize=64)
 def hand_size(skeleton: Skeleton) -> float:
-    """Return how large the hands are."""
+    """Return the size of the hands relative to an adult's."""
     rest = rest_positions(skeleton)
 
     def apart_m(first: str, second: str) -> float:
@@ -60,25 +60,25 @@ def arm_m(skeleton: Skeleton, side: Side) -> float:
 
 
 def arm_size(skeleton: Skeleton, side: Side) -> float:
-    """Return how long an arm is."""
+    """Return the length of an arm relative to an adult's."""
     return ratio_to_grown_up(arm_m(skeleton, side), ARM_M)
 
 
 @lru_cache(maxsize=64)
 def leg_size(skeleton: Skeleton) -> float:
-    """Return how long the legs are: what a body's sway goes with."""
+    """Return the length of the legs relative to an adult's, which scales the body's sway."""
     rest = rest_positions(skeleton)
     return ratio_to_grown_up(float(rest[skeleton.index("hips")][1] - min(0.0, float(rest[:, 1].min()))), LEGS_M)
 
 
 @lru_cache(maxsize=64)
 def face_size(character: Character) -> float:
-    """Return how large the face is."""
+    """Return the size of the face relative to an adult's."""
     return ratio_to_grown_up(eye_distance(character), EYES_M)
 
 
 def sized_body(body: Body, size: float) -> Body:
-    """A kind of body whose sway, steps and bobbing go as far as one of this size goes."""
+    """Return the body's limits with sway, steps and bobbing scaled to a size."""
     return body if size == 1.0 else _sized(body, size)
 
 
@@ -117,8 +117,7 @@ def sized_model(model: InstrumentModel, size: float) -> InstrumentModel:
 
 
 def sized(value: _Value, size: float) -> _Value:
-    """A hold's part of a body that is larger or smaller as a whole, on an instrument that is so too: whatever is named
-    as a length, at any depth, is multiplied."""
+    """Return a part of a grip scaled with body and instrument: every field named as a length is multiplied."""
     return value if size == 1.0 else _times(value, size, "")
 
 

@@ -1,4 +1,4 @@
-"""Carriage of an instrument before any motion: the angles of a map's `Carriage` and the upright posture."""
+"""Carriage of an instrument before any motion: the angles of the map's `Carriage` and the upright posture."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def carriage_rotation(pitch_down_deg: float, yaw_left_deg: float, roll_left_deg:
 
 
 def carrying(body: Body, posture: maps.Posture, carriage: Carriage) -> Posture:
-    """A body's posture with head and trunk turned to the instrument as its carriage says."""
+    """Return a body's posture with head and trunk turned towards the instrument by its carriage."""
     return body.turned_to(
         posture,
         pitch_down_deg=carriage.pitch_down_deg[1],
@@ -69,12 +69,12 @@ def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
 
 
 def usual_posture(instrument_map: InstrumentMap) -> maps.Posture:
-    """The posture a hold is fitted in: standing, or the only one the instrument is played in."""
+    """Return the posture for which a grip is fitted: standing, or the instrument's only posture."""
     return instrument_map.hold.postures[0]
 
 
 def upright(character: Character, instrument_map: InstrumentMap, body: Body, lips: Lips) -> Upright:
-    """Stand a character up with its instrument, as its posture and the instrument's usual carriage say."""
+    """Return a character standing or sitting with its instrument, by posture and default carriage."""
     usual = usual_posture(instrument_map)
     skeleton, carriage = character.skeleton, instrument_map.hold.carriage(usual)
     posed = forward(skeleton, joint_rotations(skeleton, carrying(body, usual, carriage)))

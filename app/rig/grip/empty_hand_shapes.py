@@ -1,6 +1,7 @@
-"""Shapes of a hand that holds nothing: open, taking something between thumb and forefinger, pointing.
+"""Shapes of an empty hand: open, pinching, pointing.
 
-Angles are flexions in the order from the palm to the tip, degrees; set by eye. At rest fingers lie straight, palm down.
+Angles are flexions in degrees in order from the palm to the tip, chosen by eye. At rest fingers are straight and the
+palm faces down.
 """
 
 from __future__ import annotations
@@ -24,16 +25,16 @@ SHAPES_DEG: Final[Mapping[HandShape, tuple[tuple[float, float, float], ...]]] = 
     "point": ((16.0, 22.0, 22.0), (10.0, 16.0, 8.0), (54.0, 70.0, 36.0), (60.0, 76.0, 40.0), (60.0, 74.0, 38.0)),
 }
 TIP_SHARE: Final = 0.75
-"""Length of a finger's last bone relative to the one before it."""
+"""Length of a finger's last bone relative to the preceding one."""
 PAD_M: Final = 0.006
 """Depth of a fingertip's bone below its skin."""
 OPPOSED: Final = (0.55, 0.85)
-"""The thumb bends along the fingers and towards the palm by these shares."""
+"""Shares by which the thumb bends along the fingers and towards the palm."""
 PALMAR = np.array([0.0, -1.0, 0.0])
 
 
 def finger_joints(skeleton: Skeleton, side: Side, finger: str) -> tuple[int, ...]:
-    """The joints of a finger from the palm outwards, as far as a skeleton has them."""
+    """Return the joints of a finger from the palm outwards, as far as the skeleton has them."""
     bones = ("Metacarpal", "Proximal", "Distal") if finger == "Thumb" else ("Proximal", "Intermediate", "Distal")
     names = [f"{side}{finger}{bone}" for bone in bones]
     return tuple(skeleton.index(name) for name in names if name in skeleton.names)
@@ -58,7 +59,7 @@ def shaped(skeleton: Skeleton, side: Side, shape: HandShape) -> dict[int, FloatA
 
 @lru_cache(maxsize=64)
 def tip_m(skeleton: Skeleton, side: Side, shape: HandShape) -> FloatArray:
-    """Return where (3,) the forefinger's pad is in the wrist's frame; of a pinch half way to the thumb's."""
+    """Return the point (3,) of the index finger's pad in the wrist's frame; for a pinch, halfway to the thumb's pad."""
     pads = [
         _pad_m(skeleton, side, finger, shape) for finger in (("Index", "Thumb") if shape == "pinch" else ("Index",))
     ]

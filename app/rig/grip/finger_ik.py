@@ -1,6 +1,6 @@
-"""Fingers brought back to their places: a few steps of inverse kinematics, of all fingers that need it at once.
+"""Inverse kinematics that returns fingers to their places in a few steps, for many fingers and frames at once.
 
-Each finger is brought by itself; they are solved together because a frame of one finger takes as long as a hundred.
+Fingers are independent; they are solved together because one frame takes as long as a hundred.
 """
 
 from __future__ import annotations
@@ -20,27 +20,27 @@ from app.rig.grip.grip_pose import Chain
 ROUNDS = 5
 DAMPING_M = 0.004
 STEP_M = 0.012
-"""A finger is brought back to its place in steps of at most this length, stiff where its joints hardly move it."""
+"""Longest step in metres of a finger towards its place, with damping where its joints hardly move it."""
 LEAST_COMPARED = 32
-"""Fewer rows are solved as soon as they are compared."""
+"""Number of rows below which solving takes less time than comparing them."""
 
 
 @dataclass(frozen=True)
 class ReachTarget:
-    """A target for a finger tip in some frames: the chain of joints and the point it shall reach.
+    """Target of a fingertip in some frames: chain of joints and the point to reach.
 
     Attributes
     ----------
     rotations : (K, n, 4) float64
-        As it is.
+        Present rotations.
     joint : int
-        The joint, of the finger's, whose point ...
+        Joint within the finger that carries the point.
     tip_m : (3,) float64
-        ... in its frame ...
+        Point in the frame of that joint.
     requested_m : (K, 3) float64
-        ... comes here, in the wrist's frame.
+        Requested position of the point in the wrist's frame.
     stay_m : float
-        How much each angle is kept where it is: 0 where the place counts, more where only about the way there does.
+        Weight of keeping each angle: 0 if the position matters, more if only the path does.
     """
 
     chain: Chain
@@ -53,7 +53,7 @@ class ReachTarget:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Chains (R, ...), one for each row; angles that a finger has not are not ``used``."""
+    """Chains (R, ...), one for each row; angles that a finger lacks are not ``used``."""
 
     offsets_m: FloatArray
     axes: FloatArray
@@ -84,7 +84,7 @@ class _Rows:
 
 
 def fingers_at_targets(asked: Sequence[ReachTarget]) -> list[FloatArray]:
-    """Rotations (K, n, 4) of each, with the point at its place, within the limits of the joints."""
+    """Return rotations (K, n, 4) for each target with the point at its place, within the limits of the joints."""
     result: list[FloatArray] = [one.rotations for one in asked]
     lengths = [len(one.chain.offsets_m) for one in asked]
     for length in dict.fromkeys(lengths):
@@ -111,19 +111,19 @@ def fingers_at_targets(asked: Sequence[ReachTarget]) -> list[FloatArray]:
 
 
 def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, IndexArray]:
-    """Find rows that are equal bit by bit.
+    """Find rows that are bitwise equal.
 
     Parameters
     ----------
     columns : sequence of (R, ...)
-        Each row is what these hold at one index.
+        Columns, of which each index is a row.
 
     Returns
     -------
     firsts : (D,) intp
         Indices of distinct rows.
     same : (R,) intp
-        Which of these each row equals.
+        Index of the distinct row equal to each row.
     """
     count = len(columns[0])
     if count >= LEAST_COMPARED:
@@ -140,7 +140,7 @@ def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, Inde
 
 @lru_cache(maxsize=16)
 def _factors(count: int) -> npt.NDArray[np.uint64]:
-    """Odd numbers that spread bits over a sum, which wraps around."""
+    """Return odd numbers for a hash sum with wrap-around."""
     return np.random.default_rng(1).integers(0, 2**63, count, dtype=np.uint64) * np.uint64(2) + np.uint64(1)
 
 
@@ -152,7 +152,7 @@ def _brought(
     requested_m: FloatArray,
     stay_m: FloatArray,
 ) -> FloatArray:
-    """A few damped Gauss-Newton steps (Wampler 1986) on the angles that a finger has."""
+    """Return angles after a few damped Gauss-Newton steps (Wampler 1986)."""
     rows = np.arange(len(rotations))
     each, joints, kinds = rows[:, None], chains.joints, chains.kinds
     moves = (chains.used & (joints <= joint[:, None]))[..., None]
@@ -193,7 +193,7 @@ def _brought(
 
 
 def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
-    """About which axis (R, n, 3, 3) each of its angles turns a joint, in the frame of the one above."""
+    """Return the axes (R, n, 3, 3) about which each angle turns a joint, in the frame of the joint above."""
     axis = chains.axes
     swing = angles[..., 0, None] * axis[:, :, 0] + angles[..., 1, None] * axis[:, :, 1]
     angle = np.maximum(np.sqrt(np.einsum("kni,kni->kn", swing, swing)), 1e-9)[..., None, None]
@@ -206,7 +206,7 @@ def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
 
 
 def _step(slopes: FloatArray, off_m: FloatArray, stiff: FloatArray) -> FloatArray:
-    """Damped least squares: the angles (R, D) that bring a point by ``off_m`` (R, 3)."""
+    """Return the angles (R, D) that move a point by ``off_m`` (R, 3), by damped least squares."""
     normal = np.einsum("kdi,kdj->kij", slopes, slopes) + stiff
     step: FloatArray = np.einsum("kdi,ki->kd", slopes, np.linalg.solve(normal, off_m[..., None])[..., 0])
     return step

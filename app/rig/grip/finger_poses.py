@@ -1,4 +1,4 @@
-"""The fingers of a hold at every frame: tables over the controls, and what the hand's giving way asks of them."""
+"""Fingers of a grip at every frame: from tables over the controls, with corrections for an offset wrist."""
 
 from __future__ import annotations
 
@@ -26,11 +26,13 @@ from app.rig.quaternion import interpolated, mixed
 Controls = Mapping[str, AnyFloatArray]
 
 LIFT_STAY_M = 0.004
-"""A finger on its way is lifted as far as that is easy: towards what it cannot reach it would be thrown from one end of
-its range to the other."""
+"""Weight in metres of keeping the pose while a finger is lifted on its way: a finger that cannot reach the height would
+jump between the ends of its range.
+"""
 LOW_HOVER = 0.123
-"""In slow passages a finger waits as low as if its control had come so far: at the map's height, which is 1 / 1.3 of
-the highest (`app.rig.grip.fitting.touch_targets.HOVER_MORE`)."""
+"""Value of a finger's control at which it waits in slow passages: the map's height, which is 1 / 1.3 of the highest
+(`app.rig.grip.fitting.touch_targets.HOVER_MORE`).
+"""
 
 NEIGHBOURS = {
     "index": {"middle": 0.3},
@@ -38,10 +40,11 @@ NEIGHBOURS = {
     "ring": {"middle": 0.5, "little": 0.5},
     "little": {"ring": 1.0},
 }
-"""Fingers that come along with others, with their shares: ring with little and middle most (Zatsiorsky, Li & Latash
-2000)."""
+"""Shares by which fingers move together with others: ring with little and middle most (Zatsiorsky, Li & Latash
+2000).
+"""
 GIVES = 0.10
-"""Most that a waiting finger comes along, as a share of its control's way: some 2 mm."""
+"""Most that a waiting finger moves together with others, as a share of its control's travel: about 2 mm."""
 
 
 def finger_rotations(
@@ -51,18 +54,18 @@ def finger_rotations(
     placed: Mapping[str, StationBlend] | None = None,
     raised: FloatArray | float = 0.0,
 ) -> FloatArray:
-    """Pose the fingers.
+    """Return the rotations of the fingers.
 
     Parameters
     ----------
     controls : dict of str to (F,)
-        Values 0..1; a control that is absent is at 0.
+        Values 0..1 by control; missing controls are at 0.
     frames : int
         F.
     placed : mapping of str to StationBlend, optional
-        Where the fingers are that are not at home.
+        Positions of fingers that are not at their home station.
     raised : (F,) float64 or float
-        0..1: how high fingers wait over their keys, from a slow passage to the fastest.
+        Height of waiting fingers, 0..1: from a slow passage to the fastest.
 
     Returns
     -------
@@ -90,8 +93,7 @@ def finger_rotations(
 
 
 def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str, FloatArray]:
-    """Return how high (F,) each finger waits: lower beside one that presses, with which it shares muscles and
-    sinews."""
+    """Return the height (F,) of each waiting finger: lower beside a pressing finger that shares muscles and tendons."""
     heights = {table.finger: raised for table in hand.fingers}
     if not any(station.hovers for table in hand.fingers for station in table.stations):
         return heights
@@ -110,8 +112,9 @@ def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str
 
 @dataclass(frozen=True)
 class _Way:
-    """Frames in which a finger goes from one of its stations to another (or stays), and its joints among all;
-    ``given``: its hand gives way, or one of the fingers waits for that."""
+    """Frames in which a finger moves from one station to another (or stays), with its joints; ``given``: the wrist is
+    offset, or a finger waits for that.
+    """
 
     table: FingerTable
     first: int
@@ -123,7 +126,7 @@ class _Way:
 
 
 def _moved(hand: HandHold, frames: int, placed: Mapping[str, StationBlend] | None) -> BoolArray:
-    """In which frames (F,) a hand gives way, or one of its fingers waits for that."""
+    """Return in which frames (F,) a hand's wrist is offset, or a finger waits for that."""
     moved = np.zeros(frames, dtype=np.bool_)
     for offset in hand.leans:
         for share in (given_way(offset, placed), come_to(offset, placed)):
@@ -153,9 +156,9 @@ def _posed(
     controls: Controls,
     raised: Mapping[str, FloatArray],
 ) -> list[FloatArray]:
-    """Rotations (K, n, 4) of the fingers of one hand on their ways, all that is solved for them solved together.
+    """Return rotations (K, n, 4) of a hand's fingers on their ways, with everything solved together.
 
-    At their places first, for the wrist there is; what is between two places is lifted over what lies between.
+    Fingers are first put at their places for the actual wrist; poses between two places are lifted over obstacles.
     """
     given = [(offset, weight) for offset in hand.leans for weight in [given_way(offset, placed)] if weight is not None]
     wrist = wrist_given(hand, given)
@@ -185,7 +188,7 @@ def _posed(
 
 
 def _solved(asked: Sequence[FloatArray | ReachTarget]) -> list[FloatArray]:
-    """Poses with the requested ones solved; equal requests are solved once."""
+    """Return the poses with requested ones solved; equal requests are solved once."""
     requested = {id(one): one for one in asked if isinstance(one, ReachTarget)}
     found = dict(zip(requested, fingers_at_targets(list(requested.values())), strict=True))
     return [found[id(one)] if isinstance(one, ReachTarget) else one for one in asked]
@@ -199,7 +202,7 @@ def solved_pose(asked: FloatArray | ReachTarget) -> FloatArray:
 def _at_station(
     station: StationTable, controls: Controls, raised: FloatArray, pressed: FloatArray | float = 1.0
 ) -> FloatArray:
-    """Rotations (F, n, 4) at one station; ``pressed`` lifts a finger that is on its way off what it works."""
+    """Return rotations (F, n, 4) at one station; ``pressed`` lifts a moving finger off its control."""
     known = [np.asarray(controls[name], dtype=np.float64) for name in station.controls if name in controls]
     if not known or len(station.values) == 1:
         return np.broadcast_to(station.rotations[0], (len(raised), *station.rotations.shape[1:]))
@@ -212,9 +215,9 @@ def _at_station(
 def _both(
     table: FingerTable, first: int, second: int, share: FloatArray, controls: Controls, raised: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Rotations (F, n, 4) at the two stations a finger goes between.
+    """Return rotations (F, n, 4) at both stations that a finger moves between.
 
-    It lifts on its way, but where it keeps on something that it works at both ends of the way.
+    The finger is lifted on its way except from a control that it works at both stations.
     """
     near, far = table.stations[first], table.stations[second]
     if first == second:
@@ -228,7 +231,7 @@ def _both(
 def _on_way(
     table: FingerTable, first: int, second: int, near: FloatArray, far: FloatArray, share: FloatArray
 ) -> FloatArray | ReachTarget:
-    """Rotations (K, n, 4) between two stations, lifted over what lies between."""
+    """Return rotations (K, n, 4) between two stations, lifted over obstacles."""
     pose = mixed(near, far, share[:, None, None])
     away = max((table.stations[first].away_m, table.stations[second].away_m), key=lambda one: float(one @ one))
     return raised_way(table, first, second, pose, share, away) if np.any(away) else pose
@@ -237,7 +240,7 @@ def _on_way(
 def raised_way(
     table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
 ) -> FloatArray | ReachTarget:
-    """Lift a finger that is between two of its stations, most half way: rotations (K, n, 4)."""
+    """Return rotations (K, n, 4) of a finger lifted between two stations, most at half way."""
     near, far = table.stations[first], table.stations[second]
     if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
         return rotations
@@ -255,15 +258,16 @@ def _sampled(table: FingerTable, controls: Controls, here: IndexArray) -> Contro
 
 @dataclass(frozen=True)
 class _Given:
-    """Giving way of a hand in some frames: how far (F,) for each of its leans in all frames, and where its wrist is in
-    these, (K, 3) and (K, 4), or in one that stands for all."""
+    """Offset of a hand in some frames: the amount (F,) of each of its offsets in all frames, and its wrist in these
+    frames, (K, 3) and (K, 4), or in one frame for all.
+    """
 
     leans: Sequence[tuple[WristOffset, FloatArray]]
     frames: IndexArray
     wrist: tuple[FloatArray, FloatArray]
 
     def waits(self, offset: WristOffset) -> FloatArray:
-        """Return how far (K,) it is from giving way."""
+        """Return how far (K,) an offset is from being fully applied, 0..1."""
         weight = next((weight[self.frames] for one, weight in self.leans if one is offset), np.zeros(len(self.frames)))
         return 1.0 - weight
 
@@ -271,7 +275,7 @@ class _Given:
 def _at_place(
     hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: _Given
 ) -> FloatArray | ReachTarget:
-    """Rotations (K, n, 4) at a station, for another wrist than the one they were solved for."""
+    """Return rotations (K, n, 4) at a station for another wrist than that of the solution."""
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
@@ -291,9 +295,10 @@ def with_wrist(
     wrist: tuple[FloatArray, FloatArray],
     lifted_m: FloatArray | float = 0.0,
 ) -> ReachTarget:
-    """Rotations (K, n, 4) that leave what touches at a station where it is, for another wrist than their ``own``.
+    """Return rotations (K, n, 4) that keep the touching point of a station in place, for another wrist than their
+    ``own``.
 
-    Wrists are places (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in that of the wrist.
+    Wrists are positions (K, 3) and rotations (K, 4) in one frame; ``lifted_m`` (K, 3) is added in the wrist's frame.
     """
     assert table.chain is not None
     tips = np.broadcast_to(station.tip_m, (len(rotations), 3))
@@ -305,7 +310,7 @@ def with_wrist(
 
 
 def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
-    """Place (K, 3), in the wrist's frame, of the point that touches at a station."""
+    """Return the position (K, 3) of a station's touching point in the wrist's frame."""
     return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
 
 

@@ -1,8 +1,8 @@
-"""The places of a finger: where the contacts of a map say it is for every set of controls it works.
+"""Stations of fingers: the places of a finger for every set of controls it works, from the contacts of a map.
 
-A finger with several keys goes from one place (*station*) to the next; the first in the map is where it is at home. A
-contact without a control is kept at every station, unless its part of the finger works controls at other places: then
-it is a place of its own, where the finger rests.
+A finger with several keys moves from one *station* to the next; the first in the map is its home. A contact without a
+control is kept at every station, unless the same part of the finger works controls at other places: then it is a
+station of its own at which the finger rests.
 """
 
 from __future__ import annotations
@@ -20,25 +20,25 @@ from instrument_maps.hold import Contact
 from instrument_maps.model import FINGERS, Control, InstrumentMap
 
 HOVER_POWER = 2.0
-"""A finger drops to its key ahead of the key's way down: what is left of its height goes with this power."""
+"""Exponent of a finger's remaining height over its key's travel, so that it drops ahead of the key."""
 HALF_ASIDE_M = 0.0025
-"""A finger on half a hole lies this much aside."""
+"""Sideways distance in metres of a finger on a half-covered hole."""
 MOST_HOVER_M = 0.020
-"""A finger that is up waits no higher."""
+"""Greatest height in metres of a waiting finger."""
 
 
 @dataclass(frozen=True)
 class Station:
-    """A place of a finger, with the controls it works there.
+    """A place of a finger, with the controls that it works there.
 
     Attributes
     ----------
     finger : str
         ``"right.little"``.
     controls : tuple of str
-        What it works there, sorted; empty where it only rests.
+        Names of the controls, sorted; empty if the finger only rests.
     contacts : tuple of int
-        Which of the map's contacts it keeps there.
+        Indices of the map's contacts that the finger keeps there.
     """
 
     finger: str
@@ -47,7 +47,7 @@ class Station:
 
 
 def stations(instrument: InstrumentMap) -> Mapping[str, tuple[Station, ...]]:
-    """The stations of every finger that touches anything, home first."""
+    """Return the stations of every finger with contacts, home first."""
     return _stations(instrument.contacts, instrument.controls)
 
 
@@ -73,7 +73,7 @@ def _stations(contacts: tuple[Contact, ...], controls: tuple[Control, ...]) -> M
 
 
 def worked_by(contact: Contact, instrument: InstrumentMap) -> tuple[str, ...]:
-    """The controls that a finger works by this contact, sorted; none where a whole hand works them."""
+    """Return the controls that a finger works by this contact, sorted; none if a whole hand works them."""
     return _worked(contact, frozenset(one.name for one in instrument.controls if one.finger.endswith(".hand")))
 
 
@@ -84,8 +84,7 @@ def _worked(contact: Contact, of_hands: frozenset[str]) -> tuple[str, ...]:
 
 
 def station_for(places: Sequence[Station], worked: frozenset[str]) -> int:
-    """Return which of a finger's stations lets it work these controls: the same set, or what has most in common with
-    it."""
+    """Return the index of the station for a set of controls: the equal set, or the one with most in common."""
     return max(
         range(len(places)),
         key=lambda index: (
@@ -100,8 +99,9 @@ def station_for(places: Sequence[Station], worked: frozenset[str]) -> int:
 def fingers_at_work(
     instrument: InstrumentMap, controls: Mapping[str, float], fingers: Mapping[str, str]
 ) -> dict[str, frozenset[str]]:
-    """Return which controls each finger works where ``controls`` are away from rest and ``fingers`` work some of them
-    instead of the usual ones."""
+    """Return the controls that each finger works if ``controls`` are away from rest and ``fingers`` replace the usual
+    ones.
+    """
     found: dict[str, set[str]] = {}
     for control in instrument.controls:
         if controls.get(control.name, control.rest_value) != control.rest_value:
@@ -112,12 +112,12 @@ def fingers_at_work(
 def stations_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
 ) -> dict[str, IndexArray]:
-    """Return which of its stations each finger works in each note (N,), by finger; -1 where it works nothing.
+    """Return the station of each finger in each note (N,), by finger; -1 if it works nothing.
 
     Parameters
     ----------
     notes : iterable of (controls, fingers)
-        Of the fingerings, as `fingers_at_work` takes them.
+        Controls and replaced fingers of each note, as in `fingers_at_work`.
     """
     kinds, at_work = kinds_of_notes(instrument, notes)
     return {
@@ -131,8 +131,9 @@ def stations_of_notes(
 def kinds_of_notes(
     instrument: InstrumentMap, notes: Iterable[tuple[Mapping[str, float], Mapping[str, str]]]
 ) -> tuple[IndexArray, list[dict[str, frozenset[str]]]]:
-    """Sort notes (N,) into kinds by their fingering, with the fingers at work in each kind; a line has only a few
-    kinds."""
+    """Return the kind (N,) of each note by its fingering, and the fingers at work in each kind; a line has only a few
+    kinds.
+    """
     known: dict[tuple[int, int], int] = {}
     at_work: list[dict[str, frozenset[str]]] = []
     kinds = []
@@ -147,8 +148,9 @@ def kinds_of_notes(
 
 
 def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tuple[str, int]], ...]:
-    """Pairs of stations of one hand's fingers, neither of them at home, that some fingering of the map asks for at
-    once; sorted."""
+    """Return pairs of stations other than home, of one hand's fingers, that some fingering needs simultaneously;
+    sorted.
+    """
     working = stations_of_notes(instrument, ((one.controls, one.fingers) for one in instrument.fingerings))
     away = [
         (finger, number) for finger, numbers in working.items() for number in range(1, int(numbers.max(initial=0)) + 1)
@@ -162,9 +164,10 @@ def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tu
 
 
 def only_at(instrument: InstrumentMap) -> tuple[tuple[str, int] | None, ...]:
-    """For every contact, the finger and the only station at which it counts; None for one that is kept all the time.
+    """Return the finger and the only station for each contact; None for a contact that is always kept.
 
-    What a finger works at one of several stations, or waits over, it touches only while it works it.
+    A finger touches the contacts of one of several stations, or of a station at which it hovers, only while it works
+    them.
     """
     return _only_at(instrument.contacts, instrument.controls)
 
@@ -184,22 +187,22 @@ def _only_at(contacts: tuple[Contact, ...], controls: tuple[Control, ...]) -> tu
 
 
 def hover_m(station: Station, instrument: InstrumentMap) -> float:
-    """Return how high a finger waits over its station; 0 where it stays on what it works."""
+    """Return the height in metres at which a finger waits over its station; 0 if it stays on its control."""
     return max((instrument.control(name).hover_m for name in station.controls), default=0.0)
 
 
 def height_share(control: Control, values: npt.ArrayLike) -> FloatArray:
-    """Share (F,) of the height at which a finger waits that is left while its control is at these values."""
+    """Return the share (F,) of a waiting finger's height that remains at given values of its control."""
     full = 1.0 if control.half_value is None else control.half_value
     left: FloatArray = np.maximum(1.0 - np.asarray(values, dtype=np.float64) / full, 0.0) ** HOVER_POWER
     return left
 
 
 def aside_m(contact: Contact, instrument: InstrumentMap, values: npt.ArrayLike) -> FloatArray:
-    """Return how far (F, 3) a finger lies off its touch point in the instrument's frame: aside on a hole that is half
-    closed.
+    """Return the offset (F, 3) in metres of a finger from its touch point in the instrument's frame, on a half-covered
+    hole.
 
-    Aside is towards wrist or palm, along the surface.
+    The offset is towards wrist or palm along the surface.
     """
     values = np.asarray(values, dtype=np.float64)
     control = None if contact.control is None else instrument.control(contact.control)

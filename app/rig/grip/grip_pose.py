@@ -1,17 +1,14 @@
-"""Grip of one body on one instrument: fixed hand frames, finger poses over the controls, the lips.
+"""Grip of one body on one instrument: fixed hand frames, finger poses over the controls, lips.
 
-A `GripPose` is fitted once per character and instrument (`app.rig.grip.fitting.fit.fit_hold`) and then only evaluated,
-vectorised over frames:
+A `GripPose` is fitted once per character and instrument (`app.rig.grip.fitting.fit.fit_hold`) and then evaluated for
+all frames at once:
 
-1. ``Lips.contact_m`` gives where the lips are in the head's frame; with the head's transform and the requested rotation
-of
-   the instrument that gives ``world_from_instrument``.
-2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand that lies on a moving node moves with it).
-3. `app.rig.ik.solve_limb` turns a shoulder and a target into rotations of upper arm, lower arm and hand;
-   ``HandHold.elbow_direction`` is the comfortable pole.
-4. `app.rig.grip.finger_poses.finger_rotations` gives the fingers by interpolation of tables over the values of the
-controls,
-   one for every place (`app.rig.grip.finger_stations`) a finger goes to.
+1. ``Lips.contact_m`` gives the lips in the head's frame; with the head's transform and the requested rotation of the
+instrument this gives ``world_from_instrument``. 2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand on a
+moving node moves with it). 3. `app.rig.ik.solve_limb` converts a shoulder and a target to rotations of upper arm, lower
+arm and hand; ``HandHold.elbow_direction`` is the comfortable pole. 4. `app.rig.grip.finger_poses.finger_rotations`
+interpolates the fingers in tables over the values of the controls, one for every station
+(`app.rig.grip.finger_stations`) of a finger.
 """
 
 from __future__ import annotations
@@ -34,7 +31,7 @@ class NodeMotion:
     """Motion of a node of the instrument with one control, in the instrument's frame.
 
     The node's transform is a translation by ``value * travel_m`` or a rotation by ``value * angle_rad`` about the axis
-    ``axis`` through ``pivot_m``; the other one is zero.
+    ``axis`` through ``pivot_m``; the other value is zero.
     """
 
     control: str
@@ -46,16 +43,16 @@ class NodeMotion:
 
 @dataclass(frozen=True)
 class Chain:
-    """The joints of a finger, to bring it somewhere.
+    """The joints of a finger for inverse kinematics.
 
     Attributes
     ----------
     offsets_m : (joints, 3) float64
-        Each from the one above, the first from the wrist.
+        Offset of each joint from the one above, the first from the wrist.
     axes : (joints, 3, 3) float64
         Flexion, sideways and twist axis of each (rows).
     dofs : (D, 2) float64
-        The angles that move: joint and which of its axes.
+        Movable angles: joint, and index of its axis.
     low, high : (D,) float64
         Their ranges, radians.
     """
@@ -69,26 +66,26 @@ class Chain:
 
 @dataclass(frozen=True)
 class StationTable:
-    """Poses of one finger at one of its stations over the value of what it works there.
+    """Poses of one finger at one station over the value of its controls there.
 
     Attributes
     ----------
     controls : tuple of str
-        What moves it, all at once; empty where the finger does not move and the table has one row.
+        Controls that move the finger simultaneously; empty if the finger does not move and the table has one row.
     hovers : bool
-        Whether the finger waits over what it works: the first row is then as high as it ever waits.
+        Whether the finger waits above its controls: the first row is then at the greatest height.
     values : (S,) float64
         Ascending, from 0 to 1.
     rotations : (S, joints, 4) float64
-        ``parent_from_joint``, xyzw, each sample in the hemisphere of the one before.
+        ``parent_from_joint``, xyzw, each sample in the hemisphere of the previous one.
     tip_joint : int
-        The joint, of the finger's, that carries what touches; -1 where it touches nothing.
+        Joint within the finger that carries the touching point; -1 if there is none.
     tip_m : (3,) float64
-        What touches, in that joint's frame.
+        Touching point in that joint's frame.
     away_m : (3,) float64
-        By how much a finger is lifted half way between home and here, in the wrist's frame ...
+        Lift of the finger halfway between home and this station, in the wrist's frame.
     waits_m : (3,) float64
-        ... and while it waits here for a hand that will give way for it.
+        Lift of the finger while it waits for an offset of its hand.
     """
 
     controls: tuple[str, ...]
@@ -114,7 +111,7 @@ class FingerTable:
     stations : tuple of StationTable
         Home first; in the order of `app.rig.grip.finger_stations.stations`.
     chain : Chain or None
-        Of a hand that gives way for its fingers.
+        Joints, for a hand that is offset for its fingers.
     """
 
     finger: str
@@ -126,7 +123,7 @@ class FingerTable:
 class StationBlend(NamedTuple):
     """Position of a finger between two of its stations, frame by frame.
 
-    ``before`` and ``after`` (F,) are places in ``FingerTable.stations``, ``share`` (F,) is 0 at the first and 1 at the
+    ``before`` and ``after`` (F,) are indices in ``FingerTable.stations``; ``share`` (F,) is 0 at the first and 1 at the
     second.
     """
 
@@ -137,11 +134,11 @@ class StationBlend(NamedTuple):
 
 @dataclass(frozen=True)
 class ContactFit:
-    """Accuracy of one contact of the map, the worst over the samples of its control.
+    """Accuracy of one contact of the map: the worst over the samples of its control.
 
     ``distance_m`` is from the landmark on the deformed mesh to the touch point, ``angle_rad`` between the pad's outward
-    normal and the reversed normal of the surface: of a finger that hovers, when its control is fully worked;
-    ``waits_m`` is how far from the touch point it waits then.
+    normal and the reversed normal of the surface; for a hovering finger, when its control is fully worked. ``waits_m``
+    is its distance from the touch point while waiting.
     """
 
     part: str
@@ -156,18 +153,18 @@ class ContactFit:
 
 @dataclass(frozen=True)
 class WristOffset:
-    """Offset of a hand that lets one finger reach one of its stations.
+    """Offset of a hand with which a finger can reach one of its stations.
 
     Attributes
     ----------
     station : int
-        Its place in ``FingerTable.stations``; that table is for the wrist that has given way.
+        Index in ``FingerTable.stations``; that table is for the offset wrist.
     moved_m, turned : (3,) float64
-        What is added to the wrist's place in the instrument's frame, and the rotation vector it is turned by there. The
-        other fingers stay where they are (`app.rig.grip.finger_poses`).
+        Translation of the wrist in the instrument's frame, and rotation vector about it. The other fingers stay in
+        place (`app.rig.grip.finger_poses`).
     beside : tuple of (str, int)
-        Of other fingers the stations that they must be at as well. Such a lean comes on top of those of the single
-        fingers: what gives way for each of them alone need not do for both.
+        Stations of other fingers for which the offset is needed too; it is added to those of the single fingers, whose
+        sum may not suit both.
     """
 
     finger: str
@@ -178,7 +175,7 @@ class WristOffset:
 
     @property
     def places(self) -> tuple[tuple[str, int], ...]:
-        """The fingers it is for, and their stations."""
+        """Return the fingers that the offset is for with their stations."""
         return (self.finger, self.station), *self.beside
 
 
@@ -193,17 +190,17 @@ class HandHold:
     node : str
         The node the hand moves with (``"root"``, or a slide's).
     motion : NodeMotion or None
-        How that node moves; None where the hand rests on the root.
+        Motion of that node; None if the hand is on the root.
     instrument_from_hand_m, instrument_from_hand_rotation : (S, 3) and (S, 4) float64
-        The hand joint (the wrist) in the instrument's frame, before its node moves. One row; or, for a hand that a
-        control carries, one per value of ``values``: the grip turns in the fingers as the arm stretches.
+        Hand joint (wrist) in the instrument's frame before its node moves: one row, or one per value in ``values`` for
+        a hand moved by a control, since the grip rotates in the fingers as the arm stretches.
     elbow_direction : (3,) float64
-        Unit pole: where the elbow points off the line from shoulder to wrist, in the frame of the player (+Z ahead,
-        +X left, +Y up), chosen for a straight wrist.
+        Unit direction of the elbow from the line of shoulder and wrist, in the player's frame (+Z ahead, +X left, +Y
+        up), chosen for a straight wrist.
     penetration_m : float
         Deepest vertex of hand and fingers inside the instrument's proxy, over all samples.
     values : (S,) float64
-        Values of the control in ``motion`` at which the wrist is given; ascending, from 0.
+        Values of the control in ``motion`` for which the wrist is given; ascending from 0.
     """
 
     side: Side
@@ -221,27 +218,28 @@ class HandHold:
 
 @dataclass(frozen=True)
 class Lips:
-    """Place of an instrument on the lips, in the frame of the head joint, linear in the morph weights.
+    """Position of an instrument at the lips in the frame of the head joint, linear in the morph weights.
 
     Attributes
     ----------
     contact_rest_m : (3,) float64
-        Where the mouthpiece is while it is played.
+        Position of the mouthpiece during playing.
     contact_deltas_m, carrier_deltas_m : dict of str to (3,) float64
-        What each morph at weight 1 adds; morphs that do nothing here are absent. The carrier has the mouthpiece alone
-        while the mouth is open for a breath: the upper lip, or the lower one under which a plate lies.
+        Displacement by each morph at weight 1; morphs without influence are omitted. The carrier supports the
+        mouthpiece while the mouth is open for a breath: the upper lip, or the lower lip under which a lip plate lies.
     usual_m : (3,) float64
-        About where the mouthpiece is while it is played, whatever the face's weights.
+        Approximate position of the mouthpiece during playing, independent of the face's weights.
     apart_m : float
-        Height of what lies between the lips.
+        Height in metres of the mouthpiece between the lips.
     opening_m : float
-        Height of the opening that playing lips leave beside it.
+        Height in metres of the opening between playing lips beside it.
     gap_rest_m : float
-        From the lower lip's edge up to the upper one's in the middle of the mouth, along the mouthpiece's up axis ...
+        Distance from the edge of the lower lip to that of the upper lip in the middle of the mouth, along the
+        mouthpiece's up axis.
     gap_deltas_m : dict of str to float
-        ... and what each morph at weight 1 adds; empty where the lips are neither held apart nor open.
+        Change of that distance by each morph at weight 1; empty if the lips are neither held apart nor open.
     jaw : str
-        The morph that opens the mouth.
+        Morph that opens the mouth.
     """
 
     contact_rest_m: FloatArray
@@ -255,20 +253,20 @@ class Lips:
     jaw: str = ""
 
     def contact_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return (F, 3) the mouthpiece's place in the head's frame for weight curves (F,) by morph name."""
+        """Return the mouthpiece's position (F, 3) in the head's frame for weight curves (F,) by morph name."""
         return _weighted(self.contact_rest_m, self.contact_deltas_m, morphs, frames)
 
     def carried_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return (F, 3) the place as one lip alone carries it: what the mouthpiece stays on when the mouth opens.
+        """Return the position (F, 3) if carried by one lip alone, used while the mouth opens.
 
-        Equal to `contact_m` where no morph moves the lips.
+        Equal to `contact_m` if no morph moves the lips.
         """
         carried = _weighted(np.zeros(3), self.carrier_deltas_m, morphs, frames)
         carried += self.contact_rest_m
         return carried
 
     def gap_m(self, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return (F,) how far the lips are apart in the middle of the mouth; negative where they are pressed."""
+        """Return the distance (F,) in metres of the lips in the middle of the mouth; negative if pressed."""
         gap = np.full(frames, self.gap_rest_m)
         for name, delta in self.gap_deltas_m.items():
             if name in morphs:
@@ -276,7 +274,7 @@ class Lips:
         return gap
 
     def jaw_for(self, gap_m: FloatArray, morphs: Mapping[str, AnyFloatArray], frames: int) -> FloatArray:
-        """Return (F,) the weight of `jaw` that brings the lips this far apart, beside all the other weights."""
+        """Return the weight (F,) of `jaw` that brings the lips to a distance, given all other weights."""
         others = {name: values for name, values in morphs.items() if name != self.jaw}
         needed: FloatArray = (gap_m - self.gap_m(others, frames)) / self.gap_deltas_m[self.jaw]
         return np.clip(needed, 0.0, 1.0)
@@ -293,7 +291,7 @@ class GripPose:
 
     @property
     def finger_joints(self) -> tuple[int, ...]:
-        """The joints `app.rig.grip.finger_poses` poses, in its order."""
+        """Return the joints posed by `app.rig.grip.finger_poses` in its order."""
         return tuple(joint for hand in self.hands for finger in hand.fingers for joint in finger.joints)
 
 
@@ -304,15 +302,15 @@ def hand_targets(
     controls: Mapping[str, AnyFloatArray],
     placed: Mapping[str, StationBlend] | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Place a hand on a moving instrument.
+    """Return the place of a hand on a moving instrument.
 
     Parameters
     ----------
     world_from_instrument_m, world_from_instrument_rotation : (F, 3) and (F, 4) float64
     controls : dict of str to (F,)
-        Values 0..1; a control that is absent is at 0.
+        Values 0..1 by control; missing controls are at 0.
     placed : mapping of str to StationBlend, optional
-        Where the fingers are that are not at home: the hand may give way for them.
+        Positions of fingers that are not at home; the hand may be offset for them.
 
     Returns
     -------
@@ -341,17 +339,19 @@ def hand_targets(
 
 
 def giving_for(finger: str) -> str:
-    """Name of the `StationBlend` of the hand that gives way for a finger; without it, the hand goes with the finger."""
+    """Return the name of the `StationBlend` for the hand's offset for a finger; without it, the hand moves with the
+    finger.
+    """
     return f"{finger}.hand"
 
 
 def given_way(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """Return how far (F,) a hand gives way, 0..1; None where it never does."""
+    """Return the share (F,) of an offset that is applied, 0..1; None if never."""
     return _all_at(offset, placed, [giving_for(finger) for finger, _ in offset.places])
 
 
 def come_to(offset: WristOffset, placed: Mapping[str, StationBlend] | None) -> FloatArray | None:
-    """Return how far (F,) fingers have come to where their hand gives way for them, 0..1; None where they never do."""
+    """Return the share (F,) by which fingers have reached the stations of an offset, 0..1; None if never."""
     return _all_at(offset, placed, [finger for finger, _ in offset.places])
 
 
@@ -367,13 +367,15 @@ def _all_at(offset: WristOffset, placed: Mapping[str, StationBlend] | None, name
 
 
 def _share_at(where: StationBlend, station: int) -> FloatArray | None:
-    """Return how far (F,) a finger is at one of its stations, 0..1; None where it never is."""
+    """Return the share (F,) by which a finger is at one of its stations, 0..1; None if never."""
     weight: FloatArray = (where.after == station) * where.share + (where.before == station) * (1.0 - where.share)
     return weight if np.any(weight) else None
 
 
 def wrist_given(hand: HandHold, given: Sequence[tuple[WristOffset, FloatArray]]) -> tuple[FloatArray, FloatArray]:
-    """Wrist (F, 3) and (F, 4) of a hand on the root, in the instrument's frame, as far (F,) as it gives way."""
+    """Return the wrist (F, 3) and (F, 4) of a hand on the root in the instrument's frame with offsets applied by shares
+    (F,).
+    """
     place, turn = np.atleast_2d(hand.instrument_from_hand_m), np.atleast_2d(hand.instrument_from_hand_rotation)
     if not given:
         return place, turn

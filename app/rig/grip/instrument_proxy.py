@@ -1,6 +1,6 @@
-"""Signed distance to an instrument's closed proxy: capsules, cylinders, cones, rings and boxes.
+"""Signed distance to an instrument's closed proxy of capsules, cylinders, cones, rings and boxes.
 
-Distances are exact for each body (Quilez, "Distance functions", iquilezles.org) and the union's is their minimum:
+Distances are exact for each body (Quilez, "Distance functions", iquilezles.org), and the union's is their minimum:
 exact outside, a lower bound of the depth inside.
 """
 
@@ -37,7 +37,7 @@ class Bodies:
     boxes : (B, 15) float64
         Centre, half sizes, x, y and z axes.
     nodes : (T + C + R + B,) int
-        Node of each, in that order.
+        Node of each body, in the order of the arrays above.
     hulls : (T + C + R + B, 7) float64
         A capsule around each: a, b, radius.
     """
@@ -106,7 +106,7 @@ def bodies(proxy: Sequence[Proxy], node_names: Sequence[str]) -> Bodies:
 
 
 def near(all_bodies: Bodies, nodes_m: FloatArray, centre_m: FloatArray, radius_m: float) -> Bodies:
-    """Return the bodies that come within a sphere of the instrument's frame; ``nodes_m`` (N, 3) places the nodes."""
+    """Return the bodies near a sphere in the instrument's frame; ``nodes_m`` (N, 3) are the positions of the nodes."""
     return all_bodies.taken(_capsule(all_bodies.hulls, centre_m - nodes_m[all_bodies.nodes]) < radius_m)
 
 
@@ -120,7 +120,7 @@ class InstrumentNodes(NamedTuple):
 def inside(
     some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
 ) -> tuple[FloatArray, IndexArray]:
-    """Return how deep balls reach into the union.
+    """Return the depth of balls inside the union.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def inside(
     depth_m : (P,) float64
         0 outside.
     body : (P,) int
-        The body it reaches deepest into; -1 outside.
+        Body with the greatest depth; -1 outside.
     """
     depth, owner = np.zeros(len(points_m)), np.full(len(points_m), -1, dtype=np.intp)
     if not len(some) or not len(points_m):
@@ -157,7 +157,7 @@ def distance(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray) -> Floa
 
 
 def gradient(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
-    """Gradient (P, 3) of the distance of each point (P, 3) to one body (P,), in the instrument's frame."""
+    """Return the gradient (P, 3) of the distance of each point (P, 3) to a body (P,), in the instrument's frame."""
     local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
     found = distances(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
@@ -167,14 +167,16 @@ def gradient(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: I
 
 
 def signed_distance(shape: Proxy, points_m: AnyFloatArray) -> AnyFloatArray:
-    """Signed distance (...) of points (..., 3) to one body, both in the frame of its node, in the points' precision."""
+    """Return the signed distance (...) of points (..., 3) to a body in the frame of its node, in the points'
+    precision.
+    """
     row, measure = _alone(shape)
     return measure(row.astype(points_m.dtype), points_m)
 
 
 @lru_cache(maxsize=1024)
 def _alone(shape: Proxy) -> tuple[FloatArray, _Measure]:
-    """The row of a single body, and what measures such rows."""
+    """Return the row of a single body, and the function that measures such rows."""
     return next((rows[0], measure) for rows, measure in _kinds(bodies((shape,), (shape.node,))) if len(rows))
 
 
@@ -189,7 +191,7 @@ def _local(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: Ind
 def _candidates(
     some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Pairs of ball and body whose hull the ball reaches: first the bodies near all balls together, then each."""
+    """Return pairs of ball and body whose hull the ball reaches: first the bodies near all balls, then near each."""
     basis, place_m = nodes.basis[some.nodes], nodes.place_m[some.nodes]
     a = (basis @ some.hulls[:, :3, None])[:, :, 0] + place_m
     span = (basis @ (some.hulls[:, 3:6] - some.hulls[:, :3])[:, :, None])[:, :, 0]
@@ -223,8 +225,9 @@ def _candidates(
 
 
 def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.NDArray[Any]:
-    """Signed distance (K,) of points (K, 3), each to one body (K,) in the frame of its node, in the points'
-    precision."""
+    """Return the signed distance (K,) of points (K, 3), each to a body (K,) in the frame of its node, in the points'
+    precision.
+    """
     result = np.empty(len(body), dtype=local_m.dtype)
     start = 0
     for rows, measure in _kinds(some):
@@ -238,7 +241,7 @@ def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.
 
 
 def _kinds(some: Bodies) -> tuple[tuple[FloatArray, _Measure], ...]:
-    """The rows of every kind of body in the order of the numbers, and what measures them."""
+    """Return the rows of every kind of body in the order of indices, with the functions that measure them."""
     return (some.tapers, _taper), (some.capsules, _capsule), (some.rings, _ring), (some.boxes, _box)
 
 

@@ -1,9 +1,9 @@
-"""Lifted fingers that stay curved: a finger leaves its key from the knuckle, as bent as it pressed.
+"""Lifted fingers that stay curved: a finger rises from its key at the knuckle, as bent as when pressing.
 
-A hold is solved for where the pads are (`app.rig.grip.fitting.solved_fingers`), and a finger can come as high above its
-key with its middle joint stretched. People keep it bent, and lift all of it. Here the waiting poses of a hold are made
-so: as high over the key along the same way, the two outer joints bent as a hand at ease has them. The pressed pose, and
-with it every touch, stays what it is.
+A grip is solved for the positions of the pads (`app.rig.grip.fitting.solved_fingers`), and may raise a finger by
+stretching its middle joint. People keep it bent and lift all of it. This module changes the waiting poses: equally high
+above the key along the same way, with the two outer joints bent as in a relaxed hand. Pressed poses, and with them all
+contacts, are unchanged.
 """
 
 from __future__ import annotations
@@ -23,23 +23,22 @@ CURVED_RAD = (float(np.deg2rad(26.0)), float(np.deg2rad(62.0)))
 OUTER_SHARE = 0.55
 """Bend of a waiting finger's outer joint, as a share of the middle joint's."""
 BEYOND_RAD = (float(np.deg2rad(28.0)), float(np.deg2rad(22.0)))
-"""Least bend of the middle and the outer joint beyond the part that touches."""
+"""Least bend of the middle and the outer joint beyond the touching part, in radians."""
 MOST_RAD = (float(np.deg2rad(20.0)), float(np.deg2rad(25.0)))
-"""Neither bends further from how it presses."""
+"""Greatest additional bend of the two joints compared with the pressed pose, in radians."""
 KNUCKLE_RAD = (float(np.deg2rad(-30.0)), float(np.deg2rad(90.0)))
 AMOUNTS = (1.0, 0.5)
-"""Shares of that which are tried."""
+"""Shares of that bend that are tried."""
 ROUNDS, LEAST_SLOPE_M, MOST_STEP_RAD = 8, 0.001, 0.3
 SPREAD_RAD = float(np.deg2rad(0.1))
-"""The knuckle is turned sideways no further than it was solved."""
+"""Greatest additional sideways rotation of the knuckle in radians."""
 EXACT_M, ASIDE_M = 0.0003, 0.012
-"""Limits of a lifted finger: one that misses its height by more, or goes further from the way up, waits as it was
-solved."""
+"""Tolerances in metres of a lifted finger's height and sideways deviation; beyond them it keeps the solved pose."""
 
 
 @dataclass(frozen=True)
 class _Finger:
-    """Geometry of a finger's three joints: offsets (3, 3), flexion and twist axes (3, 3), what touches (3,)."""
+    """Geometry of a finger's three joints: offsets (3, 3), flexion and twist axes (3, 3), touching point (3,)."""
 
     offsets_m: FloatArray
     flexion: FloatArray
@@ -51,41 +50,41 @@ class _Finger:
         return self.carried_m(rotations, 0, self.beyond_m(rotations))
 
     def beyond_m(self, rotations: FloatArray) -> FloatArray:
-        """Points of the finger beyond what touches (S, 3), in the frame of its first joint."""
+        """Return the points (S, 3) of the finger's end in the frame of its first joint."""
         point = np.broadcast_to(self.tip_m, (len(rotations), 3))
         return self.carried_m(rotations, 1, self.carried_m(rotations, 2, point))
 
     def carried_m(self, rotations: FloatArray, joint: int, points_m: FloatArray) -> FloatArray:
-        """Points (S, 3) of a joint's frame in the frame of the one before."""
+        """Convert points (S, 3) from a joint's frame to the frame of the preceding joint."""
         carried: FloatArray = self.offsets_m[joint] + quaternion.rotate(rotations[:, joint], points_m)
         return carried
 
     def flexed(self, rotations: FloatArray, joint: int, angles_rad: FloatArray) -> FloatArray:
-        """Rotations (S, 3, 4) with a joint bent further by an angle."""
+        """Return rotations (S, 3, 4) with a joint bent by an additional angle."""
         result = rotations.copy()
         turn = quaternion.from_axis_angle(self.flexion[joint], angles_rad)
         result[:, joint] = quaternion.multiply(turn, rotations[:, joint])
         return result
 
     def bent_rad(self, rotation: FloatArray, joint: int) -> float:
-        """Return how far a joint (4,) is bent."""
+        """Return the bend of a joint with rotation (4,) in radians."""
         swing, _ = quaternion.swing_twist(rotation, self.twist[joint])
         return float(quaternion.to_rotation_vector(swing) @ self.flexion[joint])
 
     def knuckle_rad(self, rotations: FloatArray) -> FloatArray:
-        """Return how far the knuckle (S, 4) is bent, (S,)."""
+        """Return the bend (S,) of the knuckle with rotations (S, 4) in radians."""
         swing, _ = quaternion.swing_twist(rotations, self.twist[0])
         return np.asarray(quaternion.to_rotation_vector(swing) @ self.flexion[0])
 
     def spread_rad(self, rotations: FloatArray) -> float:
-        """Return how far the knuckle (S, 4) is turned sideways at most."""
+        """Return the greatest sideways rotation of the knuckle (S, 4) in radians."""
         swing, _ = quaternion.swing_twist(rotations, self.twist[0])
         sideways = np.cross(self.flexion[0], self.twist[0])
         return float(np.abs(quaternion.to_rotation_vector(swing) @ sideways).max())
 
 
 def with_curved_fingers(grip: GripPose, skeleton: Skeleton, profile: SkeletonProfile) -> GripPose:
-    """The hold whose waiting fingers are curved, but for those that bear the instrument: they stay on it."""
+    """Return the grip with curved waiting fingers, except for those that support the instrument."""
     return replace(grip, hands=tuple(_of_hand(hand, skeleton, profile) for hand in grip.hands))
 
 
@@ -113,7 +112,7 @@ def _curved(table: FingerTable, skeleton: Skeleton, profile: SkeletonProfile) ->
 
 
 def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
-    """Rotations (S, 3, 4) with the joints beyond the one that touches bent at least as a hand at ease has them."""
+    """Return rotations (S, 3, 4) with the joints beyond the touching one bent at least as in a relaxed hand."""
     rotations = station.rotations
     for joint in range(station.tip_joint + 1, 3):
         bent_rad = np.array([finger.bent_rad(one[joint], joint) for one in rotations])
@@ -122,8 +121,7 @@ def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
 
 
 def _lifted(station: StationTable, finger: _Finger) -> StationTable:
-    """A station with its finger lifted from the knuckle: fully curved if that fits, else half, else as it was
-    solved."""
+    """Return a station with its finger lifted from the knuckle: fully curved if possible, else half, else unchanged."""
     for amount in AMOUNTS:
         rotations = _from_knuckle(station, finger, amount)
         if rotations is not None:
@@ -132,7 +130,7 @@ def _lifted(station: StationTable, finger: _Finger) -> StationTable:
 
 
 def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> FloatArray | None:
-    """Rotations (S, 3, 4) that come as high; None where they do not."""
+    """Return rotations (S, 3, 4) at the same heights; None if impossible."""
     tips_m, pressed, waiting = finger.tips_m(station.rotations), station.rotations[-1], station.rotations[0]
     way_m = tips_m[0] - tips_m[-1]
     way = way_m / max(float(np.linalg.norm(way_m)), 1e-9)

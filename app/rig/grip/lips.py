@@ -1,8 +1,8 @@
-"""Finding a character's lips, and where an instrument hangs on them: by the kind of embouchure, never by instrument.
+"""Finding of a character's lips and of an instrument's place on them, by the kind of embouchure.
 
-A cup lies on both lips where they meet, a plate under the lower lip. What goes between the lips lies in the middle of
-their opening: its edges are found among the vertices about the mouth, in the shape that the face's weights make and
-with the jaw as far open as it must be.
+A cup lies on both lips where they meet, a plate under the lower lip. Other mouthpieces are in the middle of the mouth's
+opening, whose edges are found among the vertices around the mouth, in the shape of the face's weights and with the jaw
+open as far as necessary.
 """
 
 from __future__ import annotations
@@ -27,21 +27,21 @@ from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
 AROUND_M = 0.03
-"""Distance from where the lips meet within which their edges are looked for."""
+"""Distance in metres from the meeting point of the lips within which their edges are searched for."""
 MIDDLE_M = 0.0045
 """Largest distance of the lips' edges from the middle of the face."""
 DEPTH_M = 0.006
 """Largest depth of the lips' edges inside the mouth: farther in are gums and teeth."""
 UPPER_SHARE, LOWER_SHARE = 0.3, 0.7
-"""The upper lip goes along with the jaw by less than this share, the lower lip by more."""
+"""Share of the jaw's motion below which a vertex belongs to the upper lip, and above which to the lower lip."""
 SAME_M = 1e-4
-"""A vertex that is off the middle by less belongs to both halves."""
+"""Distance in metres from the middle below which a vertex belongs to both halves."""
 MOUTH_M = (0.0, -0.031, 0.104)
-"""Place of the lips of a grown-up's face in the head's frame, for a head that has none."""
+"""Position of an adult's lips in the head's frame, for a head without lips."""
 WIDER = (1.0, 2.0, 4.0)
-"""Factors of the distance off the middle, tried in turn where there are few vertices."""
+"""Factors of the distance from the middle, tried in turn if there are few vertices."""
 ROUNDS = 3
-"""Rounds in which the edges are found again with the jaw that they ask for; they have settled after two."""
+"""Rounds in which the edges are found with the jaw position that they require; two suffice for convergence."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +51,9 @@ class LipPlaces:
     Attributes
     ----------
     contact : Landmark
-        The place of the map's ``mouthpiece.position_m`` while it is played.
+        Place of the map's ``mouthpiece.position_m`` during playing.
     carrier : Landmark
-        What carries it while the mouth is open for a breath.
+        Place that supports it while the mouth is open for a breath.
     upper, lower : Landmark
         The edges of the opening between the lips.
     """
@@ -65,12 +65,12 @@ class LipPlaces:
 
 
 def needed_landmarks(instrument_map: InstrumentMap) -> frozenset[str]:
-    """Landmarks that the instrument's kind of embouchure requires."""
+    """Return the landmarks that the instrument's kind of embouchure requires."""
     return frozenset(("lips.contact", "lips.lower" if instrument_map.embouchure.kind == "air_jet" else "lips.upper"))
 
 
 def lip_places(character: Character, instrument_map: InstrumentMap, body: Body) -> LipPlaces:
-    """Find where the instrument is on the lips."""
+    """Return the place of the instrument on the lips."""
     marks, embouchure = character.landmarks, instrument_map.embouchure
     face = body.embouchure[embouchure.kind]
     opening_m = embouchure.lips_apart_m + face.opening_m
@@ -89,7 +89,7 @@ def lip_places(character: Character, instrument_map: InstrumentMap, body: Body) 
 
 
 def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) -> Lips:
-    """Find the place of an instrument on the lips in the head's frame, and how each morph moves it."""
+    """Return the place of an instrument on the lips in the head's frame, with the influence of each morph."""
     embouchure = instrument_map.embouchure
     if not needed_landmarks(instrument_map) <= character.landmarks.keys():
         about_m = face_size(character) * np.array(MOUTH_M)
@@ -127,9 +127,10 @@ def fit_lips(character: Character, instrument_map: InstrumentMap, body: Body) ->
 
 
 def with_lip_landmarks(character: Character, instrument_map: InstrumentMap, body: Body) -> Character:
-    """The character with its landmarks ``lips.contact`` and ``lips.upper`` where the instrument is played, and where it
-    stays while the mouth is open: what a judge of contacts measures. Of a cup they are there already; a character
-    without lips stays without."""
+    """Return the character with landmarks ``lips.contact`` and ``lips.upper`` at the places of the instrument during
+    playing and breathing, for the measurement of contacts. For a cup they exist already; a character without lips is
+    unchanged.
+    """
     if not needed_landmarks(instrument_map) <= character.landmarks.keys():
         return character
     places = lip_places(character, instrument_map, body)
@@ -149,7 +150,7 @@ def _with_lips(character: Character, mesh: str, contact: tuple[int, ...], carrie
 
 
 def _in_head(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """A place (3,) in the head's frame at rest, and what every morph at weight 1 adds to it."""
+    """Return a place (3,) in the head's frame at rest, and its displacement by each morph at weight 1."""
     return _of_head(character, place.mesh, tuple(place.vertices.tolist()))
 
 
@@ -163,7 +164,7 @@ def _of_head(character: Character, mesh: str, vertices: tuple[int, ...]) -> tupl
 
 
 def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Vertices (V, 3) in the head's frame at rest, and what the morphs add to them."""
+    """Return vertices (V, 3) in the head's frame at rest, and their displacements by the morphs."""
     part = patch(character, mesh_named(character, place.mesh), place.vertices)
     skeleton = character.skeleton
     rest = forward(skeleton, np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1)))
@@ -190,7 +191,7 @@ def _mouthpiece_axes(character: Character, instrument_map: InstrumentMap, body: 
 
 @dataclass(frozen=True, eq=False)
 class _Mouth:
-    """The skin about the middle of the mouth, in the head's frame.
+    """The skin around the middle of the mouth in the head's frame.
 
     Attributes
     ----------
@@ -198,11 +199,11 @@ class _Mouth:
     positions_m : (V, 3) float64
     deltas_m : dict of str to (V, 3) float64
     seam_m : (3,) float64
-        Where the lips meet.
+        Meeting point of the lips.
     jaw : str
-        The morph that opens the mouth.
+        Morph that opens the mouth.
     upper, lower : (V,) bool
-        Which lip a vertex belongs to.
+        Whether each vertex belongs to the upper or lower lip.
     size : float
         Of the face.
     """
@@ -220,7 +221,7 @@ class _Mouth:
     def edges(
         self, weights: Mapping[str, float], opening_m: float, up: FloatArray, ahead: FloatArray
     ) -> tuple[IndexArray, IndexArray]:
-        """Vertices of upper and lower lip that what lies between them touches, with the jaw opened for it."""
+        """Return the vertices of upper and lower lip that touch the mouthpiece, with the jaw opened for it."""
         shape: FloatArray = self.positions_m + sum(
             weight * self.deltas_m[name] for name, weight in weights.items() if name in self.deltas_m
         )
@@ -240,7 +241,7 @@ class _Mouth:
         return upper, lower
 
     def _edge(self, height: FloatArray, depth: FloatArray, own: BoolArray) -> IndexArray:
-        """The lowest vertex of each half of the lip, so that the edge is in the middle."""
+        """Return the lowest vertex of each half of a lip, so that their mean is in the middle."""
         front = float(np.percentile(depth[own], 90.0))
         outside = own & (depth > front - DEPTH_M * self.size)
         off_m = self.positions_m[:, 0] - self.seam_m[0]
@@ -250,7 +251,7 @@ class _Mouth:
 
 @lru_cache(maxsize=32)
 def _mouth(character: Character) -> _Mouth | None:
-    """The mouth of a character; None where no morph opens it."""
+    """Return the mouth of a character; None if no morph opens it."""
     lips, size = character.landmarks["lips.contact"], face_size(character)
     mesh = mesh_named(character, lips.mesh)
     morphs = {morph.name for morph in mesh.morphs}

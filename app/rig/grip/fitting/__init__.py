@@ -1,1 +1,1 @@
-"""Fitting a grip: hands on an instrument by least squares, kept in files."""
+"""Fitting of grips: hands on an instrument by least squares, cached in files."""

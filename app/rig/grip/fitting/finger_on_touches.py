@@ -1,4 +1,4 @@
-"""One finger on its touches, solved by least squares while the wrist and the other fingers are held."""
+"""Least-squares solution of one finger's touches with the wrist and the other fingers fixed."""
 
 from __future__ import annotations
 
@@ -23,19 +23,20 @@ from app.rig.grip.fitting.residuals import PENETRATION_M, STEP, inside_proxy, pr
 from app.rig.grip.fitting.touch_targets import TouchTarget, contact_at, nodes_at, touch_at
 
 EXACTER = 0.3
-"""Factor by which touches are met more exactly than in the search once the wrist is held."""
+"""Factor for the tolerance of touches after the wrist is fixed."""
 ROUNDS = 12
 CARRIED_SHARE = 0.1
-"""Skin with at least this weight on a finger's joints moves with it: webs too."""
+"""Weight on a finger's joints above which skin moves with it, including webs."""
 OPEN_M, OPEN_SPREAD_M = (0.007, 0.0045), (0.0005, 0.0001)
-"""Distance that a finger at another place keeps from a hole it is to leave open; the second pair applies where it
-would otherwise come nearer than `LEAST_OPEN_M`."""
+"""Distance in metres that a finger keeps from a hole to be left open, and its tolerance; the second pair is used if it
+would come nearer than `LEAST_OPEN_M`.
+"""
 LEAST_OPEN_M = 0.0032
-"""Distance of a finger from an open hole below which the hole would not sound open."""
+"""Distance in metres of a finger from a hole below which the hole would not sound open."""
 
 
 class FingerOnTouches:
-    """One finger on its touches at some values of the controls, the rest of the hand held."""
+    """One finger on its touches at some values of the controls, with the rest of the hand fixed."""
 
     def __init__(
         self,
@@ -66,7 +67,7 @@ class FingerOnTouches:
         self.nodes = nodes_at(scene.model, scene.instrument_map, moved, scene.carrier, values)
 
     def taken(self, angles: FloatArray) -> FloatArray:
-        """This finger's angles (..., n) out of those of a hand (..., 16, 3)."""
+        """Return this finger's angles (..., n) from those of a hand (..., 16, 3)."""
         return angles[..., self.joints, self.kinds]
 
     def opening(self) -> FingerOnTouches:
@@ -76,7 +77,7 @@ class FingerOnTouches:
         return result
 
     def shuts(self, x: FloatArray) -> bool:
-        """Return whether a finger with angles (S, n) shuts a hole, or nearly, that it is to leave open."""
+        """Return whether a finger with angles (S, n) closes or nearly closes a hole to be left open."""
         pose = self.pose.copy()
         pose[:, self.joints, self.kinds] = x
         matrices = wrist_from_mesh(
@@ -91,10 +92,10 @@ class FingerOnTouches:
     def solve(
         self, start: FloatArray, usual: FloatArray, usual_rad: float, which: IndexArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Solve some samples about usual angles; both (S, n). Returns the angles and the cost (S,) of each.
+        """Solve some samples starting near usual angles (S, n), and return the angles and the cost (S,) of each.
 
-        Damped Gauss-Newton (Levenberg-Marquardt, clipped to the limits), all samples at once: they are independent,
-        so their normal equations are solved as a batch.
+        Damped Gauss-Newton (Levenberg-Marquardt, clipped to the limits) for all samples at once, since they are
+        independent.
         """
         x = np.clip(start, self.low, self.high)
         damping = np.full(len(which), 1e-3)
@@ -187,7 +188,9 @@ class FingerOnTouches:
 
 
 def _kept_open(problem: HandProblem, scene: GripScene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
-    """Holes that a finger closes elsewhere and must leave open here: the part that would, and where they are."""
+    """Return the holes that a finger closes at other stations and must leave open here: the part of the finger and the
+    places.
+    """
     instrument, found = scene.instrument_map, []
     for place in problem.stations[number]:
         for contact in (instrument.contacts[index] for index in place.contacts):
@@ -199,7 +202,7 @@ def _kept_open(problem: HandProblem, scene: GripScene, number: int, station: Sta
 
 
 def touches_at(scene: GripScene, station: Station, values: FloatArray) -> list[TouchTarget]:
-    """The touches of a finger at a station over values of what it works there."""
+    """Return the touches of a finger at a station for values of its controls."""
     instrument, moved = scene.instrument_map, frozenset(station.controls)
     return [
         touch_at(scene.model, instrument, instrument.contacts[index], moved, scene.carrier, values)

@@ -1,10 +1,10 @@
-"""Fitting a hold: how one body's hands lie on one instrument.
+"""Fitting of a grip: the hands of one body on one instrument.
 
-For each hand a bounded least-squares problem (`app.rig.grip.fitting.hand_problem`): the wrist's place in the
-instrument's frame, the finger joints with every control at rest and again with every control fully worked, and the
-elbow's swivel. Requested are the map's contacts on the deformed skin, no skin inside the instrument's proxy, fingers
-that do not pass through each other, a straight wrist under a natural elbow, and fingers near their relaxed curl
-(`app.rig.grip.fitting.residuals`). The fingers that work a control are then solved for values between
+Each hand is a bounded least-squares problem (`app.rig.grip.fitting.hand_problem`): the wrist's position in the
+instrument's frame, the finger joints with every control at rest and with every control fully worked, and the elbow's
+swivel. The aims are the map's contacts on the deformed skin, no skin inside the instrument's proxy, fingers that do not
+pass through each other, a straight wrist with a natural elbow, and fingers near their relaxed curl
+(`app.rig.grip.fitting.residuals`). The working fingers are then solved for values between
 (`app.rig.grip.fitting.solved_fingers`).
 """
 
@@ -46,25 +46,25 @@ def fit_hold(
     body: Body,
     progress: Progress = no_progress,
 ) -> GripPose:
-    """Fit how a character holds an instrument; deterministic, and slow: `app.rig.grip.fitting.grip_files.hold_for`
-    keeps the results.
+    """Fit a character's grip on an instrument; deterministic but slow: `app.rig.grip.fitting.grip_files.hold_for`
+    caches results.
 
     Parameters
     ----------
     body : Body
         Limits of the joints and posture.
     progress : callable
-        Called with the share 0..1 that is done; what it raises stops the work.
+        Called with the completed share 0..1; an exception raised by it stops the work.
 
     Returns
     -------
     GripPose
-        What could not be met stands in its hands' ``contacts`` and ``penetration_m``.
+        Grip; aims that were not met are in ``contacts`` and ``penetration_m`` of its hands.
 
     Raises
     ------
     UsageError
-        ``character.landmarks_missing``: the body lacks a place the instrument touches.
+        The body lacks a landmark that the instrument touches.
     """
     require_landmarks(character, instrument_map)
     lips = fit_lips(character, instrument_map, body)
@@ -92,9 +92,9 @@ def _part(progress: Progress, first: float, last: float) -> Progress:
 def _fit_hand(
     problem: HandProblem, scene: GripScene, seed: HandSeed, stand: Upright, size: float, progress: Progress
 ) -> HandHold:
-    """Fit one hand; the wrist of the scene is not solved.
+    """Fit one hand, whose wrist in the scene has not been solved yet.
 
-    Where the best start does not end well, the next ones are tried; the best end counts.
+    If the best start does not give a good result, the next ones are tried; the best result is used.
     """
     if scene.carrier is not None:
         knots, holds = search_knots(
@@ -135,9 +135,9 @@ def _held(
     stand: Upright,
     progress: Progress,
 ) -> HandHold:
-    """A solved hand: its fingers at all their places, how it gives way for them, and how well it all meets.
+    """Return a solved hand: fingers at all stations, wrist offsets for them, and accuracy of all contacts.
 
-    ``best`` (n,) are the parameters that were found, ``path`` (S, n) those along what carries the hand.
+    ``best`` (n,) are the parameters found, ``path`` (S, n) those along the control that moves the hand.
     """
     hand, carrier = problem.hand, scene.carrier
     values = MOVED_VALUES if carrier is not None or problem.worked else STILL_VALUES
@@ -178,7 +178,7 @@ def _held(
 def _leant_tables(
     problem: HandProblem, leant: Sequence[Leaning]
 ) -> dict[tuple[int, int], tuple[GripScene, dict[int, StationTable]]]:
-    """The wrist and the other fingers wherever the hand gives way."""
+    """Return the wrist and the other fingers for each offset of the hand."""
     result = {}
     for one in leant:
         tables = {

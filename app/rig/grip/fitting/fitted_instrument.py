@@ -1,4 +1,4 @@
-"""The instrument as one body plays it: of the size that its hands and arms ask for, touched by what the body has."""
+"""The instrument for one body: its size for the hands and arms, and its contacts for the body's parts."""
 
 from __future__ import annotations
 
@@ -31,20 +31,23 @@ from metadata.load import load_body, load_skeleton
 from metadata.model import Body
 
 REACH_SHARE, CARRIED_SHARE = 0.95, 1.70
-"""A wrist is at most so far from its shoulder, as a multiple of the arm; on a slide, far out, shoulders and trunk help.
-What the instruments ask of our own grown-ups, about."""
+"""Greatest distance of a wrist from its shoulder relative to the arm's length; second value for a hand on a slide,
+helped by shoulders and trunk. About the need of adults.
+"""
 LOWERED, WORTH = (0.0, 0.5, 1.0, -0.5), 0.02
-"""Shares of the way to its lowest carriage that an instrument is tried at: another than usual has to be worth it."""
+"""Shares of the way to the lowest carriage that are tried, and the least gain in size for one other than the
+default.
+"""
 SAME = (0.95, 1.06)
-"""Sizes of hands and arms, as multiples of a grown-up's, that play a grown-up's instrument."""
+"""Sizes of hands and arms relative to an adult's that use the adult's instrument."""
 STEP = 0.01
-"""Step between the sizes of an instrument that are tried."""
+"""Step between tried sizes of an instrument."""
 BENDS = 0.5
-"""A finger is one of its own where its skin goes along with it by this weight."""
+"""Weight of the skin above which it moves with a finger, so that the finger counts as existing."""
 
 
 class FittedInstrument(NamedTuple):
-    """An instrument as one body plays it, and what is to be reported about that."""
+    """An instrument fitted to a body, and the notes about it."""
 
     instrument: InstrumentMap
     reported: tuple[Message, ...]
@@ -53,12 +56,12 @@ class FittedInstrument(NamedTuple):
 def fitted_to_body(
     character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
 ) -> FittedInstrument:
-    """Fit an instrument to a body. A grown-up body that lacks nothing gets the map unchanged.
+    """Fit an instrument to a body. An adult body with all parts gets the map unchanged.
 
     Parameters
     ----------
     model : callable
-        Loads the map's model; asked only where arms are short.
+        Loads the map's model; called only if arms are short.
     """
     held, reported = _touched(character, instrument)
     held = _carried(character, held, body, model)
@@ -68,7 +71,7 @@ def fitted_to_body(
 
 
 def notes_on_body(character: Character) -> tuple[Message, ...]:
-    """Notes for the animator on a character with the instrument that bodies are checked with."""
+    """Return notes about a character, checked with a reference instrument."""
     body = load_body()
     instrument = find_map(body.checked_with)
     return fitted_to_body(
@@ -77,7 +80,7 @@ def notes_on_body(character: Character) -> tuple[Message, ...]:
 
 
 def _touched(character: Character, instrument: InstrumentMap) -> tuple[InstrumentMap, tuple[Message, ...]]:
-    """The map with those contacts that the body can have, and what it has not."""
+    """Return the map with the contacts that are possible for the body, and notes about the others."""
     reported = []
     contacts, hands = instrument.contacts, instrument.hands
     for side in dict.fromkeys(seed.hand for seed in instrument.hands):
@@ -100,7 +103,7 @@ def _touched(character: Character, instrument: InstrumentMap) -> tuple[Instrumen
 
 
 def _stiff(side: Hand, stiff: frozenset[str]) -> Message:
-    """Warning about fingers that do not bend: all of a hand's, or some."""
+    """Return a warning about fingers that do not bend: all or some of a hand's."""
     if len(stiff) == len(FINGERS):
         return Message("character.no_fingers", {"side": side})
     lacking = [finger for finger in FINGERS if finger in stiff]
@@ -108,13 +111,13 @@ def _stiff(side: Hand, stiff: frozenset[str]) -> Message:
 
 
 def _of(contact: Contact, side: str) -> str:
-    """Return which finger of a hand a contact is with; empty where none."""
+    """Return the finger of a hand that a contact uses; empty if none."""
     hand, _, rest = contact.part.partition(".")
     return rest.partition(".")[0] if hand == side else ""
 
 
 def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) -> tuple[Contact, ...]:
-    """Contacts with some fingers only guiding the hand: each to the first place that its parts have."""
+    """Return contacts in which some fingers only position the hand: each at the first place of its parts."""
     result: list[Contact] = []
     placed: set[str] = set()
     for contact in contacts:
@@ -127,7 +130,7 @@ def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) ->
 
 
 def _bends(character: Character, side: Hand, finger: str) -> bool:
-    """Return whether the skin of a finger's tip goes along with the finger."""
+    """Return whether the skin of a fingertip moves with the finger."""
     mark = character.landmarks.get(f"{side}.{finger}.pad")
     if mark is None:
         return False
@@ -138,7 +141,7 @@ def _bends(character: Character, side: Hand, finger: str) -> bool:
 
 
 def mouth_opens(character: Character) -> bool:
-    """Return whether a character has a mouth, and a morph that opens it."""
+    """Return whether a character has a mouth with a morph that opens it."""
     if "lips.contact" not in character.landmarks:
         return False
     mesh = mesh_named(character, character.landmarks["lips.contact"].mesh)
@@ -148,8 +151,9 @@ def mouth_opens(character: Character) -> bool:
 def _carried(
     character: Character, instrument: InstrumentMap, body: Body, model: Callable[[], InstrumentModel]
 ) -> InstrumentMap:
-    """The instrument of the size nearest to 1 at which hands of this size play and both arms reach, moved within the
-    range of its carriage where that lets it be larger; where they never reach, as near as they come."""
+    """Return the instrument scaled as near to 1 as hands and arms allow, with a lower carriage if that permits a larger
+    size; if the arms never reach, as near as possible.
+    """
     low, high = instrument.hold.size_range
     hands = _hands(character)
     requested = 1.0 if SAME[0] < hands < SAME[1] else round(min(max(hands, low), high), 2)
@@ -171,7 +175,9 @@ def _carried(
 
 
 def _hands(character: Character) -> float:
-    """Return how large the hands are; of supplied ones, which are not shown, how long the arms are."""
+    """Return the size of the hands relative to an adult's; if they were added and are not visible, the length of the
+    arms.
+    """
     skeleton, own = character.skeleton, character.own
     if own is not None and any(
         own.bone_of_joint[skeleton.index(f"{side}MiddleDistal")] < 0 for side in ("left", "right")
@@ -181,7 +187,7 @@ def _hands(character: Character) -> float:
 
 
 def _lowered(instrument: InstrumentMap, share: float) -> InstrumentMap:
-    """The instrument usually carried nearer to the lowest of its range (its bell down), by a share."""
+    """Return the instrument with its default carriage lowered by a share (bell down)."""
 
     def lower(carriage: Carriage | None) -> Carriage | None:
         if carriage is None:
@@ -204,9 +210,10 @@ def _asked(
     stand: Upright,
     sizes: FloatArray,
 ) -> FloatArray:
-    """Return how much of what an arm can do each size (S,) asks of it; where it is beyond 1 the hand is not reached.
+    """Return the required reach of an arm for each size (S,) relative to its possible reach; beyond 1 the instrument
+    cannot be reached.
 
-    The palm lies where an adult's does, if any character's hold is known, else where its seed is.
+    The palm is placed as in a known grip of an adult, else at the seed.
     """
     skeleton, side = character.skeleton, seed.hand
     rim_m = np.asarray(instrument.mouthpiece.position_m)

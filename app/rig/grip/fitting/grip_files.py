@@ -1,7 +1,7 @@
-"""Holds kept in files, because fitting one takes seconds and its inputs seldom change.
+"""Cache files of grips, since fitting takes seconds and inputs seldom change.
 
-A hold is found by the digest of everything it was fitted from: first among those that come with the program, then in
-the user's cache. A file that is absent, damaged or of other inputs is as good as none: the hold is fitted again.
+A grip is found by the digest of all inputs, first among bundled ones, then in the user's cache. A missing, damaged or
+outdated file is ignored, and the grip is fitted anew.
 """
 
 from __future__ import annotations
@@ -38,16 +38,15 @@ from instrument_maps.model import Control, InstrumentMap
 from metadata.model import Body
 
 MOST_BYTES = 2**22
-"""Largest size of a file; those that come with the program have a twentieth of it."""
+"""Largest size of a file in bytes; bundled files have a twentieth of it."""
 DIGITS = 6
-"""A millionth of a radian or of a metre is far below what is visible, and keeps the files small."""
+"""Number of decimals: a millionth of a radian or metre is invisible, and files stay small."""
 
 
 class _StoredHold(msgspec.Struct, frozen=True):
-    """Parts of a grip that are slow to fit; the lips are not, and they follow the face's weights, which the hands do
-    not.
+    """Parts of a grip that are slow to fit. Lips are not stored, since they depend on the face's weights.
 
-    Files of older versions hold more, which is passed over: to fit a hold again takes a minute.
+    Additional data in files of older versions is ignored, since fitting anew takes a minute.
     """
 
     digest: str
@@ -57,7 +56,7 @@ class _StoredHold(msgspec.Struct, frozen=True):
 
 
 def digest_of(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> str:
-    """Return the hexadecimal digest of all that the hands of `fit_hold` depend on."""
+    """Return the hexadecimal digest of all inputs of the hands in `fit_hold`."""
     digest = hashlib.blake2b(digest_size=16)
     digest.update(f"{FIT_VERSION}\n".encode())
     texts, arrays = _of_body(character, instrument)
@@ -89,9 +88,9 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
 
 
 def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str], list[npt.NDArray[Any]]]:
-    """Return all that a fit reads of a body: joints on the way to its hands and its head, and skin of hands and lips.
+    """Return all of a body that a fit depends on: joints of the hands and the head, and skin of hands and lips.
 
-    Hair, eyes, clothes and the shapes of a face are none of it.
+    Hair, eyes, clothes and face shapes are not included.
     """
     skeleton = character.skeleton
     marks = {
@@ -126,7 +125,7 @@ def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str]
 
 
 def _untimed(control: Control) -> Control:
-    """A control without how fast and how long it is worked, which the hold does not depend on."""
+    """Return a control without its timing, which does not influence the grip."""
     return msgspec.structs.replace(
         control,
         move_window_s=0.0,
@@ -139,14 +138,15 @@ def _untimed(control: Control) -> Control:
 
 
 def bundled_path(character_id: str, instrument_id: str) -> Path:
-    """Return where the hold of a bundled pair lies in this installation."""
+    """Return the path of the grip of a bundled pair."""
     return Path(str(files("resources"))) / "holds" / f"{character_id}.{instrument_id}.json"
 
 
 @lru_cache(maxsize=128)
 def usual_wrists(instrument_id: str) -> Mapping[str, tuple[FloatArray, FloatArray]]:
-    """Return where the wrists of one of our bodies are on an instrument, by side: place (3,) and rotation (4,) in its
-    frame. Empty for an instrument that none of them holds yet."""
+    """Return wrist positions (3,) and rotations (4,) of a bundled body in an instrument's frame by side; empty for an
+    instrument without a grip.
+    """
     for path in sorted(bundled_path("*", instrument_id).parent.glob(f"*.{instrument_id}.json")):
         with contextlib.suppress(FileError):
             kept = _read(path)
@@ -168,14 +168,14 @@ def write_hold(path: Path, digest: str, grip: GripPose) -> None:
 
 
 def stored(grip: GripPose) -> GripPose:
-    """The hold as it comes back from a file: with rounded numbers."""
+    """Return the grip as read from a file, with rounded numbers."""
     kept = _StoredHold("", grip.character_id, grip.instrument_id, grip.hands)
     back = msgspec.json.decode(msgspec.json.encode(kept, enc_hook=_plain), type=_StoredHold, dec_hook=_array)
     return replace(grip, hands=back.hands)
 
 
 def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
-    """Read the hold fitted from inputs of this digest; None where the file holds no such thing."""
+    """Read the grip with a digest; None if the file does not contain it."""
     try:
         stored = _read(path)
     except FileError:
@@ -192,7 +192,7 @@ def hold_for(
     body: Body,
     progress: Progress = no_progress,
 ) -> GripPose:
-    """Return how a body holds an instrument: the stored hold, or a new fit, which is then kept in the cache.
+    """Return a body's grip on an instrument: the stored one, or a new fit that is then cached.
 
     ``progress`` is called during the fit, and may stop it (`fit_hold`).
     """

@@ -1,4 +1,4 @@
-"""A finished hold measured: every contact, and how deep skin lies inside the instrument."""
+"""Measurement of a finished grip: accuracy of every contact, and depth of skin inside the instrument."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ def judge(
     values: FloatArray,
     leant: Mapping[tuple[int, int], tuple[GripScene, Mapping[int, StationTable]]],
 ) -> tuple[tuple[ContactFit, ...], float]:
-    """Measure the hold over all its samples and half way between them, on the whole skin of the hand: all fingers at
-    home together, then every finger at its other stations alone.
+    """Measure the grip at all its samples and halfway between them on all skin of the hand: all fingers at home
+    together, then every finger at its other stations alone.
 
-    ``leant`` has the wrist and the other fingers for stations, by finger and number, that the hand gives way for.
+    ``leant`` contains wrist and other fingers for stations with a wrist offset, by finger and station.
     """
     instrument = scene.instrument_map
     fine = np.linspace(0.0, 1.0, 2 * len(values) - 1) if len(values) > 1 else values
@@ -57,7 +57,7 @@ def judge(
 
 
 def _finer(scene: GripScene, values: FloatArray, fine: FloatArray) -> GripScene:
-    """The scene between its samples."""
+    """Return the scene interpolated between its samples."""
     if len(values) == 1:
         return scene
     between = np.interp(fine, values, np.arange(len(values), dtype=np.float64))
@@ -71,7 +71,7 @@ def _finer(scene: GripScene, values: FloatArray, fine: FloatArray) -> GripScene:
 
 
 def _posed(tables: Mapping[int, StationTable], values: Mapping[int, FloatArray], count: int) -> FloatArray:
-    """Rotations (S, 16, 4) of a hand: the fingers in ``values`` at these, the others at rest."""
+    """Return rotations (S, 16, 4) of a hand: fingers in ``values`` at these values, others at rest."""
     rotations = np.tile(quaternion.IDENTITY, (count, 16, 1))
     for number, table in tables.items():
         at = values.get(number, np.zeros(count))

@@ -1,7 +1,7 @@
-"""One hand of a character as a small, fast model: a wrist frame, fifteen finger joints, some of its skin.
+"""Small and fast model of a character's hand: wrist frame, fifteen finger joints, and part of the skin.
 
-Everything is computed in the wrist's frame for a batch of finger poses at once, so that a solver can try all its
-perturbations in one call.
+Everything is computed in the wrist's frame for a batch of finger poses, so that a solver can try all perturbations in
+one call.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from metadata.skeleton_profile import SkeletonProfile
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
 _CELL_M = 0.006
-"""Skin is thinned to one vertex per cell of this size; our own bodies are hardly thinned, a scanned one is."""
+"""Size in metres of the cells to which skin is thinned, one vertex each; bundled bodies are hardly thinned, a scanned
+one is.
+"""
 _BALLS = 3
 """Balls per bone of a finger."""
 _PALM_STATIONS = (0.05, 0.25, 0.45, 0.65, 0.85)
@@ -32,7 +34,9 @@ _FOREARM_M = (0.05, 0.1, 0.15, 0.2)
 _SLEEVE_M, _PALM_M = 0.006, 0.014
 _FOREARM_TAPER = 0.05
 _FINGER_FLESH, _PALM_FLESH = 0.65, 0.85
-"""Part of a ball's radius that nothing may enter: touching is measured on the skin, balls keep thin bars out."""
+"""Shares of a ball's radius that must stay outside the instrument: touching is measured on the skin, balls exclude thin
+bars.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +55,7 @@ class HandModel:
     limits : (16, 3, 2) float64
         Range of flexion, sideways and twist, radians.
     joint_from_mesh : (17, 3, 4) float64
-        Inverse bind matrices; the last is the forearm, taken as straight behind the wrist.
+        Inverse bind matrices; the last is that of the forearm, straight behind the wrist.
     forearm_m : (3,) float64
         The elbow in the wrist's frame at rest.
     landmarks : dict of str to (17, 4) float64
@@ -62,12 +66,12 @@ class HandModel:
     all_points : (17, 4, W) float64
         The whole skin of the hand.
     balls : (B, 4) float64
-        Balls that fill fingers and palm: centre in the frame of the joint that carries it, radius.
+        Balls that fill fingers and palm: centre in the frame of the joint that moves it, radius.
     ball_joints : (B,) int
     ball_finger : (B,) int
         Finger 0..4, -1 for the palm.
     forearm_balls : (C, 2) float64
-        Balls behind the wrist: distance from it along the forearm, radius.
+        Balls of the forearm: distance from the wrist, radius.
     ball_pairs : (N, 2) int
         Balls of different fingers.
     ball_gaps_m : (N,) float64
@@ -148,7 +152,7 @@ def rest_landmark(hand: HandModel, name: str) -> FloatArray:
 
 
 def flesh_radius(hand: HandModel) -> FloatArray:
-    """Radii of the balls that must stay outside the instrument, the forearm's last."""
+    """Return the radii of the balls that must stay outside the instrument, the forearm's last."""
     firm = np.where(hand.ball_finger >= 0, _FINGER_FLESH, _PALM_FLESH) * hand.balls[:, 3]
     return np.concatenate([firm, _PALM_FLESH * hand.forearm_balls[:, 1]])
 
@@ -161,15 +165,15 @@ def ball_centres(hand: HandModel, transforms: FloatArray) -> FloatArray:
 
 
 def hand_model(character: Character, side: Side, body: Body, profile: SkeletonProfile) -> HandModel:
-    """Prepare a hand of a character.
+    """Return the model of a character's hand.
 
     Parameters
     ----------
     side : str
     body : Body
-        Gives the limits.
+        Body with the limits.
     profile : SkeletonProfile
-        Gives the axes.
+        Profile with the axes.
     """
     skeleton = character.skeleton
     names = [f"{side}Hand", *(name for finger in FINGERS for name in profile.fingers[side][finger].joints)]  # type: ignore[index]
@@ -222,8 +226,7 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
 
 
 def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> IndexArray:
-    """Return which of the 17 carriers stands for each joint of the skeleton: the nearest one above, else the
-    forearm."""
+    """Return the index among the 17 frames for each joint of the skeleton: the nearest ancestor, else the forearm."""
     place = {joint: index for index, joint in enumerate(joints)}
     table = np.full(len(character.skeleton.names), 16, dtype=np.intp)
     for joint in range(len(table)):
@@ -305,7 +308,7 @@ def _finger_balls(
 
 
 def _palm_balls(hand: HandModel, skin: FloatArray, owner: IndexArray) -> list[tuple[int, list[float]]]:
-    """Balls between the wrist and the knuckles, half as thick as the palm is there."""
+    """Return balls between the wrist and the knuckles, half as thick as the palm there."""
     found = []
     flesh = skin[(owner == 0) | (owner == 16) | (owner == 1) | ((owner - 1) % 3 == 0)]
     for knuckle in (4, 7, 10, 13):

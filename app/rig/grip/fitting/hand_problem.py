@@ -1,9 +1,9 @@
-"""The least-squares problem of one hand on one instrument: what is fixed, and what the parameters mean.
+"""The least-squares problem of one hand on one instrument: constants, and meaning of the parameters.
 
-Parameters of a hand (a row ``x``): the wrist's place (3, in units of 0.1 m from the seed), its turn (3, rotation vector
-from the seed), the elbow's swivel, the finger angles with every control at rest, those of the working fingers again
+Parameters of a hand (a row ``x``): the wrist's position (3, in units of 0.1 m from the seed), its rotation (3, rotation
+vector from the seed), the elbow's swivel, the finger angles with every control at rest, those of working fingers again
 with the controls of their home stations fully worked, and those of every finger at each of its other stations.
-``configs`` is 2 where any finger works a control at home.
+``configs`` is 2 if any finger works a control at home.
 """
 
 from __future__ import annotations
@@ -31,24 +31,26 @@ from metadata.model import Body, Posture
 CURL_RAD, SIDEWAYS_RAD, THUMB_RAD, COUPLING_RAD = 0.4, 0.12, 0.4, 0.18
 LIMIT_RAD = 0.02
 LIMIT_SHARE, CARRIED_LIMIT_SHARE = 0.47, 0.45
-"""Part of the wrist's range a hold may use: the rest is for the body's motion, which moves a slide's hand most."""
+"""Share of the wrist's range that a grip may use; the rest is for the body's motion, which moves a slide hand most."""
 SWIVEL_RANGE_RAD = (0.2, 0.9)
-"""Range of the elbow's swing from straight down to the outside: it hangs, clear of the ribs."""
+"""Range in radians of the elbow's swivel from straight down outwards, clear of the ribs."""
 SWIVEL_ABOUT_RAD = 0.35
-"""Range of the elbow's swing around the value that a map gives."""
+"""Range in radians of the elbow's swivel around a value given by a map."""
 ANCHOR = (0.25, 0.7, 0.5)
-"""Spread of the wrist's place (in 0.1 m), its turn and the fingers (rad) from one knot of a slide to the next."""
+"""Standard deviations of the wrist's position (in 0.1 m), its rotation and the fingers (rad) between knots of a
+slide.
+"""
 METRES = 0.1
-"""The wrist's place is solved in units of this many metres, to weigh like radians."""
+"""Unit of the wrist's position in metres, so that it has the weight of radians."""
 HELP_RAD = 0.44
-"""Turn of the trunk that brings the shoulder towards a far hand; it lasts into nearer places."""
+"""Rotation of the trunk in radians that moves the shoulder towards a far hand, and partly also for nearer positions."""
 NEAR_M = 0.28
-"""Bodies of the proxy farther from the palm than this meet neither hand nor forearm."""
+"""Distance from the palm in metres beyond which bodies of the proxy are ignored."""
 
 
 @dataclass(frozen=True, eq=False)
 class Dof:
-    """One angle of a finger joint: where it stands, its range and its relaxed value."""
+    """One angle of a finger joint: present value, range and relaxed value."""
 
     joint: int
     kind: int
@@ -60,9 +62,9 @@ class Dof:
 
 @dataclass(frozen=True, eq=False)
 class Elsewhere:
-    """A finger at another station than home, its control fully worked.
+    """A finger at a station other than home, with its control fully worked.
 
-    ``points`` and ``normals`` are the landmarks that touch, ``angles`` says which of the parameters are its angles.
+    ``points`` and ``normals`` are the touching landmarks, ``angles`` the indices of its angles among the parameters.
     """
 
     number: int
@@ -75,7 +77,7 @@ class Elsewhere:
 
 @dataclass(frozen=True, eq=False)
 class HandProblem:
-    """Constants of the problem of solving one hand's grip."""
+    """Constants of the problem of solving a hand's grip."""
 
     hand: HandModel
     seed_m: FloatArray
@@ -170,7 +172,7 @@ def grip_problem(
 
 
 def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, float]]:
-    """Return how far the elbow is off the ribs, and between which angles it may be."""
+    """Return the elbow's swivel angle from the ribs and its range in radians."""
     if seed.elbow_off_ribs_deg is None:
         return float(np.radians(posture.elbow_off_ribs_deg)), SWIVEL_RANGE_RAD
     usual = float(np.radians(seed.elbow_off_ribs_deg))
@@ -180,7 +182,7 @@ def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, floa
 def _contacts_at_home(
     instrument_map: InstrumentMap, side: Side, stations: tuple[tuple[Station, ...], ...]
 ) -> Iterator[tuple[Contact, int]]:
-    """Yield what a hand touches with its fingers at home, each with the finger's number, -1 for the palm."""
+    """Yield the contacts of a hand with its fingers at home, each with the finger's number, -1 for the palm."""
     for index, contact in enumerate(instrument_map.contacts):
         if contact.part.startswith(f"{side}."):
             finger = contact.part.split(".")[1]
@@ -190,7 +192,7 @@ def _contacts_at_home(
 
 
 def _shoulders(character: Character, side: Side, stand: Upright) -> tuple[FloatArray, FloatArray]:
-    """Place the shoulder joint in the instrument's frame, by itself and with the trunk's help (3,)."""
+    """Return the shoulder joint in the instrument's frame (3,), by itself and with the trunk's help."""
     skeleton, back = character.skeleton, quaternion.conjugate(stand.instrument_rotation)
     joint_m = stand.joints_m[skeleton.index(f"{side}UpperArm")]
     chest = stand.joints_m[skeleton.parents[skeleton.index(f"{side}Shoulder")]]
@@ -201,7 +203,7 @@ def _shoulders(character: Character, side: Side, stand: Upright) -> tuple[FloatA
 
 
 def seed_turn(seed: HandSeed) -> FloatArray:
-    """Rotation (4,) of the wrist at its seed, in the instrument's frame."""
+    """Return the wrist's rotation (4,) at its seed in the instrument's frame."""
     outward = -1.0 if seed.hand == "left" else 1.0
     direction, normal = np.asarray(seed.finger_direction), np.asarray(seed.palm_normal)
     direction = direction - normal * float(direction @ normal) / float(normal @ normal)
@@ -210,14 +212,14 @@ def seed_turn(seed: HandSeed) -> FloatArray:
 
 
 def home_controls(of_finger: Sequence[Sequence[Station]]) -> frozenset[str]:
-    """Controls that the fingers of a hand work at their home stations."""
+    """Return the controls that the fingers of a hand work at home."""
     return frozenset(name for places in of_finger if places for name in places[0].controls)
 
 
 def _elsewhere(
     problem: HandProblem, model: InstrumentModel, instrument_map: InstrumentMap, carrier: Control | None
 ) -> tuple[Elsewhere, ...]:
-    """The fingers at their other stations; a hand that is carried has none."""
+    """Return the fingers at their other stations; none for a hand moved by a control."""
     found = []
     start = 7 + len(problem.dofs) + len(worked_dofs(problem))
     for number, places in enumerate(problem.stations if carrier is None else ()):
@@ -234,7 +236,7 @@ def _elsewhere(
 
 
 def _dofs(hand: HandModel, curl: tuple[float, ...]) -> tuple[Dof, ...]:
-    """The angles that are solved, thumb first; relaxed values follow the seed's curl (1 is a fist)."""
+    """Return the angles to solve, thumb first, with relaxed values from the seed's curl (1 is a fist)."""
     found = []
 
     def add(joint: int, kind: int, relaxed_deg: float, spread: float, share: float = 1.0) -> None:
@@ -272,7 +274,7 @@ def _bounds(problem: HandProblem) -> tuple[FloatArray, FloatArray]:
 
 
 def _order(problem: HandProblem) -> list[int]:
-    """Return which of the angles each parameter from the eighth on is."""
+    """Return the index of the angle of each parameter from the eighth on."""
     elsewhere = [i for one in problem.elsewhere for i in finger_dofs(problem, one.number)]
     return [*range(len(problem.dofs)), *worked_dofs(problem), *elsewhere]
 

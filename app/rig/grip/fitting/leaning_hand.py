@@ -1,7 +1,7 @@
-"""Giving way of a hand for a finger that does not reach one of its stations with the wrist at home.
+"""Offsets of a hand for a finger that cannot reach one of its stations with the wrist at home.
 
 A player rolls the hand to a side key and lifts it to a palm key while the other fingers stay on their holes. For such a
-station the wrist is solved again, near its home, and the other fingers with it.
+station the wrist and the other fingers are solved again near home.
 """
 
 from __future__ import annotations
@@ -32,27 +32,31 @@ from app.rig.grip.fitting.touch_targets import TouchTarget, nodes_at, touch_at
 from app.rig.grip.grip_pose import WristOffset
 
 LEAN_FROM_M = 0.0015
-"""Miss of a finger's station from which it asks the hand to give way; see `LEAN_WORTH_M`."""
+"""Distance in metres by which a finger misses a station from which an offset of the hand is tried; see
+`LEAN_WORTH_M`.
+"""
 LEAN_WORTH_M = 0.0005
-"""Gain of the finger from which the hand does give way."""
+"""Least gain in metres for the finger for which the offset is used."""
 LEAN_SPREAD = (0.07, 0.12, 0.5)
-"""Spread of wrist (in 0.1 m), its turn and fingers (rad) from home: dearer than between a slide's knots."""
+"""Standard deviations of wrist (in 0.1 m), its rotation and fingers (rad) from home, smaller than between knots of a
+slide.
+"""
 OWN_EASED, OTHERS_EASED = (1.5, 0.5), 1.5
-"""Fingers at work keep their places so much less exactly while the wrist is looked for: it does not go far for the last
-millimetre, and most of the others are up anyway. What holds the instrument goes on holding it. The finger that asks
-keeps its own more exactly ..."""
+"""Factors of the tolerances of working fingers while the wrist is searched: those that hold the instrument keep it,
+others are mostly lifted anyway.
+"""
 LEFT_M = 0.0018
-"""... where it would otherwise still miss it by more than this."""
+"""Distance in metres by which the finger must still miss its station for it to get a smaller tolerance."""
 ROUNDS = 14
 VALUES = np.array([0.0, 1.0])
-"""Values of the controls of the other fingers, at which they are solved."""
+"""Values of the other fingers' controls that are solved."""
 
 
 @dataclass(frozen=True, eq=False)
 class Leaning:
-    """A hand that gave way for one finger at one station.
+    """A hand offset for one finger at one station.
 
-    ``solved`` is that finger there, ``others`` the fingers at their homes, ``scene`` the wrist.
+    ``solved`` is that finger at the station, ``others`` the fingers at home, ``scene`` the wrist.
     """
 
     index: int
@@ -68,7 +72,7 @@ def leanings(
     solved: Sequence[Solved],
     reported: Progress = lambda share: None,
 ) -> tuple[Leaning, ...]:
-    """Let the hand give way for every station that its finger misses."""
+    """Return the offsets of the hand for every station that its finger misses."""
     found = []
     if scene.carrier is not None:
         return ()
@@ -118,7 +122,9 @@ def _leant(
 def _lean_problem(
     problem: HandProblem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
 ) -> HandProblem:
-    """All fingers at work at once: one at its station, the others at home, the wrist near where it was."""
+    """Return the problem with all working fingers at once: one at its station, the others at home, the wrist near its
+    former position.
+    """
     instrument, hand = scene.instrument_map, problem.hand
     chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]
     worked = home_controls([[place] for place in chosen])
@@ -162,7 +168,7 @@ def _eased(touch: TouchTarget, by: float) -> TouchTarget:
 
 
 def whole_hand(side: str) -> tuple[str, ...]:
-    """The parts of a hand that touch without a finger."""
+    """Return the names of the parts of a hand that touch without a finger."""
     return f"{side}.palm", f"{side}.thumb_web"
 
 

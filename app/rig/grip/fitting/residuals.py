@@ -1,7 +1,7 @@
-"""Residuals of a hand's hold and their Jacobian.
+"""Residuals of a hand's grip and their Jacobian.
 
-All perturbed poses of a Jacobian go through one vectorised call; the proxy is measured exactly at the current pose and
-linearised by its gradient.
+All perturbed poses of a Jacobian are computed in one vectorised call; distances to the proxy are exact at the current
+pose and linearised by the gradient.
 """
 
 from __future__ import annotations
@@ -42,16 +42,18 @@ FLEXION_RAD, DEVIATION_RAD, PRONATION_RAD, SWIVEL_RAD = 0.3, 0.16, 0.8, 0.25
 SEED_M, SEED_RAD = 0.03, 0.4
 PRONATION_MOST_RAD = 1.3
 REACH_M = 0.03
-"""Reach of an arm that is too short: the shoulder's help is dear, but a finger tip's grip does not bridge half a metre.
+"""Scale in metres of the cost of an arm that is too short: the shoulder's help is costly, but a fingertip's grip cannot
+bridge half a metre.
 """
 STEP = 1e-6
 ELSEWHERE_M, ELSEWHERE_NORMAL, ELSEWHERE_RELAXED = 0.006, 0.7, 1.5
-"""The wrist lies near where the fingers also reach their other stations: it gives way for those that they miss
-(`app.rig.grip.fitting.leaning_hand`)."""
+"""Scales of the terms for other stations: the wrist is near a position from which fingers reach these too; it is offset
+for those that miss (`app.rig.grip.fitting.leaning_hand`).
+"""
 
 
 class Residuals:
-    """Residuals and their Jacobian; keeps the last pose's distances to the proxy, which both need."""
+    """Residuals and their Jacobian; caches the distances to the proxy at the last pose, which both need."""
 
     def __init__(self, problem: HandProblem, soft: float, stiff: bool = False) -> None:
         self.problem = problem
@@ -85,7 +87,7 @@ class Residuals:
         return np.concatenate([np.pad(home, ((0, 0), (0, len(x) - count))), *blocks])
 
     def _elsewhere_jacobian(self, one: Elsewhere, x: FloatArray, step: FloatArray) -> FloatArray:
-        """Rows of one finger at one other station: they know of the wrist and of its own angles only."""
+        """Return the rows of one finger at another station, which depend only on the wrist and its own angles."""
         columns = np.r_[0:6, one.angles]
         tried = np.repeat(x[None], len(columns) + 1, axis=0)
         tried[np.arange(1, len(tried)), columns] += step[columns]
@@ -194,7 +196,7 @@ class Residuals:
         return np.stack(parts, axis=1)
 
     def arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
-        """Straight wrist: how the forearm enters the hand, how far it is turned, where the elbow is."""
+        """Return the residuals of a straight wrist: direction and twist of the forearm, place of the elbow."""
         problem = self.problem
         wrist = place + problem.reference_shift_m
         bent, over = self._bend(x, wrist, turn, problem.shoulder_m)
@@ -212,7 +214,9 @@ class Residuals:
     def _bend(
         self, x: FloatArray, wrist: FloatArray, turn: FloatArray, shoulder_m: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Flexion, deviation and pronation (B, 3), and how far these and the judged ones are beyond limits (B, 5)."""
+        """Return flexion, deviation and pronation (B, 3), and by how much these and the judged values exceed limits (B,
+        5).
+        """
         problem = self.problem
         elbow = _elbow_place(problem, wrist, x[:, 6], shoulder_m)
         forearm = wrist - elbow
@@ -233,7 +237,7 @@ class Residuals:
         return bent, np.maximum(both - high, 0.0) + np.minimum(both - low, 0.0)
 
     def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
-        """Flexion and deviation (B, 2) as the hand joint has them when the forearm takes its share of the twist."""
+        """Return flexion and deviation (B, 2) of the hand joint if the forearm takes its share of the twist."""
         hand = self.problem.hand
         sign = 1.0 if hand.side == "left" else -1.0
         frame = quaternion.from_frames(sign * forearm, -sign * hinge)
@@ -244,7 +248,9 @@ class Residuals:
         return quaternion.to_rotation_vector(swing) @ hand.axes[0, :2].T
 
     def _anchored(self, x: FloatArray) -> FloatArray:
-        """The hand stays about its seed; holds of neighbouring knots stay alike, with one swivel of the elbow."""
+        """Return the residuals that keep the hand near its seed, and grips of neighbouring knots similar with a common
+        swivel of the elbow.
+        """
         if self.problem.anchor is None:
             off: FloatArray = x[:, :6] / np.repeat([SEED_M / METRES, SEED_RAD], 3)
         else:
@@ -275,7 +281,7 @@ def _pole(problem: HandProblem, direction: FloatArray, swivel: FloatArray) -> Fl
 
 
 def pressure_cost(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Cost of a depth, and its slope: flesh gives way a little, then resists."""
+    """Return the cost of a depth and its slope: flesh yields a little, then resists."""
     deep = depth > GIVE_M
     return depth + (STIFFENING - 1.0) * np.maximum(depth - GIVE_M, 0.0), np.where(deep, STIFFENING, depth > 0.0)
 

@@ -1,5 +1,6 @@
-"""Holds of a character that has the hands of another one: wrists and fingers stay where they were fitted, lips and
-elbows are its own."""
+"""Grips of a character with the same hands as another one: wrists and fingers are taken over, lips and elbows are its
+own.
+"""
 
 from __future__ import annotations
 
@@ -20,15 +21,15 @@ from instrument_maps.model import InstrumentMap
 from metadata.model import Body
 
 SWIVELS: Final = 36
-"""Places of the elbow that are tried."""
+"""Number of tried positions of the elbow."""
 
 
 def with_own_arms(
     grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
 ) -> GripPose:
-    """Return the hold of a character from that of another one with the same hands (`Character.hands_of`).
+    """Return the grip of a character from that of another one with the same hands (`Character.hands_of`).
 
-    Each elbow goes where the wrist is straightest between shoulder and instrument, as in a fit of its own.
+    Each elbow is placed for the straightest wrist between shoulder and instrument, as in a new fit.
     """
     lips = fit_lips(character, instrument, body)
     own = replace(grip, character_id=character.id, lips=lips)

@@ -1,4 +1,4 @@
-"""Solving a hand's hold: many soft starts, a few harder ones, one hard finish."""
+"""Solving of a hand's grip: many starts with soft contacts, a few with harder ones, one final solution."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ from app.rig.model import InstrumentModel
 from instrument_maps.model import Control, InstrumentMap
 
 KNOTS = (0.25, 0.0, 0.5, 0.75, 1.0)
-"""Values of the control that carries a hand at which its hold is solved: the first from the seed, the others each from
-its solved neighbour. The grip turns in the fingers as the arm stretches."""
+"""Values of the control that moves a hand at which its grip is solved: the first from the seed, the others each from
+the solved neighbour, since the grip rotates in the fingers as the arm stretches.
+"""
 HELPED_FROM = 0.4
-"""From this value on the trunk may be turned towards the hand."""
+"""Value of that control from which the trunk may be turned towards the hand."""
 TILTS = (
     (0.0, 0.0, 0.0),
     (0.3, 0.0, 0.0),
@@ -34,11 +35,13 @@ TILTS = (
     (0.0, 0.25, 0.25),
     (0.0, -0.25, -0.25),
 )
-"""Turns of the seed (rotation vectors in the instrument's frame) that are tried."""
+"""Tried rotations of the seed (rotation vectors in the instrument's frame)."""
 
 
 def starts(problem: HandProblem, progress: Progress = no_progress) -> list[FloatArray]:
-    """Start from the seed and from tilts of it with soft contacts; the best few go on with harder ones. Best first."""
+    """Return solutions from the seed and rotations of it with soft contacts, and of the best few with harder ones; best
+    first.
+    """
     loose = []
     for number, tilt in enumerate(TILTS):
         progress(0.8 * number / len(TILTS))
@@ -52,7 +55,7 @@ def starts(problem: HandProblem, progress: Progress = no_progress) -> list[Float
 
 
 def refined_solution(problem: HandProblem, start: FloatArray) -> FloatArray:
-    """Solve from a start to the end: first with contacts at full stiffness, then with skin at its own."""
+    """Return the final solution from a start: first with contacts at full stiffness, then with skin at its own."""
     hard = solve(Residuals(problem, 1.0), start, 25)
     return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 

@@ -1,4 +1,4 @@
-"""The fingers between the ends of their controls, solved with the wrist held."""
+"""Fingers at values of their controls between the ends, solved with the wrist fixed."""
 
 from __future__ import annotations
 
@@ -24,22 +24,24 @@ from app.rig.grip.fitting.residuals import WORKED_RAD
 from app.rig.grip.grip_pose import Chain, FingerTable, StationTable
 
 LESS_EXACT = 1.5
-"""Fingers that stay while the hand gives way for another one keep their places less exactly, rather than break."""
+"""Factor of the tolerance of fingers that stay while the hand is offset for another finger, so that they do not bend
+unnaturally.
+"""
 FOLLOW_RAD = 0.15
-"""Spread of angles from one sample to the next."""
+"""Standard deviation in radians of angles between samples."""
 SMOOTH_DEGREE = 3
 SMOOTH_RAD = 0.04
 """Spread of a sample's angles about the smooth path over the control."""
 MOVED_VALUES = np.linspace(0.0, 1.0, 17)
-"""Values at which a control is solved that a finger stays on, or that carries its hand."""
+"""Solved values of a control on which a finger stays, or that moves its hand."""
 HOVER_VALUES = np.linspace(0.0, 1.0, 9)
-"""Values at which a control is solved that a finger waits over; keys go a short way."""
+"""Solved values of a control over which a finger waits; keys have short travel."""
 STILL_VALUES = np.zeros(1)
 
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Angles (S, 16, 3) of one finger at one station over values (S,); the other fingers' stand as they were given."""
+    """Angles (S, 16, 3) of one finger at one station over values (S,); other fingers have the given angles."""
 
     number: int
     station: Station
@@ -48,7 +50,7 @@ class Solved:
 
 
 def values_of(scene: GripScene, station: Station) -> FloatArray:
-    """Values at which a finger is solved at a station."""
+    """Return the values for which a finger is solved at a station."""
     if scene.carrier is None and not station.controls:
         return STILL_VALUES
     return HOVER_VALUES if hover_m(station, scene.instrument_map) else MOVED_VALUES
@@ -61,15 +63,15 @@ def solve_tables(
     elsewhere: FloatArray,
     reported: Progress = lambda share: None,
 ) -> tuple[Solved, ...]:
-    """Solve the fingers at each of their stations over the values of their controls, the wrist held; a finger that
-    touches nothing keeps its relaxed bend.
+    """Solve the fingers at each station over the values of their controls with the wrist fixed; a finger without
+    contacts stays relaxed.
 
     Parameters
     ----------
     angles : (S, configs, 16, 3) float64
-        Of the solved hold, one sample or one for every value of what carries the hand.
+        Angles of the solved grip: one sample, or one for every value of the control that moves the hand.
     elsewhere : (n,) float64
-        The parameters of the solved hold, for the fingers' other stations.
+        Parameters of the solved grip for the fingers' other stations.
 
     A finger has more joints than a touch needs, so samples solved apart may fall into different bends and the finger
     would twitch. Each is followed from one end of the control to the other, from both ends, solved again about a smooth
@@ -100,7 +102,7 @@ def solve_tables(
 
 
 def followed_table(problem: HandProblem, scene: GripScene, number: int, station: Station, angles: FloatArray) -> Solved:
-    """Solve one finger at a station, from the angles (16, 3) of a hand whose controls there are fully worked."""
+    """Solve one finger at a station, from the angles (16, 3) of a hand with fully worked controls."""
     values = values_of(scene, station)
     pose = np.repeat(angles[None], len(values), axis=0)
     finger = FingerOnTouches(problem, scene.over(values), number, station, values, pose)
@@ -114,8 +116,7 @@ def followed_table(problem: HandProblem, scene: GripScene, number: int, station:
 def solved_about(
     problem: HandProblem, scene: GripScene, home: Solved, values: FloatArray, angles: FloatArray
 ) -> Solved:
-    """Solve a finger at home again for another wrist, about the angles (16, 3) of a hand that works its controls there
-    fully."""
+    """Solve a finger at home for another wrist, near the angles (16, 3) of a hand with fully worked controls."""
     pose = home.angles[np.searchsorted(home.values, values)].copy()
     pose += angles - pose[-1]
     exacter = LESS_EXACT if home.station.controls else EXACTER
@@ -127,7 +128,7 @@ def solved_about(
 
 
 def missed_m(problem: HandProblem, scene: GripScene, one: Solved) -> float:
-    """Return how far a finger stays from its touch points while what it works is fully worked."""
+    """Return the distance in metres of a finger from its touch points while its controls are fully worked."""
     if not one.station.contacts:
         return 0.0
     values = one.values[-1:]
@@ -143,7 +144,7 @@ def missed_m(problem: HandProblem, scene: GripScene, one: Solved) -> float:
 
 
 def _both_ways(finger: FingerOnTouches, first: FloatArray, last: FloatArray) -> FloatArray:
-    """Angles (S, n) of a finger followed from whichever end of its values costs less."""
+    """Return the angles (S, n) of a finger followed from the end of its values with lower cost."""
     count = len(finger.values)
     if count == 1:
         return finger.solve(last[None], last[None], WORKED_RAD, np.arange(1))[0]
@@ -152,7 +153,7 @@ def _both_ways(finger: FingerOnTouches, first: FloatArray, last: FloatArray) -> 
 
 
 def _followed(finger: FingerOnTouches, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
-    """Angles (S, n) of a finger followed from one sample to the next, then smoothed, and what they cost."""
+    """Return the angles (S, n) of a finger followed from sample to sample and smoothed, and their cost."""
     found = np.zeros((len(order), len(start)))
     here = start
     for sample in order:
@@ -168,7 +169,7 @@ def _followed(finger: FingerOnTouches, start: FloatArray, order: Sequence[int]) 
 
 
 def finger_tables(problem: HandProblem, scene: GripScene, solved: Sequence[Solved]) -> tuple[FingerTable, ...]:
-    """The solved angles as rotations, finger by finger."""
+    """Return the solved angles as rotations, finger by finger."""
     hand = problem.hand
     tables = []
     for number, name in enumerate(FINGERS):
@@ -186,7 +187,7 @@ def finger_tables(problem: HandProblem, scene: GripScene, solved: Sequence[Solve
 
 
 def _tip(problem: HandProblem, scene: GripScene, one: Solved) -> tuple[int, FloatArray]:
-    """The joint of a finger that carries what touches at a station, and where that is in its frame."""
+    """Return the finger's joint that carries a station's touching point, and that point in its frame."""
     if not one.station.contacts:
         return -1, np.zeros(3)
     hand = problem.hand

@@ -1,4 +1,4 @@
-"""Places that the fingers touch, and the nodes about them, in the instrument's frame while controls are worked."""
+"""Places that the fingers touch, and the surrounding nodes, in the instrument's frame for values of the controls."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ FIRM_NORMAL, RESTING_NORMAL = 0.35, 0.6
 GUIDE_M, GUIDE_NORMAL = 0.006, 1.5
 SPREADS = {"firm": (FIRM_M, FIRM_NORMAL), "resting": (RESTING_M, RESTING_NORMAL), "guide": (GUIDE_M, GUIDE_NORMAL)}
 HOVER_MORE = 1.3
-"""Fingers wait at this multiple of the map's height in the fastest passages."""
+"""Factor of the map's height at which fingers wait in the fastest passages."""
 HOVER_SPREAD = 0.5
-"""Spread of a waiting finger about its height, as a share of it: it may be lower or higher as the hand lies."""
+"""Standard deviation of a waiting finger's height relative to it, as the hand may require."""
 HOVER_TURNS = 2.0
-"""Factor by which its pad may turn elsewhere more freely than at its touch."""
+"""Factor by which the pad's orientation is less exact at a waiting height than at the touch."""
 
 
 @dataclass(frozen=True, eq=False)
 class TouchTarget:
-    """A contact in the instrument's frame, for some values of the controls that its finger works there.
+    """A contact in the instrument's frame for some values of the controls that its finger works.
 
     ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
     """
@@ -51,7 +51,9 @@ def touch_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> TouchTarget:
-    """A contact while the ``worked`` controls are all at ``values`` (S,), and where a finger waits over it."""
+    """Return a contact while all ``worked`` controls are at ``values`` (S,), and the place of a finger waiting over
+    it.
+    """
     position, normal = contact_at(model, instrument_map, contact, worked, carrier, values)
     exact_m, exact_normal = SPREADS[contact.grip]
     spread_m, spread_normal = np.full(len(values), exact_m), np.full(len(values), exact_normal)
@@ -67,7 +69,7 @@ def touch_at(
 
 
 def counts(contact: Contact, values: FloatArray) -> BoolArray:
-    """At which values of its control a contact counts."""
+    """Return the values of the control at which a contact must be kept."""
     if contact.when == "pressed":
         return values > 0.0
     return values == 0.0 if contact.when == "released" else values >= 0.0
@@ -102,9 +104,9 @@ def nodes_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Places (S, N, 3) and bases (S, N, 3, 3) of the nodes while the worked controls are at values.
+    """Return positions (S, N, 3) and bases (S, N, 3, 3) of the nodes while the worked controls are at values.
 
-    A hand that is carried sees its own node stay and all others go the other way.
+    For a hand moved by a control, its own node is fixed and all others move the opposite way.
     """
     place, turn = node_transforms(model, instrument_map, _at(worked, values), len(values))
     if carrier is not None:
@@ -114,6 +116,6 @@ def nodes_at(
 
 
 def travel(control: Control) -> FloatArray:
-    """Way of what a control pushes or pulls, (3,); zero for what turns."""
+    """Return the travel (3,) of a sliding control; zero for a rotating one."""
     axis = (0.0, 0.0, 0.0) if control.motion is None else control.motion.axis
     return np.asarray(axis, dtype=np.float64) * control.travel_m

@@ -1,7 +1,7 @@
-"""Giving way of a hand for two fingers at once, where the single offsets are not right for both.
+"""Offsets of a hand for two fingers at once, where the sum of the single offsets does not suit both.
 
-The leans of single fingers (`app.rig.grip.fitting.leaning_hand`) are added. Where a finger then misses its place the
-wrist is solved again for the two, with the poses that `app.rig.grip.finger_poses` makes, and the difference is kept.
+Offsets of single fingers (`app.rig.grip.fitting.leaning_hand`) are added. If a finger then misses its place, the wrist
+is solved again for both with the poses of `app.rig.grip.finger_poses`, and the difference is stored.
 """
 
 from __future__ import annotations
@@ -21,21 +21,26 @@ from app.rig.grip.grip_pose import FingerTable, HandHold, WristOffset, wrist_giv
 Place: TypeAlias = tuple[str, int]
 
 MISSED_M = 0.0015
-"""Miss of one of the two fingers, or of one at home, beyond which the wrist is solved again; see `WORTH_M`."""
+"""Distance in metres by which one of the two fingers, or one at home, must miss its place for the wrist to be solved
+again; see `WORTH_M`.
+"""
 WORTH_M = 0.0005
-"""Gain from which the new wrist is kept."""
+"""Least gain in metres for which the new wrist is used."""
 PLACE_M, HOME_M, WHOLE_M = 0.0004, 0.0006, 0.001
-"""Exactness with which the two fingers, the others at home, and palm and web keep their places."""
+"""Tolerances in metres of the two fingers, the others at home, and palm and web."""
 MOVED_M, TURNED_RAD = 0.006, 0.10
-"""Spread of the wrist and its turn about where the single leans have them."""
+"""Standard deviations of the wrist's position in metres and its rotation in radians from the sum of the single
+offsets.
+"""
 STEP = 1e-4
 ROUNDS = 25
 
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """A hand with two of its fingers at other stations than home; the parameters (6,) are the wrist's place in 0.1 m
-    and its turn, on top of its leans."""
+    """A hand with two fingers at stations other than home; the parameters (6,) are the wrist's position in 0.1 m and
+    its rotation, added to its offsets.
+    """
 
     hand: HandHold
     stations: dict[str, int]
@@ -43,7 +48,7 @@ class _Pair:
 
     @property
     def tables(self) -> list[FingerTable]:
-        """Tables of the fingers that touch something."""
+        """Return the tables of the fingers with contacts."""
         return [table for table in self.hand.fingers if table.stations and table.stations[0].tip_joint >= 0]
 
     def wrist(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -54,7 +59,7 @@ class _Pair:
         return wrist_given(self.hand, [*given, *extra])
 
     def missed_m(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return how far (B, fingers, 3) fingers, and (B, N, 3) palm and web, are from their places."""
+        """Return the distances (B, fingers, 3) of fingers and (B, N, 3) of palm and web from their places in metres."""
         wrist = self.wrist(x)
         fingers = [_missed(self.hand, table, self.stations.get(table.finger, 0), wrist) for table in self.tables]
         home_m, home = wrist_given(self.hand, [])
@@ -63,7 +68,7 @@ class _Pair:
         return np.stack(fingers, axis=1), whole
 
     def residuals(self, x: FloatArray) -> FloatArray:
-        """(B, m)."""
+        """Return the residuals (B, m)."""
         fingers, whole = self.missed_m(x)
         spread = np.array([PLACE_M if table.finger in self.stations else HOME_M for table in self.tables])
         parts = [fingers / spread[:, None], whole / WHOLE_M]
@@ -71,7 +76,7 @@ class _Pair:
         return np.concatenate([*(part.reshape(len(x), -1) for part in parts), gone], axis=1)
 
     def worst_m(self, x: FloatArray) -> float:
-        """The farthest that one of the fingers is from its place."""
+        """Return the greatest distance in metres of a finger from its place."""
         return float(np.linalg.norm(self.missed_m(x[None])[0], axis=2).max())
 
     def solved(self) -> FloatArray:
@@ -93,16 +98,16 @@ class _Pair:
 def leans_beside(
     hand: HandHold, whole_m: FloatArray, together: Sequence[tuple[Place, Place]]
 ) -> tuple[WristOffset, ...]:
-    """Offsets by which a hand must give way more for two fingers at once than for each of them.
+    """Return the additional offsets for two fingers at once.
 
     Parameters
     ----------
     hand : HandHold
         With the leans of single fingers.
     whole_m : (N, 3) float64
-        Where palm and web touch, in the instrument's frame.
+        Contact points of palm and web in the instrument's frame.
     together : sequence of pairs of (finger, station)
-        What is asked for at once (`app.rig.grip.finger_stations.asked_together`).
+        Pairs of finger and station needed simultaneously (`app.rig.grip.finger_stations.asked_together`).
     """
     leaning = {place for lean in hand.leans for place in lean.places}
     found = []
@@ -120,8 +125,7 @@ def leans_beside(
 
 
 def _missed(hand: HandHold, table: FingerTable, index: int, wrist: tuple[FloatArray, FloatArray]) -> FloatArray:
-    """Return how far (B, 3) a finger is from its place, in the instrument's frame, with what it works there fully
-    worked."""
+    """Return the offset (B, 3) of a finger from its place in the instrument's frame, with its controls fully worked."""
     station = table.stations[index]
     own = wrist_given(hand, [(one, np.ones(1)) for one in hand.leans if one.places == ((table.finger, index),)])
     requested = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))

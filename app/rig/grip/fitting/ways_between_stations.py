@@ -1,4 +1,4 @@
-"""Heights of fingers on the ways between their places, and places where they wait for their hand."""
+"""Heights of fingers on the ways between their stations, and places at which they wait for a hand offset."""
 
 from __future__ import annotations
 
@@ -20,20 +20,21 @@ from app.rig.grip.grip_pose import FingerTable, StationTable
 from app.rig.quaternion import interpolated, mixed
 
 WAYS = np.arange(1, 16) / 16.0
-"""Places on a way that are looked at: a finger passes a narrow tube in a tenth of it."""
+"""Examined positions on a way, since a finger passes a narrow tube in a tenth of it."""
 LIFTS_M = np.linspace(0.0, 0.030, 11)
 WAY_CLEAR_M, WORTH_M = 0.0025, 0.0005
-"""On its way from home to another place, and where it waits for a hand that gives way for it there, a finger is lifted
-by the first of these heights that brings it over what lies between; or by the best, higher only where that is worth
-it."""
+"""Tried heights in metres of a finger on its way from home to another station, and while it waits for a hand offset:
+the first that clears all obstacles, else the best; higher only for the least gain.
+"""
 BACK, FROM_NEXT = 0.5, 0.1
-"""Shares of a finger's detour if a way straight out of its keys is not clear, or leads too far off them: back from the
-palm and away from the other key, around what stands up between the two, not over it."""
+"""Shares of a finger's detour if the direct way is not clear or leads too far from the keys: back from the palm, and
+away from the other key, around obstacles between the two.
+"""
 
 
 @dataclass(frozen=True)
 class _Height:
-    """Height of a finger on a way, and the depth of its deepest point in the instrument."""
+    """Height of a finger on a way, and the greatest depth of its points in the instrument."""
 
     lift_m: float
     deep_m: float
@@ -44,7 +45,7 @@ class _Height:
 
     @property
     def near(self) -> bool:
-        """Clear, and no further off its keys than a finger that waits."""
+        """True if the way is clear, and not farther from the keys than a waiting finger."""
         return self.clear and self.lift_m <= MOST_HOVER_M
 
     def betters(self, other: _Height) -> bool:
@@ -56,7 +57,7 @@ class _Height:
 def lifted_ways(
     problem: HandProblem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
 ) -> tuple[FingerTable, ...]:
-    """Find how high fingers are lifted on their ways between home and their other stations."""
+    """Return the tables with the heights of fingers on their ways between home and other stations."""
     result = []
     for number, table in enumerate(tables):
         found = [table.stations[0]] if table.stations else []
@@ -109,8 +110,10 @@ def _lifted_along(
     away: FloatArray,
     off: FloatArray,
 ) -> tuple[StationTable, _Height]:
-    """A station that a finger goes to lifted towards ``away``, and waits at towards ``off``, in the instrument's
-    frame; and how high. ``scenes`` are at home and there, ``which`` are the numbers of finger and station."""
+    """Return a station with its height on the way in direction ``away`` and while waiting in direction ``off``, in the
+    instrument's frame, and that height. ``scenes`` are at home and at the station, ``which`` are the numbers of finger
+    and station.
+    """
     (scene, wrist), (number, index) = scenes, which
     home, there = table.stations[0], table.stations[index]
     away, off = away @ scene.basis[0], off @ scene.basis[0]
@@ -147,7 +150,7 @@ def _lifted_along(
 
 
 def _waiting(station: StationTable) -> FloatArray:
-    """Poses (2, n, 4) of a finger that waits, as high as it ever does and as low."""
+    """Return the poses (2, n, 4) of a waiting finger at its greatest and its least height."""
     low = LOW_HOVER if station.hovers else 0.0
     return interpolated(station.values, station.rotations, np.array([0.0, low]))
 
@@ -155,8 +158,9 @@ def _waiting(station: StationTable) -> FloatArray:
 def _least_lift(
     problem: HandProblem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
 ) -> tuple[float, float]:
-    """The first of some heights at which a finger's poses (K, n, 4) all keep clear of the instrument, or the best; and
-    how deep the deepest is there."""
+    """Return the first of some heights at which a finger's poses (K, n, 4) all clear the instrument, or the best, and
+    the greatest depth there.
+    """
     hand = problem.hand
     own = slice(1 + 3 * number, 4 + 3 * number)
     carried = hand.all_points[own, 3].sum(axis=0) > 0.5
