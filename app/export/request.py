@@ -9,6 +9,7 @@ from pathlib import Path
 from app.errors import FileError, Message, StopRequested
 from app.export.equipped_skeleton import socket_names
 from app.export.face_curves import DEFAULT_FACE, FaceOptions
+from app.export.few_materials import with_few_materials
 from app.export.formats import FileFormat, Format, refuse_attachment, requested
 from app.export.humanoid import humanoid_target
 from app.export.rig import rig_of
@@ -76,6 +77,8 @@ class ExportRequest:
         Number of levels of detail of meshes, 1 to `MOST_LEVELS`.
     with_ignored : bool
         Whether problems ignored by the project are listed as warnings.
+    few_materials : bool or None
+        Whether small surfaces of characters share materials; None: where files have textures.
     """
 
     performance: Performance
@@ -100,6 +103,12 @@ class ExportRequest:
     texture_px: int = USUAL_TEXTURE_PX
     levels: int = 1
     with_ignored: bool = False
+    few_materials: bool | None = None
+
+    @property
+    def shares_materials(self) -> bool:
+        """True if small surfaces of characters share materials."""
+        return self.texture_px > 0 if self.few_materials is None else self.few_materials
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,10 +121,13 @@ class CastMusician:
         The musician as player of each instrument; the first one has the body.
     checked : CheckedTarget
         Skeleton of the character.
+    few_materials : bool
+        Whether small surfaces of the character share materials.
     """
 
     performers: tuple[Performer, ...]
     checked: CheckedTarget
+    few_materials: bool = False
 
     @property
     def player(self) -> Player:
@@ -125,7 +137,8 @@ class CastMusician:
     @property
     def character(self) -> Character:
         """The musician's body, dressed."""
-        return self.performers[0].dressed
+        worn = self.performers[0].dressed
+        return with_few_materials(worn) if self.few_materials else worn
 
     @property
     def target(self) -> TargetSkeleton:
@@ -149,11 +162,13 @@ class CastDancing:
     dancer: Dancer
     dancing: Dancing
     checked: CheckedTarget
+    few_materials: bool = False
 
     @property
     def character(self) -> Character:
         """The dancer's body, dressed."""
-        return dressed_character(self.dancer)
+        worn = dressed_character(self.dancer)
+        return with_few_materials(worn) if self.few_materials else worn
 
     @property
     def target(self) -> TargetSkeleton:
@@ -228,12 +243,12 @@ def cast_of(
         require_players(left_out, request.source, wording)
     return ExportCast(
         tuple(
-            CastMusician((made, *doubles.get(id, ())), targets[id])
+            CastMusician((made, *doubles.get(id, ())), targets[id], request.shares_materials)
             for id, made in found.made.items()
             if id not in absent
         ),
         tuple(
-            CastDancing(one, dances.made[one.id], targets[one.id])
+            CastDancing(one, dances.made[one.id], targets[one.id], request.shares_materials)
             for one in request.dancers
             if one.id in dances.made and one.id not in absent
         ),

@@ -57,6 +57,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     motion_only: bool
     texture_px: int
     levels: int
+    few_materials: bool
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
@@ -97,6 +98,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         motion_only=request.motion_only,
         texture_px=request.texture_px,
         levels=request.levels,
+        few_materials=request.shares_materials,
     )
 
 
@@ -121,6 +123,7 @@ def _request(job: ExportJob) -> ExportRequest:
         motion_only=job.motion_only,
         texture_px=job.texture_px,
         levels=job.levels,
+        few_materials=job.few_materials,
     )
 
 

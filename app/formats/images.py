@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import warnings
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, Literal, get_args
@@ -271,3 +272,47 @@ def _encoded(texture: Texture, name: str, image: Image) -> Texture:
     stream = io.BytesIO()
     image.save(stream, "JPEG", quality=JPEG_QUALITY)
     return texture_of(name, stream.getvalue())
+
+
+def montage(
+    name: str,
+    tiles: Sequence[tuple[Texture | tuple[int, int, int], tuple[int, int, int, int]]],
+    size: tuple[int, int],
+    fill: tuple[int, ...],
+    exact: bool = True,
+) -> Texture:
+    """Put textures and plain colours beside one another.
+
+    Parameters
+    ----------
+    tiles : sequence of (Texture or (int, int, int), (int, int, int, int))
+        Each with its left, top, width and height in pixels; a texture that cannot be read leaves its place empty.
+    size : (int, int)
+        Width and height.
+    fill : tuple of int
+        RGB or RGBA, of what nothing covers.
+    exact : bool
+        Whether to keep every number; otherwise the texture is a JPEG, a fraction as large, without alpha.
+    """
+    from PIL import Image
+
+    mode = "RGBA" if len(fill) == 4 else "RGB"
+    whole = Image.new(mode, size, fill)
+    for tile, (left, top, width, height) in tiles:
+        if isinstance(tile, tuple):
+            whole.paste(tile, (left, top, left + width, top + height))
+            continue
+        image = _smaller(tile.content, max(width, height))
+        if image is not None:
+            whole.paste(image.convert(mode).resize((width, height)), (left, top))
+    if exact:
+        return texture_of(name, _png(whole))
+    stream = io.BytesIO()
+    whole.save(stream, "JPEG", quality=JPEG_QUALITY)
+    return texture_of(name, stream.getvalue())
+
+
+def size_px(texture: Texture) -> tuple[int, int]:
+    """Return the width and height of a texture; 1 and 1 if it cannot be read."""
+    image = _opened(texture.content)
+    return (1, 1) if image is None else (image.width, image.height)

@@ -36,6 +36,14 @@ def linear(srgb: FloatArray) -> FloatArray:
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
+def encoded_color(linear_color: tuple[float, float, float]) -> tuple[int, int, int]:
+    """Return the sRGB numbers, 0 to 255, of a linear colour (IEC 61966-2-1)."""
+    part = np.clip(np.array(linear_color), 0.0, 1.0)
+    shown = np.where(part <= 0.0031308, 12.92 * part, 1.055 * part ** (1.0 / 2.4) - 0.055)
+    red, green, blue = np.round(255.0 * shown).astype(int).tolist()
+    return red, green, blue
+
+
 def plain_material(material: Material, uvs: AnyFloatArray) -> Material:
     """Return the material without textures, with their mean colour and roughness at some texture coordinates, v down.
 

@@ -202,7 +202,10 @@ def export_into(
     recover(project.folder, project.folder / SOURCES)
     texture_px = request.texture_px
     # Surfaces in the files are plain: materials with textures are made of the description.
-    request = replace(request, formats=frozenset((IMPORTED,)), sound=False, stage=False, texture_px=0)
+    shared = request.shares_materials
+    request = replace(
+        request, formats=frozenset((IMPORTED,)), sound=False, stage=False, texture_px=0, few_materials=shared
+    )
     cast = cast_of(request, shown_in or wording, stop_requested)
     layout = layout_of(request.performance.project, piece_name(request.source, project.folder))
     surfaces = Surfaces(layout.content, texture_px)
