@@ -49,6 +49,7 @@ from widgets.dialogs.import_table import ImportTable
 _SIZE = QSize(1280, 580)
 _TITLE_PX = 600
 _SLOW_MS = 300
+_OUTFIT_LETTERS = 12
 _BY_PIECE = "\0by_piece"
 """Option that is no outfit's id."""
 """After this long the dialog says that it is working."""
@@ -110,6 +111,7 @@ class ImportDialog(Retranslated, QDialog):
             tip="import_dialog.dancer_who_moves_to_percussion",
         )
         self._outfit = named(Combo(), "import_outfit")
+        self._outfit.setMinimumContentsLength(_OUTFIT_LETTERS)
         self._outfit_title = Caption("import_dialog.outfit", self._outfit)
         self.texted(self._outfit, tip="import_dialog.outfit_tip")
         self._encodings = EncodingChoice()
