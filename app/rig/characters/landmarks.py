@@ -7,11 +7,11 @@ on. Landmarks of a finger whose skin moves with the hand (a mitten) are on that 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
-from app.arrays import BoolArray, FloatArray, IndexArray
+from app.arrays import FloatArray, IndexArray
+from app.rig.characters.face_profile import at_height, lowest_of_face_m, nose_base_m, notch_m
 from app.rig.ik import Side
 from app.rig.mesh import Mesh
 from app.rig.model import Character, Landmark, Skeleton
@@ -39,16 +39,6 @@ LEAST_WEIGHTS = (0.5, 0.25)
 """Least skin weights of a joint's vertices, tried in turn."""
 EYES_M, HEAD_M = 0.06, 0.217
 """Distance of the eyes, and height of the head's skin, in metres, for which the lengths in this module were chosen."""
-STEPS = 40
-BREAK = 0.2
-"""A profile that goes back for more than this share of its height is broken there: below is no face."""
-CHIN_SHARE = 0.15
-"""Lowest part of a face, up to the eyes, which is the chin."""
-NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, 0.6, 0.4
-"""A nose stands out from the chin by so much of that height, and ends where so much of it is lost, not farther below
-its tip than so much: a face that is round altogether has none."""
-MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
-"""Position of the lips as a share of the way from eyes to chin, and its tolerance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -298,88 +288,26 @@ def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
     forward = at[:, 2] > foremost_m - 0.65 * (foremost_m - middle_m)
     if not forward.any():  # Nothing lies before the middle: it is no face.
         return {}
-    forward &= at[:, 1] >= _lowest_of_face_m(at, forward, float(head.place[1]))
+    forward &= at[:, 1] >= lowest_of_face_m(at, forward, float(head.place[1]))
     front, at = front[forward], at[forward]
     chin_m = float(at[:, 1].min())
     # Eyes are half way up a head, wherever it has none.
     top_m = float(skin.positions[_own(skin, head.joints, 0.5), 1].max())
     eyes_m = head.eyes_m if head.eyes_m is not None else (chin_m + top_m) / 2.0
-    requested_m = _notch_m(at, eyes_m, chin_m)
-    base_m = _nose_base_m(at, eyes_m, chin_m)
-    if base_m is not None and base_m < requested_m:
+    requested_m = notch_m(at, eyes_m, chin_m)
+    base_m = nose_base_m(at, eyes_m, chin_m)
+    if base_m is not None and requested_m > base_m - (base_m - chin_m) / 6.0:
         requested_m = base_m - (base_m - chin_m) / 3.0
-    contact = front[_at_height(at, requested_m, PATCH_M * head.size)]
+    if base_m is not None:
+        # None of the nose itself, if there is anything else near.
+        under = at[:, 1] < base_m
+        if under.any() and np.abs(at[under, 1] - requested_m).min() < (eyes_m - chin_m) / 4.0:
+            front, at = front[under], at[under]
+    contact = front[at_height(at, requested_m, PATCH_M * head.size, LIP_VERTICES)]
     heights = skin.positions[contact, 1]
     upper, lower = contact[heights >= np.median(heights)], contact[heights <= np.median(heights)]
     found = {"lips.contact": contact, "lips.upper": upper, "lips.lower": lower}
     return {name: _landmark(skin, np.sort(rows)) for name, rows in found.items()}
-
-
-def _lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) -> float:
-    """Lowest height of a profile (V, 3) above which it does not go back behind its front: a collar that hangs on the
-    head, below its joint, is not its chin."""
-    heights = np.unique(profile[forward, 1])[::-1]
-    for above_m, below_m in pairwise(heights):
-        between = ~forward & (profile[:, 1] < above_m) & (profile[:, 1] > below_m)
-        if below_m < joint_m and above_m - below_m > BREAK * (heights[0] - heights[-1]) and between.any():
-            return float(above_m)
-    return float(heights[-1])
-
-
-def _nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | None:
-    """Height of a profile (V, 3) at which its nose ends; None where no nose stands out."""
-    high, deep, long_m = profile[:, 1], profile[:, 2], eyes_m - chin_m
-    of_chin_m = chin_m + CHIN_SHARE * long_m
-    middle = np.flatnonzero((high > of_chin_m) & (high < eyes_m))
-    if not len(middle):
-        return None
-    tip = middle[np.argmax(deep[middle])]
-    out_m = float(deep[tip] - deep[high <= of_chin_m].max())
-    end_m = float(deep[tip] - NOSE_BASE * out_m)
-    below = np.flatnonzero((high < high[tip]) & (deep < end_m))
-    if out_m < NOSE_OUT * long_m or not len(below):
-        return None
-    first = below[np.argmax(high[below])]
-    if float(high[tip] - high[first]) > NOSE_LONG * long_m:
-        return None
-    if high[first] > of_chin_m:
-        return float(high[first])
-    # No vertex between nose and chin: the way there is straight.
-    above = np.flatnonzero((high > high[first]) & (high <= high[tip]))
-    last = above[np.argmin(high[above])]
-    share = (deep[last] - end_m) / max(float(deep[last] - deep[first]), 1e-9)
-    return float(high[last] + min(max(share, 0.0), 1.0) * (high[first] - high[last]))
-
-
-def _at_height(profile: FloatArray, height_m: float, patch_m: float) -> IndexArray:
-    """The vertices of a profile (V, 3) whose middle is at a height; of a face of few vertices the next ones above and
-    below it, where these are nearer together than either: the next ones of all are the tip of a nose."""
-    off_m = np.abs(profile[:, 1] - height_m)
-    if float(off_m.min()) > patch_m:
-        over, under = profile[:, 1] >= height_m, profile[:, 1] < height_m
-        sets = [np.flatnonzero(side & (off_m <= off_m[side].min() + patch_m)) for side in (over, under) if side.any()]
-        found = [*sets, *([np.concatenate(sets)] if len(sets) > 1 else [])]
-        return min(found, key=lambda rows: abs(float(np.unique(profile[rows, 1].round(4)).mean()) - height_m))
-    nearest = np.argsort(off_m, kind="stable")[:LIP_VERTICES]
-    nearest = nearest[off_m[nearest] <= off_m.min() + patch_m]
-    foremost: IndexArray = nearest[profile[nearest, 2] > profile[nearest, 2].max() - patch_m]
-    return foremost
-
-
-def _notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
-    """Return the height of the notch between the lips in a profile (V, 3); where there is none, as on most faces, the
-    expected height.
-    """
-    steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
-    low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
-    depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])
-    known = np.flatnonzero(np.isfinite(depths_m))
-    goes_in_m, best = 0.0, round(MOUTH_SHARE * STEPS) - low
-    for place in known[1:-1]:
-        before_m, behind_m = depths_m[:place].max(), depths_m[place + 1 :].max()
-        if min(before_m, behind_m) - depths_m[place] > goes_in_m:
-            goes_in_m, best = float(min(before_m, behind_m) - depths_m[place]), int(place)
-    return eyes_m - (low + best) / STEPS * (eyes_m - chin_m)
 
 
 def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:

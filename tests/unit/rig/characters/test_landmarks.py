@@ -53,7 +53,7 @@ COLLAR = ((0.03, -0.04), (-0.09, 0.11), (-0.10, 0.11))
 
 @pytest.mark.parametrize(
     ("profile", "lips"),
-    [(NOSE, (-0.012, 0.018)), (BALL, (-0.06, 0.05)), ((*BALL[:13], *COLLAR), (0.0, 0.15))],
+    [(NOSE, (-0.01, 0.02)), (BALL, (-0.06, 0.05)), ((*BALL[:13], *COLLAR), (0.0, 0.15))],
     ids=["nose", "ball", "collar"],
 )
 def test_a_still_face_of_few_vertices_has_its_mouth_below_the_nose(

@@ -1,0 +1,82 @@
+"""Profile of a face that does not move: its chin, its nose, and the height at which its lips meet."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray, IndexArray
+
+STEPS: Final = 40
+BREAK = 0.2
+"""A profile that goes back for more than this share of its height is broken there: below is no face."""
+CHIN_SHARE = 0.15
+"""Lowest part of a face, up to the eyes, which is the chin."""
+NOSE_OUT, NOSE_BASE, NOSE_LONG = 0.08, 0.6, 0.15
+"""A nose stands out from the chin by so much of that height, and ends where so much of it is lost, not farther below
+its tip than so much: a face that is round altogether has none."""
+MOUTH_SHARE, MOUTH_SPREAD = 0.63, 0.09
+"""From the eyes down to the chin, in so many steps, the lips meet after this share, give or take the other one."""
+
+
+def lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) -> float:
+    """Lowest height of a profile (V, 3) above which it does not go back behind its front: a collar that hangs on the
+    head, below its joint, is not its chin."""
+    heights = np.unique(profile[forward, 1])[::-1]
+    for above_m, below_m in pairwise(heights):
+        between = ~forward & (profile[:, 1] < above_m) & (profile[:, 1] > below_m)
+        if below_m < joint_m and above_m - below_m > BREAK * (heights[0] - heights[-1]) and between.any():
+            return float(above_m)
+    return float(heights[-1])
+
+
+def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | None:
+    """Height of a profile (V, 3) at which its nose ends; None where no nose stands out."""
+    high, deep, long_m = profile[:, 1], profile[:, 2], eyes_m - chin_m
+    of_chin_m = chin_m + CHIN_SHARE * long_m
+    middle = np.flatnonzero((high > of_chin_m) & (high < eyes_m))
+    if not len(middle):
+        return None
+    tip = middle[np.argmax(deep[middle])]
+    out_m = float(deep[tip] - deep[high <= of_chin_m].max())
+    end_m = float(deep[tip] - NOSE_BASE * out_m)
+    below = np.flatnonzero((high < high[tip]) & (deep < end_m))
+    if out_m < NOSE_OUT * long_m or not len(below):
+        return None
+    first = below[np.argmax(high[below])]
+    # Its underside is level, and on a face of few vertices the next one below is that of the lips or the chin.
+    base_m = float(high[(high > high[first]) & (high <= high[tip])].min())
+    return base_m if float(high[tip]) - base_m <= NOSE_LONG * long_m else None
+
+
+def at_height(profile: FloatArray, height_m: float, patch_m: float, count: int) -> IndexArray:
+    """At most ``count`` vertices of a profile (V, 3) about a height.
+
+    Where no vertex is near, the next ones above and below it are taken if their middle is nearer than either.
+    """
+    off_m = np.abs(profile[:, 1] - height_m)
+    if float(off_m.min()) > patch_m:
+        over, under = profile[:, 1] >= height_m, profile[:, 1] < height_m
+        sets = [np.flatnonzero(side & (off_m <= off_m[side].min() + patch_m)) for side in (over, under) if side.any()]
+        found = [*sets, *([np.concatenate(sets)] if len(sets) > 1 else [])]
+        return min(found, key=lambda rows: abs(float(np.unique(profile[rows, 1].round(4)).mean()) - height_m))
+    nearest = np.argsort(off_m, kind="stable")[:count]
+    nearest = nearest[off_m[nearest] <= 3.0 * patch_m]
+    foremost: IndexArray = nearest[profile[nearest, 2] > profile[nearest, 2].max() - patch_m]
+    return foremost
+
+
+def notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
+    """Height at which a profile (V, 3) goes in between two lips; where it does not, as on most faces."""
+    steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
+    low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
+    depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])
+    known = np.flatnonzero(np.isfinite(depths_m))
+    goes_in_m, best = 0.0, round(MOUTH_SHARE * STEPS) - low
+    for place in known[1:-1]:
+        before_m, behind_m = depths_m[:place].max(), depths_m[place + 1 :].max()
+        if min(before_m, behind_m) - depths_m[place] > goes_in_m:
+            goes_in_m, best = float(min(before_m, behind_m) - depths_m[place]), int(place)
+    return eyes_m - (low + best) / STEPS * (eyes_m - chin_m)
