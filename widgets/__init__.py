@@ -1,1 +1,1 @@
-"""The panels of the editor; each is a room of its own and only `common` is shared. The shell connects them."""
+"""The panels of the editor. Panels are independent of each other and share only `common`; the shell connects them."""

@@ -27,7 +27,10 @@ TEXTS: Final[Mapping[str, Wording]] = {
 class Language(QObject):
     """The display language.
 
-    Signals ------- changed() The language has changed. Widgets receive ``QEvent.LanguageChange`` too.
+    Signals
+    -------
+    changed()
+        The language has changed. Widgets receive ``QEvent.LanguageChange`` too.
     """
 
     changed = Signal()

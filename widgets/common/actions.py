@@ -1,4 +1,4 @@
-"""Actions of the shell's table, for panels that offer them."""
+"""Access to the shell's table of actions for panels."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ TABLE = "action_table"
 
 
 def actions(session: Session) -> Mapping[str, QAction]:
-    """Actions of the table by id; empty before the shell has made the table, which is a child of the session."""
+    """Return the actions by id; empty before the shell has made the table, which is a child of the session."""
     table = session.findChild(QObject, TABLE, Qt.FindChildOption.FindDirectChildrenOnly)
     found: Mapping[str, QAction] = getattr(table, "actions", {})
     return found
 
 
 def with_keys(session: Session, action_id: str, text_id: str) -> Callable[[], str]:
-    """Return what makes a tip: the text of an id and the shortcut that its action has now."""
+    """Return a function that returns a tool tip: a text and the present shortcut of an action."""
 
     def text() -> str:
         action = actions(session).get(action_id)

@@ -34,14 +34,14 @@ def part_name(part: str) -> str:
 
 
 def way_name(channel: str) -> str:
-    """The direction or motion of a channel, without its part: up, to the left ..."""
+    """Return the direction or motion of a channel without its body part: up, to the left and so on."""
     if channel.startswith(FACE):
         return morph_name(channel.removeprefix(FACE))
     return tr(_WAYS[channel.partition(".")[2]])
 
 
 def channel_name(channel: str) -> str:
-    """The whole name of a channel; what it is called in files where there is none."""
+    """Return the full name of a channel; if there is none, its name in files."""
     if channel not in CHANNELS:
         return channel
     if channel.startswith(FACE):
@@ -50,19 +50,19 @@ def channel_name(channel: str) -> str:
 
 
 def body_groups() -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Parts of the body by name, each with its channels."""
+    """Yield the names of body parts, each with its channels."""
     for part, channels in groupby(BODY_CHANNELS, key=lambda channel: channel.partition(".")[0]):
         yield part_name(part), tuple(channels)
 
 
 def face_groups() -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Parts of the face by name, each with its channels."""
+    """Yield the names of parts of the face, each with its channels."""
     for stem, text_id in _FACE_GROUPS.items():
         yield tr(text_id), tuple(f"{FACE}{name}" for name in ARKIT_MORPHS if name.startswith(stem))
 
 
 def value_text(channel: str, value: float) -> str:
-    """A channel's value with its unit: ``12.5°``, ``2.1 cm``, ``0.35``."""
+    """Return a channel's value with its unit: ``12.5°``, ``2.1 cm``, ``0.35``."""
     unit = CHANNELS[channel].unit
     if unit == "deg":
         return f"{number_text(value, 1)}°"

@@ -1,4 +1,4 @@
-"""Small pictures of a character from the front, drawn without a graphics card, in any thread."""
+"""Small front views of a character, drawn without a graphics card in any thread."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ _OVERSAMPLED: Final = 2
 _AMBIENT, _DIFFUSE = 0.30, 0.75
 _MARGIN: Final = 1.06
 _HEAD_BELOW: Final = 0.45
-"""Share of the head's height (joint to crown) of the neck that is shown below it."""
+"""Length of neck shown below the head, relative to the head's height (joint to crown)."""
 _LARGEST_PX: Final = 2048
 _DEPTHS: Final = float(2**20)
-"""From the hindmost point to the foremost one."""
+"""Number of depth levels from the rearmost to the foremost point."""
 _CLOSE: Final = 1.3
 """Points in a pixel's width."""
 
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """A character in its T-pose, made ready to be drawn with any face.
+    """A character in its T-pose, prepared for drawing with any facial expression.
 
     Attributes
     ----------
@@ -46,9 +46,9 @@ class Seen:
     colours : (T, 3) float64
         Linear.
     morphs : mapping of str to ((n,) int, (n, 3) float64)
-        Which vertices a morph moves, and where to.
+        Vertices moved by each morph, and their displacements.
     head_m : (float, float, float)
-        Height of the head's joint, of the crown; its middle from side to side is at 0.
+        Height of the head's joint and of the crown in metres; the middle is at x = 0.
     """
 
     positions_m: FloatArray
@@ -97,12 +97,12 @@ def seen(character: Character) -> Seen:
 def picture(
     shown: Seen, width_px: int, height_px: int, crop: Crop = "body", weights: Mapping[str, float] | None = None
 ) -> QImage:
-    """Draw a character from the front, on nothing.
+    """Return a front view of a character on a transparent background.
 
     Parameters
     ----------
     crop : Crop
-        All of the body, or its head.
+        Whole body or head.
     weights : mapping of str to float, optional
         Of morphs.
     """
@@ -146,7 +146,7 @@ def _colours(mesh: Mesh) -> FloatArray:
 
 
 def _frame(shown: Seen, positions: FloatArray, crop: Crop) -> tuple[float, float, float]:
-    """Lowest and highest point, and half the width, that are seen."""
+    """Return the lowest and highest point and half the width to draw."""
     if crop == "body":
         return float(positions[:, 1].min()), float(positions[:, 1].max()), float(np.abs(positions[:, 0]).max())
     joint, crown = shown.head_m
@@ -172,7 +172,7 @@ def _across(triangles: IndexArray, positions: FloatArray) -> FloatArray:
 
 
 def _facing(triangles: IndexArray, positions: FloatArray) -> FloatArray:
-    """Unit normals (V, 3) of the vertices, from the triangles around them."""
+    """Return unit normals (V, 3) of the vertices from the triangles around them."""
     across = _across(triangles, positions)
     return _unit(
         np.stack(
@@ -186,9 +186,9 @@ def _facing(triangles: IndexArray, positions: FloatArray) -> FloatArray:
 
 
 def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int) -> IntArray:
-    """The triangle that is seen in each pixel, -1 for none.
+    """Return the index of the visible triangle in each pixel, -1 for none.
 
-    Each triangle is drawn as points close enough to one another, those in front over those behind.
+    Each triangle is drawn as closely spaced points, nearer ones over farther ones.
     """
     placed = points[triangles]
     inside = (placed[:, :, 0].max(1) > 0.0) & (placed[:, :, 0].min(1) < width)
@@ -217,7 +217,7 @@ def _in_front(points: FloatArray, triangles: IndexArray, width: int, height: int
 def _painted(
     front: IntArray, points: FloatArray, positions: FloatArray, normals: FloatArray, shown: Seen, size: tuple[int, int]
 ) -> npt.NDArray[np.uint8]:
-    """Colours (pixels, 4), shaded smoothly where the vertices' normals are."""
+    """Return colours (pixels, 4) with smooth shading from the vertex normals."""
     width, height = size
     hit = np.flatnonzero(front >= 0)
     owners = front[hit]
@@ -235,7 +235,7 @@ def _painted(
 
 
 def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
-    """Return the barycentric share of each corner (P, 3) of its triangle (P, 3, 2) in the middle of a pixel."""
+    """Return the barycentric coordinates (P, 3) of pixel centres in their triangles (P, 3, 2)."""
     middle = np.stack([pixels % width, pixels // width], axis=1) + 0.5
     one, two, at = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], middle - corners[:, 0]
     area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
@@ -249,8 +249,9 @@ def _shares(corners: FloatArray, pixels: IndexArray, width: int) -> FloatArray:
 
 
 def _by_edges(placed: FloatArray) -> tuple[FloatArray, IndexArray]:
-    """Triangles (T, 3, 3) from the corner between their two shorter edges, and the powers of two (T, 2) that those are
-    divided into, so that no pixel is left out."""
+    """Return triangles (T, 3, 3) starting at the corner between the two shorter edges, and the powers of two (T, 2)
+    into which these are divided so that no pixel is missed.
+    """
     edges = np.linalg.norm((placed - np.roll(placed, -1, axis=1))[:, :, :2], axis=2)
     # Opposite the longest edge, from corner k to k + 1, lies k + 2.
     first = (edges.argmax(axis=1) + 2) % 3

@@ -1,4 +1,4 @@
-"""A small choice among a few that are all seen: fingerings, filters."""
+"""A small button for a choice among a few visible alternatives, such as fingerings or filters."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _GAP_PX = 6.0
 
 
 class Chip(QAbstractButton):
-    """A rounded button with a text and a smaller note; checked it is filled, made by hand it is marked."""
+    """A rounded button with a text and a smaller note; filled if checked, marked if chosen by the user."""
 
     def __init__(self, session: Session, text: str, note: str = "", parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -42,7 +42,7 @@ class Chip(QAbstractButton):
         return self._outlined
 
     def show_state(self, checked: bool, by_hand: bool, outlined: bool) -> None:
-        """Show whether it is chosen, by whom, and whether the generator chose it."""
+        """Set whether it is chosen, whether the user chose it, and whether the generator chose it."""
         self.setChecked(checked)
         if (by_hand, outlined) != (self._by_hand, self._outlined):
             self._by_hand, self._outlined = by_hand, outlined
@@ -65,7 +65,7 @@ class Chip(QAbstractButton):
         return font
 
     def face_px(self) -> QSizeF:
-        """The size of what is drawn before the note: the text."""
+        """Return the size of the text, drawn before the note, in pixels."""
         metrics = QFontMetricsF(self.font())
         return QSizeF(metrics.horizontalAdvance(self.text()), metrics.height())
 

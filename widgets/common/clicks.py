@@ -1,7 +1,7 @@
-"""The only place that connects ``clicked`` and ``triggered`` of buttons and menu entries.
+"""Connection of ``clicked`` and ``triggered`` signals; no other module connects them directly.
 
-Both signals have an optional argument, and what PySide passes to a slot that is not a plain function or method depends
-on its version: 6.11 calls a `functools.partial` without it. These two functions have typed slots instead.
+Both signals have an optional argument, and the arguments that PySide passes to a slot that is not a plain function or
+method depend on its version: 6.11 calls a `functools.partial` without it. These two functions have typed slots instead.
 """
 
 from __future__ import annotations

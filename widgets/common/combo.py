@@ -1,4 +1,4 @@
-"""A list to choose one of, that stands for several things too."""
+"""A combo box that can represent several objects with different values."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from widgets.common.plain import ComboBox
 
 @dataclass(frozen=True)
 class Option:
-    """Something to choose: what it is, its text, perhaps a picture; with a reason why not, it cannot be chosen."""
+    """An option: id, text and optional picture; an option with a reason against it cannot be chosen."""
 
     id: str
     text: str
@@ -25,7 +25,7 @@ class Option:
 
 
 class Combo(ComboBox):
-    """Options by id. Shows a dash where several things differ; the wheel works only where the keyboard is.
+    """Combo box of options by id. Shows a dash for different values; the mouse wheel works only with keyboard focus.
 
     Signals
     -------
@@ -48,7 +48,7 @@ class Combo(ComboBox):
         self.activated.connect(self._activated)
 
     def set_options(self, options: Sequence[Option]) -> None:
-        """Offer these; the one that was shown stays, where it is still there."""
+        """Set the options; the current one stays if it is among them."""
         if tuple(options) == self._options:
             return
         shown = self.shown
@@ -73,12 +73,12 @@ class Combo(ComboBox):
 
     @property
     def shown(self) -> str | None:
-        """Id of the option shown; None where several differ."""
+        """Return the id of the current option; None for different values."""
         value = self.currentData()
         return value if isinstance(value, str) else None
 
     def show_option(self, option_id: str | None) -> None:
-        """Show an option without a signal; None shows the dash."""
+        """Set the current option without a signal; None shows the dash."""
         self.blockSignals(True)
         self.setCurrentIndex(-1 if option_id is None else self.findData(option_id))
         self.blockSignals(False)

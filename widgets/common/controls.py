@@ -1,4 +1,4 @@
-"""Widgets that word themselves: what is said once, where they are made, follows the language."""
+"""Widgets whose texts follow the language: a text is set once by id."""
 
 from __future__ import annotations
 
@@ -38,30 +38,30 @@ AnyWidget = TypeVar("AnyWidget", bound=QWidget)
 AnyLabel = TypeVar("AnyLabel", bound=Label)
 AnyTexted = TypeVar("AnyTexted", bound=QObject)
 Wording = str | Callable[[], str]
-"""Id of a text, or what makes the text in the language of the editor."""
+"""Text id, or a function that returns a text in the editor's language."""
 Wordings = Wording | Sequence[Wording] | Mapping[str, Wording]
 
 
 def named(widget: AnyWidget, name: str) -> AnyWidget:
-    """The widget, with this object name."""
+    """Return the widget after setting its object name."""
     widget.setObjectName(name)
     return widget
 
 
 def wrapped(label: AnyLabel) -> AnyLabel:
-    """The label, of as many lines as its text needs."""
+    """Return the label after enabling word wrap."""
     label.setWordWrap(True)
     return label
 
 
 def selectable(label: AnyLabel) -> AnyLabel:
-    """The label, whose text can be selected and copied: it has paths or names."""
+    """Return the label after making its text selectable, as for paths and names."""
     label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label
 
 
 def sized(label: AnyLabel, size_pt: float) -> AnyLabel:
-    """The label, in letters of this size."""
+    """Return the label after setting its font size in points."""
     font = label.font()
     font.setPointSizeF(size_pt)
     label.setFont(font)
@@ -90,7 +90,7 @@ _SETTERS: Final[dict[str, Callable[[Any], Callable[..., object]]]] = {
     "options": lambda box: partial(_set_options, box),
     "tabs": lambda tabs: partial(_set_each, tabs.setTabText),
 }
-"""Setter of a widget's text or texts, by its keyword in `Retranslated.texted`."""
+"""Functions that return the setter of a widget's text, by keyword of `Retranslated.texted`."""
 
 
 def _header(view: QTreeWidget | QTableWidget) -> Callable[[Sequence[str]], None]:
@@ -107,7 +107,7 @@ def _item_setter(box: ComboBox | QListWidget) -> Callable[[int, str], object]:
 
 
 def _set_options(box: ComboBox, /, **options: str) -> None:
-    """Set the options of a Combo, or the texts of a plain box, which holds their names as data."""
+    """Set the option texts of a Combo, or the item texts of a plain box whose data are the option names."""
     if isinstance(box, Combo):
         box.set_options([Option(id, text) for id, text in options.items()])
     elif box.count():
@@ -123,27 +123,28 @@ def _set_each(set_text: Callable[[int, str], object], *texts: str) -> None:
 
 
 class Retranslated(_Mixin):
-    """Stands before Qt's class among the bases of a widget: its texts follow the language.
+    """Mixin that precedes the Qt class among a widget's bases, so that its texts follow the language.
 
-    Texts are bound to their widgets by `texted`; `retranslate` shows again what else has texts in it.
+    Texts are bound to widgets by `texted`; `retranslate` updates all other texts.
     """
 
     _bound: tuple[tuple[QObject | None, str, Wordings], ...] = ()
-    """Widgets, what is set, and wordings; None for this widget, which would keep itself alive."""
+    """Widgets with their kinds of text and wordings; None stands for this widget, to avoid a reference cycle."""
 
     def texted(self, widget: AnyTexted, **wordings: Wordings) -> AnyTexted:
-        """The widget, with these texts, also after a change of the language.
+        """Return a widget after setting texts that follow the language.
 
         Parameters
         ----------
         widget : QObject
-            What has the texts: this widget, or a part of it that lives as long.
+            This widget, or a part of it with the same lifetime.
         **wordings : str, callable, sequence or mapping of them
-            Ids, or functions that make a text and do not hold this widget (`said`), by what they are: ``text``,
+            Text ids, or functions that return a text without a reference to this widget (`said`), by kind: ``text``,
             ``short`` (of an action on a button), ``tip``, ``name`` (the accessible name), ``explained`` (both),
             ``placeholder``, ``title`` (of a window), ``heading`` (of a group), ``suffix``, ``words`` (label, unit and
-            tip of a number, or the title of a section); lists: ``columns`` (headings of a table or tree), ``items``
-            (of a box or list), ``tabs``; by id: ``options`` of a box. What is no id, as ``"%"``, stands for itself.
+            tip of a number, or the title of a section); lists: ``columns`` (headings of a table or tree), ``items`` (of
+            a box or list), ``tabs``; by id: ``options`` of a box. Texts that are no ids, such as ``"%"``, are used
+            unchanged.
         """
         for what, wording in wordings.items():
             self._bound += ((None if widget is self else widget, what, wording),)
@@ -151,7 +152,7 @@ class Retranslated(_Mixin):
         return widget
 
     def retranslate(self) -> None:
-        """Show again what else depends on the language of the editor."""
+        """Update all texts that are not bound by `texted`."""
 
     def word(self) -> None:
         """Set all texts."""
@@ -169,7 +170,7 @@ class Retranslated(_Mixin):
 
 
 def _fit(dialog: QDialog) -> None:
-    """Make a dialog as high and as wide as its texts need by now; it does not shrink."""
+    """Enlarge a dialog to fit its texts; it does not shrink."""
     layout = dialog.layout()
     if layout is not None:
         layout.activate()
@@ -178,7 +179,7 @@ def _fit(dialog: QDialog) -> None:
 
 
 def said(text_id: str, **arguments: object) -> Callable[[], str]:
-    """Return a function that words a text id with arguments, for `Retranslated.texted`."""
+    """Return a function that returns a text with arguments, for `Retranslated.texted`."""
     return lambda: tr(text_id).format(**arguments)
 
 
@@ -196,7 +197,7 @@ def _text(wording: Wording) -> str:
 
 
 class Caption(Retranslated, Label):
-    """A label with the text of an id, perhaps of a field, which is named by it too."""
+    """A label with a text by id, optionally the caption of a field."""
 
     def __init__(self, text_id: str, field: QWidget | None = None) -> None:
         super().__init__()
@@ -207,16 +208,16 @@ class Caption(Retranslated, Label):
 
 
 class Button(Retranslated, QPushButton):
-    """A button with the text of an id; Return in a dialog's field does not press it.
+    """A button with a text by id, which Return in a dialog's field does not press.
 
     Parameters
     ----------
     run : callable
-        Called without arguments when it is clicked.
+        Function without arguments, called on a click.
     name : str
         Object name.
     tip_id : str
-        Id of its tool tip; empty: none.
+        Id of the tool tip; empty for none.
     """
 
     def __init__(self, text_id: str, run: Callable[[], object], name: str = "", tip_id: str = "") -> None:
@@ -252,16 +253,16 @@ class PictureButton(Button):
 
 
 class IconButton(Retranslated, QToolButton):
-    """A small button with a picture alone, which its tip explains.
+    """A small button with a picture and a tool tip.
 
     Parameters
     ----------
     picture : str
         See `icon`.
     tip_id : str
-        Id of its tool tip.
+        Id of the tool tip.
     run : callable
-        Called without arguments when it is clicked.
+        Function without arguments, called on a click.
     name : str
         Object name.
     dim : bool
@@ -290,7 +291,7 @@ class IconButton(Retranslated, QToolButton):
 
 
 class OkCancel(Retranslated, QDialogButtonBox):
-    """The buttons that accept and cancel a dialog, with the texts of two ids.
+    """The buttons that accept and cancel a dialog, with texts by two ids.
 
     Attributes
     ----------
@@ -314,7 +315,7 @@ class Check(Retranslated, QCheckBox):
 
 
 class ColumnList(Retranslated, QTreeWidget):
-    """Rows of some columns, all of the same height, without the handles of a tree.
+    """A list with columns and rows of equal height.
 
     Parameters
     ----------
@@ -323,7 +324,7 @@ class ColumnList(Retranslated, QTreeWidget):
     *text_ids : str
         Ids of the columns' headings.
     stretches : tuple of int
-        Columns that share the room that the others leave.
+        Columns that share the remaining width.
     """
 
     def __init__(self, name: str, *text_ids: str, stretches: tuple[int, ...] = (0,)) -> None:
@@ -340,6 +341,6 @@ class ColumnList(Retranslated, QTreeWidget):
         self.texted(self, columns=text_ids)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Measure the rows again: those that came before the style sheet are as low as their text."""
+        """Update the row heights, since rows made before the style sheet are too low."""
         super().showEvent(event)
         self.doItemsLayout()

@@ -14,7 +14,7 @@ def kind_name(kind: str) -> str:
 
 
 def expression_name(name: str) -> str:
-    """The translated name of a bundled expression; a user's own keeps its name."""
+    """Return the translated name of a bundled expression; the user's own expressions keep their names."""
     return _named("expression_name", name)
 
 
@@ -24,29 +24,29 @@ def mark_name(kind: str) -> str:
 
 
 def pose_name(target: str) -> str:
-    """The name of what is held differently."""
+    """Return the name of the part that a pose correction holds differently."""
     return _named("pose_name", target)
 
 
 def gesture_name(name: str) -> str:
-    """The name of a gesture that is written in a table; one that is not there, by its own name."""
+    """Return the title of a gesture from a table; the name itself if the gesture is missing."""
     gesture = GESTURES.now().items.get(name)
     return name if gesture is None else gesture.title.in_language(language())
 
 
 def style_name(name: str) -> str:
-    """A style's name in the user's language; a missing style goes by its id."""
+    """Return a style's name in the user's language; the id if the style is missing."""
     style = STYLES.now().items.get(name)
     return name if style is None else style.title.in_language(language())
 
 
 def habit_name(name: str) -> str:
-    """A habit's name in the user's language; a missing habit goes by its id."""
+    """Return a habit's name in the user's language; the id if the habit is missing."""
     habit = HABITS.now().items.get(name)
     return name if habit is None else habit.title.in_language(language())
 
 
 def _named(room: str, name: str) -> str:
-    """The text of a name; the name itself where there is none."""
+    """Return the text of a name; the name itself if there is no text."""
     text = tr(f"{room}.{name}")
     return name if text == f"{room}.{name}" else text

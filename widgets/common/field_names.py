@@ -1,4 +1,4 @@
-"""Names of stored values as the panels have them, for messages about one that cannot be saved."""
+"""Names of stored values as used in the panels, for messages about a value that cannot be saved."""
 
 from __future__ import annotations
 
@@ -41,13 +41,13 @@ FIELDS: Final = {
     "colour": "parameter_sections.colour",
     **{name: parameter.label for name, parameter in PARAMETERS.items() if parameter.label},
 }
-"""Ids of texts by the last name of a key path."""
+"""Text ids by the last name of a key path."""
 _GROUPS: Final = {"audio": "waveform_lane.recording", "video": "field_name.video"}
 _LAST: Final = re.compile(r"(\w+)(?:\[[^]]*\])?$")
 
 
 def field_name(place: str) -> str:
-    """The name of a stored value by its key path; the path where the panels have no name for it."""
+    """Return the name of a stored value by its key path; the path if there is no name."""
     found = _LAST.search(place)
     if found is None or found[1] not in FIELDS:
         return place

@@ -1,4 +1,4 @@
-"""A fingering as a chip: keys and holes as a small chart, valves and places of a slide as they are written."""
+"""A fingering as a chip: keys and holes as a small chart, valves and slide positions as labels."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ SQUEEZE = 0.6
 
 
 class FingeringChip(Chip):
-    """A chip that chooses a fingering; its text, for who cannot see the chart, says it in words.
+    """A chip that chooses a fingering. For screen readers its text describes the fingering in words.
 
     Parameters
     ----------
     note : str
-        What stands beside it: cents, reasons to take it.
+        Text beside the fingering: cents, tags.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class FingeringChip(Chip):
         self._fingering, self._values = fingering, fingering.controls
 
     def tip(self, generated: bool) -> str:
-        """Describe the fingering: its rank, the reasons to take it, its tuning, and if the generator chose it."""
+        """Return a description of the fingering: rank, tags, tuning, and whether the generator chose it."""
         one = self._fingering
         lines = [] if self._chart is None else [self.text()]
         lines.append(

@@ -1,4 +1,4 @@
-"""Draws how a fingering is held, from nothing but the controls of an instrument map."""
+"""Drawing of a fingering from the controls of an instrument map."""
 
 from __future__ import annotations
 
@@ -31,26 +31,26 @@ from widgets.common.fingering_picture import ChartColours, ChartPlace, chart_sid
 from widgets.common.instrument_name import language
 
 DOWN = 0.5
-"""A key further than this counts as down."""
+"""Value of a key's control above which it is drawn as pressed."""
 TOP_PX = 30.0
 COLUMN_PX = 50.0
 HOLE_PX = 18.0
-"""From one hole of a chart to the next."""
+"""Distance of the holes in a chart in pixels."""
 MARGIN_PX = 8.0
 NAMES_GAP_PX = 8.0
-"""Between a chart and the names beside it."""
+"""Distance between a chart and the names beside it in pixels."""
 
 
 @dataclass(frozen=True)
 class Slot:
-    """A position of a slide: its name and where it is, 0..1."""
+    """A position of a slide: name and place, 0..1."""
 
     name: str
     place: float
 
 
 def hand_text(hand: str) -> str:
-    """``"left"`` or ``"right"`` as one sign."""
+    """Return the abbreviation of a hand, ``"left"`` or ``"right"``."""
     hands = {"left": tr("fingering_name.l"), "right": tr("fingering_name.r")}
     return hands.get(hand, hand)
 
@@ -69,15 +69,15 @@ def part_text(part: str) -> str:
 
 
 def finger_text(mover: str) -> str:
-    """Name the finger and hand that move a control, such as ``"right.index"``, in the editor's language."""
+    """Return the name of the finger and hand for a mover such as ``"right.index"`` in the editor's language."""
     hand, _, part = mover.partition(".")
     return tr("fingering_name.text").format(hand=hand_text(hand), part=part_text(part))
 
 
 def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]:
-    """The named positions of a slide: the usual place of every label that moves this control alone.
+    """Return the named positions of a slide: the mean place of every label that moves only this control.
 
-    A label is played a little shorter or longer for some notes; the middle of its places is where it is drawn.
+    A label is played slightly shorter or longer for some notes.
     """
     places: dict[str, list[float]] = {}
     for fingering in instrument.fingerings:
@@ -89,8 +89,8 @@ def slide_slots(instrument: InstrumentMap, control: Control) -> tuple[Slot, ...]
 
 
 class FingeringDiagram(QWidget):
-    """Valves as tops that are filled when down, levers beside them, a slide as a rail with its positions and a hand,
-    each with the finger that works it; keys and holes of a woodwind as a chart, with the names of what is pressed.
+    """Diagram of a fingering: valves filled when down, levers beside them, a slide as a rail with positions, each with
+    its finger; keys and holes of a woodwind as a chart with the names of pressed keys.
 
     Signals
     -------
@@ -115,7 +115,7 @@ class FingeringDiagram(QWidget):
         session.theme_changed.connect(self.update)
 
     def set_editable(self, editable: bool) -> None:
-        """Let keys be clicked, or not."""
+        """Set whether keys can be clicked."""
         self._editable = editable
 
     @property
@@ -124,7 +124,7 @@ class FingeringDiagram(QWidget):
         return self._values
 
     def show_fingering(self, instrument: InstrumentMap, controls: Mapping[str, float]) -> None:
-        """Draw this fingering; controls that are not named are at rest."""
+        """Draw a fingering; missing controls are at rest."""
         if instrument is not self._instrument:
             self._instrument = instrument
             self._slots = {
@@ -154,12 +154,12 @@ class FingeringDiagram(QWidget):
         return [control for control in self._instrument.controls if control.kind != "slide" and control.role == "pitch"]
 
     def _slides(self) -> list[Control]:
-        """Slides that are played."""
+        """Return the slides that change the pitch."""
         assert self._instrument is not None
         return [control for control in self._instrument.controls if control.kind == "slide" and control.role == "pitch"]
 
     def _correcting(self) -> list[Control]:
-        """The controls that only correct the intonation."""
+        """Return the controls for intonation only."""
         assert self._instrument is not None
         return [control for control in self._instrument.controls if control.role == "intonation"]
 
@@ -180,12 +180,12 @@ class FingeringDiagram(QWidget):
 
     @property
     def _is_chart(self) -> bool:
-        """True if it is drawn as a chart of keys and holes."""
+        """Return whether the diagram is a chart of keys and holes."""
         return self._instrument is not None and says_words(self._instrument.controls)
 
     @property
     def names(self) -> list[str]:
-        """The names of what is pressed, as they stand beside a chart."""
+        """Return the names of the pressed keys beside a chart."""
         assert self._instrument is not None
         return pressed_names(self._instrument, self._values, language())
 
@@ -199,7 +199,7 @@ class FingeringDiagram(QWidget):
         return ChartPlace(MARGIN_PX + left, MARGIN_PX - chart.top * hole_px, hole_px)
 
     def _chart_px(self) -> QSizeF:
-        """The size of the chart where there is room for it."""
+        """Return the preferred size of the chart in pixels."""
         assert self._instrument is not None
         return chart_size(key_chart(self._instrument), HOLE_PX)
 
@@ -296,7 +296,7 @@ class FingeringDiagram(QWidget):
             painter.drawText(below, Qt.AlignmentFlag.AlignRight, length)
 
     def _paint_corrections(self, painter: QPainter, tokens: Tokens, top: float) -> None:
-        """Two beside one another in a line."""
+        """Draw the controls for intonation, two per line."""
         painter.setFont(self._small())
         wide = (self.width() - 24.0) / 2.0
         for number, control in enumerate(self._correcting()):
@@ -306,7 +306,7 @@ class FingeringDiagram(QWidget):
             self._paint_correction(painter, tokens, control, box)
 
     def _paint_correction(self, painter: QPainter, tokens: Tokens, control: Control, box: QRectF) -> None:
-        """A slide that only corrects the intonation: a thin bar."""
+        """Draw a slide for intonation as a thin bar."""
         value = self._values[control.name]
         name_px = box.width() * 0.5
         painter.setPen(QColor(tokens.text if value > 0.01 else tokens.text_dim))

@@ -1,4 +1,4 @@
-"""Draws holes and keys as a method book's chart does: the one picture of a fingering, large and small."""
+"""Drawing of holes and keys as in fingering charts of method books, in all sizes."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 from instrument_maps.key_chart import COLUMN, HOLE, PAD, ChartedKey, KeyChart, is_half
 
 TICK_PX = 3.0
-"""Width of a key where there is no room for more."""
+"""Width of a key in pixels if there is no more room."""
 LEAST_SIGN_PX = 9.0
 """Keys less tall have no sign."""
 
 
 @dataclass(frozen=True)
 class ChartPlace:
-    """A chart's place in a picture.
+    """Place of a chart in a picture.
 
     Attributes
     ----------
     middle_px, top_px : float
         The column's middle, and the height of a key at 0.
     hole_px : float
-        From one hole to the next.
+        Distance of holes in pixels.
     squeeze : float
-        Width of what is beside the column, as a share of its height's scale; 0: ticks.
+        Width of the parts beside the column relative to the scale of the height; 0 for ticks.
     """
 
     middle_px: float
@@ -55,7 +55,7 @@ class ChartPlace:
 
 @dataclass(frozen=True)
 class ChartColours:
-    """Colours of what is closed, of the outlines and the ground of what is not, and of signs on both."""
+    """Colours of closed parts, of outlines and background of open ones, and of signs on both."""
 
     closed: QColor
     line: QColor
@@ -71,8 +71,9 @@ def chart_size(chart: KeyChart, hole_px: float) -> QSizeF:
 
 
 def chart_sides(chart: KeyChart, place: ChartPlace, values: Mapping[str, float] | None = None) -> tuple[float, float]:
-    """Lengths to the left and right of the column's middle; with ``values`` of what is drawn where only pressed keys
-    are."""
+    """Return the extents to the left and right of the column's middle; with ``values``, of the parts drawn if only
+    pressed keys are shown.
+    """
     boxes = [place.box(key) for key in chart.keys if values is None or _is_drawn(key, values)]
     return (
         max((place.middle_px - box.left() for box in boxes), default=0.0),
@@ -94,9 +95,9 @@ def draw_chart(
     Parameters
     ----------
     values : mapping
-        0 to 1 by name of control; one that is not named is open.
+        Values 0..1 by control; missing controls are open.
     whole : bool
-        Also the keys beside the column that are not pressed; else only those that are.
+        Whether to draw keys beside the column that are not pressed.
     """
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     metrics = QFontMetricsF(painter.font())

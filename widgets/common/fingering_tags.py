@@ -1,4 +1,4 @@
-"""Reasons to take an alternate fingering, in the user's language: maps say them in fixed English words."""
+"""Tags of alternate fingerings (reasons to use them) in the user's language; maps contain fixed English words."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _BETWEEN = re.compile("[,、，]")
 
 
 def tag_words() -> dict[str, str]:
-    """The words for what the bundled maps say, by their tag."""
+    """Return the words for the tags in bundled maps."""
     return {
         "alternate": tr("fingering_tag.alternate"),
         "trill": tr("fingering_tag.trill"),
@@ -31,13 +31,13 @@ def tag_words() -> dict[str, str]:
 
 
 def words_of_tags(tags: Iterable[str]) -> list[str]:
-    """Tags in words; one of the user's own is shown as it is."""
+    """Return tags in words; the user's own tags are unchanged."""
     words = tag_words()
     return [words.get(tag, tag) for tag in tags]
 
 
 def tags_of_text(text: str) -> list[str]:
-    """The tags that the user typed with commas between them: in words, as they stand in maps, or of their own."""
+    """Return the tags in a text with commas, typed as words, as in maps, or freely."""
     known = {word.casefold(): tag for tag, word in tag_words().items()}
     typed = [word.strip() for word in _BETWEEN.split(text)]
     return [known.get(word.casefold(), word) for word in typed if word]

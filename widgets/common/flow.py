@@ -1,4 +1,4 @@
-"""A layout that puts its widgets in lines, as words stand in a paragraph."""
+"""A layout that arranges widgets in lines like words in a paragraph."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class FlowLayout(QLayout):
         self.setContentsMargins(0, 0, 0, 0)
 
     def clear(self) -> None:
-        """Take every widget out and delete it."""
+        """Remove and delete all widgets."""
         while (item := self.takeAt(0)) is not None:
             widget = item.widget()
             if widget is not None:
@@ -32,7 +32,7 @@ class FlowLayout(QLayout):
                 widget.deleteLater()
 
     def _arrange(self, room: QRect, place: bool) -> int:
-        """Height that the lines take; the widgets are put there where ``place`` says so."""
+        """Return the height of the lines; also move the widgets there if ``place`` is true."""
         margins = self.contentsMargins()
         area = room.marginsRemoved(margins)
         y = area.y()

@@ -1,4 +1,4 @@
-"""The font of the window and of pictures: the system's, with Japanese signs."""
+"""The font of the window and of pictures: the system's with Japanese characters."""
 
 from __future__ import annotations
 
@@ -21,12 +21,13 @@ JAPANESE_FAMILIES = (
     "TakaoPGothic",
     "VL Gothic",
 )
-"""Families tried in this order where the system's own font lacks Japanese: a fallback left to chance may use the
-Chinese forms of signs."""
+"""Font families tried in order if the system's font lacks Japanese, since automatic fallback may select Chinese
+glyphs.
+"""
 
 
 def apply_font(application: QApplication) -> None:
-    """The system's font, at least 9 pt, followed by one with Japanese signs."""
+    """Set the system's font, at least 9 pt, followed by one with Japanese characters."""
     font = QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
     known = set(QFontDatabase.families())
     families = [font.family(), *(family for family in JAPANESE_FAMILIES if family in known)]

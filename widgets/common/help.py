@@ -1,4 +1,4 @@
-"""Requests for help: a dialog's button and F1 in it ask the window that it belongs to for the guide's place."""
+"""Requests for help: a dialog's button and F1 ask the window for the section of the guide."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from widgets.common.layouts import in_row
 
 @runtime_checkable
 class ShowsHelp(Protocol):
-    """The window that has the guides."""
+    """A window with the guides."""
 
     def show_help(self, about: QWidget) -> None:
         """Show the guide's place for a widget."""
 
 
 def ask_for_help(about: QWidget) -> None:
-    """Show the guide's place for a widget, in the window that it belongs to."""
+    """Show the guide's section for a widget in its window."""
     owner: QWidget | None = about
     while owner is not None and not isinstance(owner, ShowsHelp):
         owner = owner.parentWidget()
@@ -33,7 +33,7 @@ def ask_for_help(about: QWidget) -> None:
 
 
 class HelpButton(Button):
-    """Opens the guide about the dialog that it is in; F1 there about the field that has the keyboard."""
+    """A button that opens the guide about its dialog; F1 opens the section about the focused field."""
 
     def __init__(self) -> None:
         super().__init__("help_button.help", self._ask, "help_button", "help_button.open_guide")
@@ -50,5 +50,5 @@ class HelpButton(Button):
 
 
 def with_help(buttons: QDialogButtonBox) -> QHBoxLayout:
-    """The buttons of a dialog, and at the left, whatever the system's order is, the one that opens its guide."""
+    """Return a dialog's buttons in a row with the help button at the left."""
     return in_row(HelpButton(), (buttons, 1))

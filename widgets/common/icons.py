@@ -1,6 +1,6 @@
 """Icons: line drawings in the colours of the theme.
 
-A drawing is ``resources/icons/<name>.svg``: a view box of 24, lines of ``currentColor``. It is drawn anew for each
+A drawing is ``resources/icons/<name>.svg`` with a view box of 24 and lines of ``currentColor``. It is rendered for each
 size, so that it is sharp at every scale of the screen.
 """
 
@@ -16,17 +16,17 @@ from PySide6.QtSvg import QSvgRenderer
 from app.editor.design_tokens import Tokens
 
 SIZES_PX = (16, 20, 24, 32, 48)
-"""Drawn sizes in pixels of the screen; other sizes are scaled down from the next one."""
+"""Rendered sizes in screen pixels; other sizes are scaled from the next larger one."""
 DISABLED_OPACITY = 0.4
 
 
 def icon(name: str, tokens: Tokens, colour: str | None = None) -> QIcon:
-    """An icon in the theme's text colour, and in its accent where a button is checked.
+    """Return an icon in the theme's text colour, and in the accent colour for checked buttons.
 
     Parameters
     ----------
     name : str
-        A file of ``resources/icons`` without its ending.
+        File name in ``resources/icons`` without suffix.
     colour : str, optional
         ``#rrggbb`` instead of the theme's.
 
@@ -39,7 +39,7 @@ def icon(name: str, tokens: Tokens, colour: str | None = None) -> QIcon:
 
 
 def pixmap(name: str, size_px: int, colour: str, ratio: float = 1.0) -> QPixmap:
-    """One drawing as a picture of ``size_px`` device-independent pixels."""
+    """Return a drawing as a picture of ``size_px`` device-independent pixels."""
     result = _draw(source(name, colour), round(size_px * ratio), 1.0)
     result.setDevicePixelRatio(ratio)
     return result

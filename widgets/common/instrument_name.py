@@ -17,12 +17,12 @@ def language() -> str:
 
 
 def instrument_name(instrument: InstrumentMap) -> str:
-    """The instrument's name."""
+    """Return the name of an instrument."""
     return instrument.name.ja if language() == "ja" else instrument.name.en
 
 
 def family_name(family: str) -> str:
-    """The name of a family of instruments, as of a section of players; empty: of instruments of no known family."""
+    """Return the name of a family of instruments, as for a section of players; the empty family has a name too."""
     name = vocabulary().family_names.get(family)
     if name is None:
         return tr("instrument_family.others")
@@ -30,14 +30,14 @@ def family_name(family: str) -> str:
 
 
 def outfit_names() -> dict[str, str]:
-    """The names of what can be worn, by id: first clothes of one's own."""
+    """Return the names of all outfits by id, beginning with the character's own clothes."""
     japanese = language() == "ja"
     names = {id: outfit.title.ja if japanese else outfit.title.en for id, outfit in wardrobe().items()}
     return {OWN_CLOTHES: tr("outfit_name.own_clothes"), **names}
 
 
 def character_name(character_id: str) -> str:
-    """The name of a character: the bundled ones have one in every language, others their file's."""
+    """Return the name of a character: translated for bundled ones, else from its file."""
     if character_id in bundled_people():
         name = bundled_person(character_id).name
         return name.ja if language() == "ja" else name.en

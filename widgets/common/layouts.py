@@ -1,4 +1,4 @@
-"""Widgets side by side, one below another, and as a form, described in one place from the outside in."""
+"""Functions that describe nested layouts: rows, columns and forms."""
 
 from __future__ import annotations
 
@@ -20,11 +20,10 @@ from PySide6.QtWidgets import (
 from widgets.common.controls import Caption
 
 STRETCH: Final = None
-"""Room that is left over."""
+"""Item that takes the remaining space."""
 Part: TypeAlias = QWidget | QLayout
 Item: TypeAlias = Part | int | tuple[Part, int] | tuple[QWidget, int, Qt.AlignmentFlag] | None
-"""A widget or layout, perhaps with its share of the room that is left over, and how it lies in its own; a gap in
-pixels; `STRETCH`."""
+"""A widget or layout, optionally with a stretch factor and alignment; a gap in pixels; or `STRETCH`."""
 Margins: TypeAlias = int | tuple[int, int, int, int]
 _FRAME: Final = QSize(40, 80)
 """Room left for a window's frame and the desktop's bars, pixels."""
@@ -35,17 +34,17 @@ _LEAST_SCROLLED_PX: Final = 200
 def in_row(
     *items: Item, of: QWidget | None = None, margins: Margins | None = None, spacing: int | None = None
 ) -> QHBoxLayout:
-    """Items from left to right.
+    """Return a layout with items from left to right.
 
     Parameters
     ----------
     *items : Item
     of : QWidget, optional
-        Whose contents they are.
+        Widget whose contents the items are.
     margins : int or tuple of int, optional
-        Pixels left, above, right and below of them, or all around; the style's where None.
+        Margins in pixels: left, top, right and bottom, or a single value; None for the style's default.
     spacing : int, optional
-        Pixels between them; the style's where None.
+        Spacing in pixels; None for the style's default.
     """
     return _filled(QHBoxLayout(), items, of, margins, spacing)
 
@@ -58,7 +57,9 @@ def in_column(
 
 
 def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
-    """Fields below one another, each with a caption that has the text of its id; a layout's is of its first field."""
+    """Return a layout of fields below one another with captions by text id; the caption of a nested layout belongs to
+    its first field.
+    """
     layout = QFormLayout()
     layout.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
     for text_id, part in rows.items():
@@ -69,12 +70,12 @@ def in_form(rows: Mapping[str, Part], of: QWidget | None = None) -> QFormLayout:
 
 
 def begin_with_size(dialog: QDialog, size: QSize) -> None:
-    """Give a dialog a size, as far as the screen has room for it. By itself Qt takes two thirds of it at most."""
+    """Set the initial size of a dialog, limited to the screen, since Qt's default is at most two thirds of it."""
     dialog.resize(size.boundedTo(room_for(dialog)))
 
 
 def room_for(dialog: QDialog) -> QSize:
-    """The room that its screen has for a dialog, without its frame."""
+    """Return the size available to a dialog on its screen, without the window frame."""
     return dialog.screen().availableSize() - _FRAME
 
 
@@ -89,12 +90,12 @@ class _Shrinking(QWidget):
 
 
 class Scrolled(QScrollArea):
-    """Contents as wide and high as they ask, which scroll up and down where there is less room; never sideways.
+    """A vertically scrolling area as large as its contents request.
 
     Parameters
     ----------
     shrinks : bool
-        True if contents are made as low as they can be before they scroll: lists and pictures, not wrapped texts.
+        Whether contents are shrunk to their minimum before they scroll, as for lists and pictures.
     """
 
     def __init__(self, layout: QLayout, shrinks: bool = False) -> None:
@@ -118,14 +119,14 @@ class Scrolled(QScrollArea):
         return self._with_bar(QSize(least.width(), min(least.height(), _LEAST_SCROLLED_PX)))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Contents that need more room make the whole wider."""
+        """Update the size when the contents request more space."""
         if watched is self._contents and event.type() == QEvent.Type.LayoutRequest:
             self.updateGeometry()
         return super().eventFilter(watched, event)
 
 
 def panel(layout: QLayout) -> QWidget:
-    """A widget with these contents."""
+    """Return a widget with a layout."""
     widget = QWidget()
     widget.setLayout(layout)
     return widget

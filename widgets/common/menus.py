@@ -1,4 +1,4 @@
-"""Menus of the table of actions."""
+"""Menus of actions from the table."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from widgets.common.controls import named
 
 
 def passing_menu(parent: QWidget, name: str = "") -> QMenu:
-    """A menu that is gone when it closes."""
+    """Return a menu that is deleted when it closes."""
     menu = named(QMenu(parent), name)
     menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     return menu
 
 
 def add_actions(menu: QMenu, session: Session, ids: Iterable[str]) -> None:
-    """Add these actions, as far as there are any; an empty id is a line."""
+    """Add actions by id that exist; an empty id is a separator."""
     table = actions(session)
     for id in ids:
         if id in table:
@@ -30,7 +30,7 @@ def add_actions(menu: QMenu, session: Session, ids: Iterable[str]) -> None:
 
 
 def offer_actions(session: Session, ids: Iterable[str], parent: QWidget, name: str, at: QPoint) -> None:
-    """Open a menu of these actions at a place of the screen, if there are any; see `add_actions`."""
+    """Open a menu of actions at a point of the screen if there are any; see `add_actions`."""
     if actions(session):
         menu = passing_menu(parent, name)
         add_actions(menu, session, ids)

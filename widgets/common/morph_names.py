@@ -5,11 +5,11 @@ from __future__ import annotations
 from app.editor.translated import tr
 
 _WHOLE = frozenset({"jawLeft", "jawRight", "mouthLeft", "mouthRight"})
-"""Their side is where they move, not where they are."""
+"""Morphs whose side is a direction of movement and not a place."""
 
 
 def morph_name(morph: str) -> str:
-    """Describe in words what a morph target does; one without words goes by its own name."""
+    """Return the name of a morph target in words; unknown ones are unchanged."""
     stem, side = morph, ""
     if morph not in _WHOLE:
         for ending, sign in (("Left", tr("morph.left_side")), ("Right", tr("morph.right_side"))):

@@ -1,4 +1,4 @@
-"""A number as the editor shows it: a slim bar with its name, its number and its unit in it."""
+"""Display of a number as a slim bar with name, value and unit."""
 
 from __future__ import annotations
 
@@ -23,22 +23,23 @@ _PAD_PX = 7.0
 
 
 class NumberDisplay(QWidget):
-    """Shows a number, or that several differ, as far along its range; `NumberSlider` changes it.
+    """Display of a number by a filled share of its range, or of several different values; `NumberSlider` makes it
+    editable.
 
     Parameters
     ----------
     session : Session
-        Its tokens colour the control.
+        Session with the theme's colours.
     ends : (float, float)
-        What the two ends of the bar stand for.
+        Values at both ends of the bar.
     default : float
-        Value that is not marked as made by hand.
+        Value that is not marked as changed by the user.
     decimals : int
         Decimals shown.
     slides : bool
         Whether the range is short enough to be filled like a slider.
     resets : bool
-        Whether there is a default at all.
+        Whether there is a default.
     """
 
     def __init__(
@@ -79,12 +80,12 @@ class NumberDisplay(QWidget):
 
     @property
     def default(self) -> float:
-        """Value that a reset returns to."""
+        """Value after a reset."""
         return self._default
 
     @property
     def mixed(self) -> bool:
-        """True if it stands for several different values."""
+        """True if it represents several different values."""
         return self._mixed
 
     @property
@@ -97,16 +98,16 @@ class NumberDisplay(QWidget):
     def show_value(
         self, value: float, *, mixed: bool = False, default: float | None = None, by_hand: bool | None = None
     ) -> None:
-        """Show a value; no signal follows.
+        """Set the value without a signal.
 
         Parameters
         ----------
         mixed : bool
-            It stands for several different ones; a drag starts from ``value``.
+            Whether it represents several different values; a drag starts from ``value``.
         default : float, optional
             Another value to reset to.
         by_hand : bool, optional
-            Whether it is marked as made by hand; None: wherever it is not the default.
+            Whether it is marked as changed by the user; None if it differs from the default.
         """
         if default is not None:
             self._default = default
@@ -133,7 +134,7 @@ class NumberDisplay(QWidget):
         self.update()
 
     def set_wording(self, words: Callable[[float], str], reads: Callable[[str], float | None]) -> None:
-        """Write and read the value in another way than as a number, e.g. a pitch by its name."""
+        """Set functions that write and read the value in another form than a number, such as pitch names."""
         self._words, self._reads = words, reads
         self.update()
 
@@ -147,7 +148,7 @@ class NumberDisplay(QWidget):
         self.set_wording(lambda value: self._session.project.score.metre_map.label(round(value)), tick)
 
     def value_text(self) -> str:
-        """The value as it is written in the control, without its unit."""
+        """Return the displayed text of the value without its unit."""
         if self._mixed:
             return MIXED
         return self._words(self._value) if self._words is not None else number_text(self._value, self._decimals)

@@ -1,4 +1,4 @@
-"""The number control of the whole editor: a slim slider with its name, its number and its unit in it."""
+"""The number control of the editor: a slim slider with name, value and unit."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from widgets.common.number_display import NumberDisplay
 from widgets.common.numbers import number_from
 
 DRAG_PX = 3
-"""A press that moves less is a click."""
+"""A press that moves less than this number of pixels is a click."""
 FREE_DRAG_PX = 4
-"""Pixels per step where there is no range to fill."""
+"""Pixels of a drag per step if there is no range to fill."""
 WHEEL_REST_MS = 600
-"""Notches of the wheel closer than this are one turn of it, and one step of the history."""
+"""Milliseconds between notches of the wheel below which they form one edit."""
 FINE = 0.1
 MOST_SHOWN = 24
-"""Characters of a text that is no value, as it is said."""
+"""Greatest number of characters of invalid text that are quoted."""
 _STEP_KEYS = {
     Qt.Key.Key_Up: 1.0,
     Qt.Key.Key_Right: 1.0,
@@ -44,41 +44,41 @@ _STEP_KEYS = {
 _TYPE_KEYS = (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2)
 _RESET_KEYS = (Qt.Key.Key_Backspace, Qt.Key.Key_Delete)
 _STARTS = tuple("0123456789.-+(")
-"""Characters that begin a number."""
+"""Characters that may begin a number."""
 
 
 class NumberSlider(NumberDisplay):
-    """A number that is dragged, typed (``1/3`` too), stepped by keys and wheel, copied, pasted, and reset by a double
-    click.
+    """A number control for dragging, typing (also ``1/3``), stepping by keys and wheel, copying, pasting, and resetting
+    by a double click.
 
     Drag to change (Shift: fine), click to type, double-click or Backspace to reset, Escape to cancel. The wheel works
-    only where the keyboard is, so that scrolling a panel changes nothing.
+    only with keyboard focus, so that scrolling a panel changes nothing.
 
     Parameters
     ----------
     session : Session
-        Its tokens colour the control.
+        Session with the theme's colours.
     minimum, maximum : float
         The smallest and largest value.
     default : float
-        What a reset returns to.
+        Value after a reset.
     step : float
         Of keys and wheel, and of a drag without ``slides``.
     slides : bool
-        Whether the range is short enough to be filled like a slider; else a drag moves by steps.
+        Whether the range is short enough for a filled slider; else a drag changes the value by steps.
     resets : bool
-        Whether there is a value to return to; without one a double click types.
+        Whether there is a default; without one a double click starts typing.
     fills : (float, float), optional
-        The part of the range that fills the control and that a drag reaches; the rest can be typed. None: all of it.
+        Part of the range that fills the control and that a drag can reach; other values can be typed. None for the
+        whole range.
 
     Signals
     -------
     changed(float, object)
-        The user sets this value. The object is a token shared by all the values of one drag, None for a value in
-        one go.
+        The user set a value. The object is a token shared by all values of one drag, None for a single change.
     reset(float)
-        The user resets to the default; emitted instead of `changed` where something is connected that knows better than
-        to store the default's value.
+        The user resets to the default; emitted instead of `changed` if a slot is connected that removes the stored
+        value.
     released()
         A drag or turn of the wheel is over: end the gesture.
     """
@@ -122,21 +122,21 @@ class NumberSlider(NumberDisplay):
         self.update()
 
     def set_step(self, step: float) -> None:
-        """Set the step of keys and wheel, and of a drag where there is no range to fill."""
+        """Set the step of keys and wheel, and of a drag without a range."""
         self._step = step
 
     # Changing it
 
     def copy(self) -> None:
-        """Put the number on the clipboard."""
+        """Copy the number to the clipboard."""
         QGuiApplication.clipboard().setText(self.value_text().replace("−", "-"))
 
     def paste(self) -> None:
-        """Take the number on the clipboard, if it holds one."""
+        """Set the number on the clipboard, if it is valid."""
         self._take(QGuiApplication.clipboard().text())
 
     def reset_value(self) -> None:
-        """Return to the default; where there is none, type."""
+        """Reset to the default; start typing if there is none."""
         if not self._resets:
             self.type_value()
         elif self.receivers(SIGNAL("reset(double)")) > 0:

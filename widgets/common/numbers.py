@@ -1,4 +1,4 @@
-"""Numbers as the user types and reads them."""
+"""Reading and writing of numbers for the user."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _BINARY: Final[dict[type[ast.operator], Callable[[float, float], float]]] = {
 }
 _LONGEST = 80
 MIXED = "—"
-"""Stands where several things with different values are shown as one."""
+"""Text for several different values."""
 
 
 def number_from(text: str, unit: str = "") -> float | None:
-    """The number that a text means; None where it means none.
+    """Return the number in a text; None if it is invalid.
 
-    Sums, products and quotients are worked out (``1/3``, ``2 * (4 + 0.5)``); a decimal comma, full-width digits and the
-    unit itself are understood.
+    Sums, products and quotients are calculated (``1/3``, ``2 * (4 + 0.5)``); a decimal comma, full-width digits and the
+    unit are accepted.
     """
     plain = unicodedata.normalize("NFKC", text).strip().replace("−", "-").replace("×", "*").replace("÷", "/")
     requested_unit = unicodedata.normalize("NFKC", unit).strip()

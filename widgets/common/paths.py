@@ -1,9 +1,8 @@
-"""Paths between Qt and the program.
+"""Conversion of paths between Qt and the program, and file dialogs.
 
-Qt takes the name of a file for UTF-8 and drops the bytes that are not; in a URL they survive. So files come from
-dialogs and drops as URLs, and a path that can be edited is written as `app.encoding.stored` has it. Qt's own file
-dialog does not list names that are not UTF-8 at all; those of the desktops do, so they are used unless they speak
-another language than the editor.
+Qt interprets file names as UTF-8 and drops invalid bytes; URLs preserve them. So files of dialogs and drops are passed
+as URLs, and an editable path is encoded by `app.encoding.stored`. Qt's own file dialog does not list names that are not
+UTF-8, but the desktop's dialogs do; these are used unless their language differs from the editor's.
 """
 
 from __future__ import annotations
@@ -25,9 +24,9 @@ _SCHEMES = ["file"]
 
 
 def path_of(url: QUrl) -> Path | None:
-    """The path that a URL of a dialog or a drop names; None where it is no file.
+    """Return the path of a URL from a dialog or drop; None if it is no file.
 
-    Whoever chooses a file on another computer agrees to that computer.
+    Choosing a file on another computer counts as consent to access that computer.
     """
     if not url.isLocalFile():
         return None
@@ -52,7 +51,9 @@ def dropped_paths(event: QDropEvent) -> list[Path]:
 
 
 def ask_for_file(parent: QWidget | None, title: str, start: Path | None, filters: str) -> Path | None:
-    """An existing file; None where none was chosen. The dialog begins in a folder or with a file, or at home."""
+    """Return an existing file chosen by the user; None if cancelled. The dialog starts in a folder, at a file, or at
+    home.
+    """
     url, _ = QFileDialog.getOpenFileUrl(
         parent, title, url_of(_reachable(start)), filters, options=_options(), supportedSchemes=_SCHEMES
     )
@@ -60,7 +61,7 @@ def ask_for_file(parent: QWidget | None, title: str, start: Path | None, filters
 
 
 def ask_for_files(parent: QWidget | None, title: str, start: Path | None, filters: str) -> list[Path]:
-    """Existing files; none where none was chosen. The dialog begins as that of `ask_for_file`."""
+    """Return existing files chosen by the user, possibly none. The dialog starts as in `ask_for_file`."""
     urls, _ = QFileDialog.getOpenFileUrls(
         parent, title, url_of(_reachable(start)), filters, options=_options(), supportedSchemes=_SCHEMES
     )
@@ -68,21 +69,23 @@ def ask_for_files(parent: QWidget | None, title: str, start: Path | None, filter
 
 
 def ask_where_to_save(parent: QWidget | None, title: str, proposal: Path, filters: str) -> Path | None:
-    """A file to write; None where none was chosen. Whether one that is there may be replaced was asked."""
+    """Return a file to write chosen by the user; None if cancelled. The dialog asks before an existing file is
+    replaced.
+    """
     start = url_of(_reachable(proposal.parent) / shown(proposal.name))
     url, _ = QFileDialog.getSaveFileUrl(parent, title, start, filters, options=_options(), supportedSchemes=_SCHEMES)
     return path_of(url)
 
 
 def ask_for_folder(parent: QWidget | None, title: str, start: Path | None) -> Path | None:
-    """An existing folder; None where none was chosen."""
+    """Return an existing folder chosen by the user; None if cancelled."""
     options = _options() | QFileDialog.Option.ShowDirsOnly
     url = QFileDialog.getExistingDirectoryUrl(parent, title, url_of(_reachable(start)), options, _SCHEMES)
     return path_of(url)
 
 
 def _options() -> QFileDialog.Option:
-    """The system's dialog where it speaks the editor's language, else Qt's."""
+    """Return the options for the system's dialog if it has the editor's language, else for Qt's."""
     return QFileDialog.Option(0) if speaks_as_system() else QFileDialog.Option.DontUseNativeDialog
 
 
@@ -92,14 +95,15 @@ def show_folder(folder: Path) -> None:
 
 
 def _reachable(path: Path | None) -> Path:
-    """The path, or the next folder above that Qt can enter; home for one that may not be touched."""
+    """Return the path or the nearest parent that Qt can open; home for a path without permission."""
     path = path if path is not None and may_touch(path) else Path.home()
     return next(place for place in (path, *path.parents, Path()) if is_text(place))
 
 
 class PathEdit(QLineEdit):
-    """A path that can be typed; one that is not UTF-8 is written so that it can (`app.encoding.stored`), and its tip
-    has it readable."""
+    """An editable path; one that is not UTF-8 is encoded (`app.encoding.stored`), with the readable form as tool
+    tip.
+    """
 
     def __init__(self, path: Path | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -109,14 +113,14 @@ class PathEdit(QLineEdit):
 
     @property
     def path(self) -> Path | None:
-        """The path; None where nothing is typed."""
+        """The path; None if the field is empty."""
         if self._set is not None and self.text() == stored(self._set):
             return self._set  # also one that ends with a blank
         text = self.text().strip()
         return Path(restored(text)) if text else None
 
     def set_path(self, path: Path | None) -> None:
-        """Show another path; None: nothing."""
+        """Set the path; None for an empty field."""
         self._set = path
         self.setText("" if path is None else stored(path))
 

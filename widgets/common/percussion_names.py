@@ -1,4 +1,4 @@
-"""The 47 percussion sounds of General MIDI System Level 1 in the user's language."""
+"""Names of the 47 percussion sounds of General MIDI System Level 1 in the user's language."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names of pitches, as the user reads and types them."""
+"""Reading and writing of pitch names for the user."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _GERMAN: Final = {
 
 
 def pitch_names(display: PitchDisplay) -> tuple[str, ...]:
-    """Names of the twelve pitch classes from C on, as the user reads them."""
+    """Return the names of the twelve pitch classes from C on, by the user's settings."""
     if display.names == "german":
         return GERMAN
     return spelled(_syllables()) if display.names == "syllables" else LETTERS
@@ -38,22 +38,22 @@ def _syllables() -> tuple[str, ...]:
 
 
 def pitch_text(display: PitchDisplay, concert_pitch: int, transposition_semitones: int = 0) -> str:
-    """A sounding pitch named by the user's settings.
+    """Return the name of a sounding pitch by the user's settings.
 
     Parameters
     ----------
     transposition_semitones : int
-        Written minus concert pitch of the instrument; counts where pitches are shown as written.
+        Written minus concert pitch of the instrument; used if pitches are shown as written.
     """
     shown = concert_pitch + (transposition_semitones if display.written else 0)
     return pitch_name(shown, display.middle_c_octave, pitch_names(display))
 
 
 def pitch_from(display: PitchDisplay, text: str, transposition_semitones: int = 0) -> int | None:
-    """The sounding MIDI pitch that a text means, in the way pitches are shown; None where it means none.
+    """Return the sounding MIDI pitch of a text in the user's notation; None if it is invalid.
 
-    ``"B♭3"``, ``"bb3"``, ``"シ♭3"``, ``"Es3"`` or a MIDI number (always the sounding one). ``"B3"`` is a semitone
-    lower where names are German.
+    ``"B♭3"``, ``"bb3"``, ``"シ♭3"``, ``"Es3"`` or a MIDI number (always sounding). ``"B3"`` is a semitone lower in
+    German notation.
     """
     plain = unicodedata.normalize("NFKC", text).strip()
     if plain.isascii() and plain.isdigit():

@@ -1,8 +1,8 @@
-"""Text that is shown as it is written.
+"""Widgets that show text literally.
 
-Qt shows text that looks like HTML as HTML, and opens the files that such text names. Nothing here is HTML: what is
-shown comes from files. Labels and message boxes of the program's own are plain from the start; those that Qt makes
-(tips, file dialogs) by the theme's style sheet. A test keeps classes and methods that show HTML out of the program.
+Qt interprets text that looks like HTML as HTML, and opens files named in it. Texts of the program come from files and
+are never HTML. The program's labels and message boxes are plain by default; Qt's own (tips, file dialogs) by the
+theme's style sheet. A test ensures that no other classes and methods show HTML.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Role: TypeAlias = QMessageBox.ButtonRole
 
 
 class Label(QLabel):
-    """Plain text before any style reaches it: Qt measures and reads out texts that are not shown yet."""
+    """A label with plain text even before a style applies, since Qt measures and reads out hidden texts."""
 
     def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -27,14 +27,14 @@ class Label(QLabel):
 
 
 class MessageBox(QMessageBox):
-    """A message box whose texts are plain, and can be copied."""
+    """A message box with plain and selectable texts."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTextFormat(Qt.TextFormat.PlainText)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Qt makes the label of the explanation when there is one."""
+        """Make the texts selectable; Qt creates the label of the explanation late."""
         for label in self.findChildren(QLabel):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         super().showEvent(event)
@@ -49,16 +49,16 @@ def ask(
     answers: Mapping[str, Role],
     usual: Role = Role.RejectRole,
 ) -> Role:
-    """Ask in a message box, and wait for the answer.
+    """Ask in a message box and return the answer.
 
     Parameters
     ----------
     name : str
         Object name.
     answers : mapping of str to Role
-        Roles by the buttons' texts; the one that rejects is what Escape presses.
+        Roles by the buttons' texts; Escape presses the rejecting one.
     usual : Role
-        What Return presses.
+        Role of the button that Return presses.
     """
     box = MessageBox(parent)
     box.setObjectName(name)
@@ -76,11 +76,11 @@ def ask(
 
 
 class ComboBox(QComboBox):
-    """A combo box whose tip is plain, and whose open list has the keyboard alone.
+    """A combo box with a plain tool tip, whose open list receives all keys.
 
-    Qt keeps style sheets from frames within a combo box, and a tip is one. While the list is open, Qt lets shortcuts of
-    the panel work: the arrows would move notes instead of the choice. What is marked in it has the accent: as an entry
-    of a menu, which the style makes of it, it would have a thin dark frame alone.
+    Qt does not apply style sheets to frames within a combo box, such as tips. While the list is open, Qt still runs the
+    panel's shortcuts: arrow keys would move notes. The current item has the accent colour, since the style would give
+    it only a thin dark frame.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -99,7 +99,7 @@ class ComboBox(QComboBox):
         return super().eventFilter(watched, event)
 
     def event(self, event: QEvent) -> bool:
-        """Show the tip as one of what the box is in."""
+        """Show the tool tip as one of the parent."""
         if not isinstance(event, QHelpEvent) or event.type() != QEvent.Type.ToolTip:
             return super().event(event)
         QToolTip.showText(event.globalPos(), self.toolTip(), self.parentWidget())
@@ -107,10 +107,10 @@ class ComboBox(QComboBox):
 
 
 def verbatim(text: str) -> str:
-    """A text for buttons, menus and tabs, where ``&`` would name a key and a tab begin a column."""
+    """Return a text for buttons, menus and tabs with ``&`` and tabs escaped."""
     return text.replace("&", "&&").replace("\t", " ")
 
 
 def verbatim_title(text: str) -> str:
-    """A text for a window's title, where ``[*]`` would mark changes."""
+    """Return a text for window titles with ``[*]`` escaped."""
     return text.replace("[*]", "[*][*]")

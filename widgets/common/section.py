@@ -1,4 +1,4 @@
-"""Parts of a panel that fold."""
+"""Sections of a panel that can be folded."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _CHEVRON_PX = 4.0
 
 
 class SectionHeader(QWidget):
-    """A line with a title that folds what is below it; by click, Space, Return, or the arrows left and right."""
+    """A title line that folds the section below by a click, Space, Return, Left or Right."""
 
     toggled = Signal(bool)
 
@@ -36,21 +36,21 @@ class SectionHeader(QWidget):
         return self._open
 
     def set_open(self, is_open: bool) -> None:
-        """Fold or unfold."""
+        """Fold or unfold the section."""
         if is_open != self._open:
             self._open = is_open
             self.update()
             self.toggled.emit(is_open)
 
     def set_texts(self, title: str, note: str = "", warns: bool = False) -> None:
-        """The title, and a short note at its right."""
+        """Set the title and a short note at its right."""
         if (title, note, warns) != (self._title, self._note, self._warns):
             self._title, self._note, self._warns = title, note, warns
             self.setAccessibleName(f"{title} {note}".strip())
             self.update()
 
     def add_button(self, button: QWidget) -> None:
-        """Put a small button at the right end."""
+        """Add a small button at the right end."""
         self._row.addWidget(button)
 
     def _title_font(self) -> QFont:
@@ -111,22 +111,22 @@ class SectionHeader(QWidget):
 
 
 class Section(QWidget):
-    """A header, and below it what it folds.
+    """A header and the contents that it folds.
 
     Parameters
     ----------
     name : str
-        Object name; whether it is folded is remembered by it.
+        Object name, under which the folded state is stored.
     folded : bool
-        Until the user folds or unfolds it.
+        Whether it is folded until the user changes this.
     remembers : bool
-        False: it is so at every start.
+        Whether the state is stored; if not, it is the same at every start.
 
     Attributes
     ----------
     header : SectionHeader
     body : QVBoxLayout
-        Put the contents here.
+        Layout for the contents.
     """
 
     def __init__(
@@ -162,5 +162,5 @@ class Section(QWidget):
         return self.header.is_open
 
     def set_open(self, is_open: bool) -> None:
-        """Fold or unfold."""
+        """Fold or unfold the section."""
         self.header.set_open(is_open)

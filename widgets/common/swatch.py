@@ -1,4 +1,6 @@
-"""A colour that can be chosen: the theme's, which colour-blind eyes tell apart, or any other."""
+"""A button for choosing a colour: one of the theme's, which are distinguishable for colour-blind users, or any
+other.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from widgets.common.controls import named
 
 
 class ColourSwatch(QPushButton):
-    """Shows a colour; a click offers others.
+    """Shows a colour, and a menu of others on a click.
 
     Parameters
     ----------
@@ -41,7 +43,7 @@ class ColourSwatch(QPushButton):
         session.theme_changed.connect(self.update)
 
     def show_colours(self, colours: tuple[str, ...]) -> None:
-        """Show colours side by side."""
+        """Set the colours shown side by side."""
         if colours != self._colours:
             self._colours = colours
             self.update()

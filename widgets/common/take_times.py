@@ -1,4 +1,4 @@
-"""Time at which a take was recorded, in local form."""
+"""Date and time of a take in local format."""
 
 from __future__ import annotations
 

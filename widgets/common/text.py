@@ -1,4 +1,4 @@
-"""Wording in the user's language."""
+"""Texts of messages and other values in the user's language."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ from widgets.common.pitch import pitch_text
 
 
 def message_text(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
-    """A message as a sentence in the language of the editor.
+    """Return a message as a sentence in the editor's language.
 
     Parameters
     ----------
     session : Session or None
-        With it notes are reported by pitch and place, named by the user's settings, and fingerings in words; without it
-        notes by their ids and fingerings by their signs.
+        Session for notes by pitch and position, and fingerings in words; without it notes are given by id and
+        fingerings by label.
     player_id : str or None
-        Whose message it is; None: that of the player in front.
+        Player of the message; None for the active player.
     """
     template = tr(message.id)
     if session is not None:
@@ -50,13 +50,13 @@ def message_text(message: Message, session: Session | None = None, player_id: st
 
 
 def sentence(message: Message, session: Session | None = None, player_id: str | None = None) -> str:
-    """A message that stands alone begins with a capital, unless with a name."""
+    """Return a message as a separate sentence with a capital letter, unless it begins with a name."""
     text = message_text(message, session, player_id)
     return text if WORDINGS[message.id][0].startswith("{") else text[:1].upper() + text[1:]
 
 
 def note_text(session: Session, note: Note, player: Player | None) -> str:
-    """A note as the user finds it: its pitch, and bar and beat."""
+    """Return a note's pitch, bar and beat as text."""
     place = note_place(session.project.score, note)
     return tr(place.id).format(**{**place.arguments, "pitch": player_pitch(session, note.pitch, player)})
 
@@ -96,14 +96,14 @@ def _instrument(player: Player | None) -> InstrumentMap | None:
 
 
 def player_pitch(session: Session, pitch: float, player: Player | None) -> str:
-    """A sounding pitch as the user reads those of a player."""
+    """Return the name of a sounding pitch in the user's notation for a player."""
     instrument = _instrument(player)
     semitones = instrument.transposition_semitones if instrument is not None else 0
     return pitch_text(session.pitch_display, round(pitch), semitones)
 
 
 def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -> str:
-    """Text for an anchor: a note for a note's id, kind and place for an event's id, any other name unchanged."""
+    """Return the text for an anchor: a note for a note id, kind and place for an event id, other names unchanged."""
     note = note_of(session.project.score, id, player.part_id if player is not None else None)
     if note is not None:
         return note_text(session, note, player)
@@ -122,7 +122,7 @@ def _anchor(session: Session, id: str, player: Player | None, is_anchor: bool) -
 
 
 def _gesture(name: str) -> str:
-    """A kind of gesture as its command has it, or the gesture of a table."""
+    """Return the name of a gesture kind as in its command, or the title of a gesture from a table."""
     return tr(f"action.gesture.{name}") if name in GESTURE_KINDS else gesture_name(name)
 
 
@@ -131,14 +131,14 @@ _NAMES: Mapping[str, Callable[[str], str]] = {
     "expression": expression_name,
     "style": style_name,
 }
-"""Arguments that are names of what an edit adds or changes."""
+"""Functions that name an argument, by the argument's name."""
 _STORED = frozenset({"project.cannot_save", "project.not_storable", "autosave.without"})
-"""Messages about a value of the open project: the user does not find it by the key path of a file."""
+"""Ids of messages about a value of the open project, whose key path is replaced by a name."""
 _NOTE_ID = re.compile(r"\d+:\d+")
 
 
 def _label(kind: str, name: str) -> str:
-    """The name under which the user knows a correction of a kind."""
+    """Return the user's name for a correction of a kind."""
     if kind == "additive":
         return channel_name(name)
     if kind == "pose":
@@ -153,7 +153,7 @@ def _targets() -> dict[str, str]:
 
 
 def _touches() -> dict[str, str]:
-    """Parts of a hand; of a finger it does not matter which side of it touches."""
+    """Return the names of parts of a hand, without the touching side of fingers."""
     templates = {
         "thumb": tr("word.thumb"),
         "index": tr("word.index_finger"),
@@ -168,12 +168,12 @@ def _touches() -> dict[str, str]:
 
 
 def parameter_text(text_id: str) -> str:
-    """A text of a parameter (`app.plan.parameters`) in the language of the editor; empty where it has none."""
+    """Return a text of a parameter (`app.plan.parameters`) in the editor's language; empty if there is none."""
     return tr(text_id) if text_id else ""
 
 
 def _instruments() -> dict[str, str]:
-    """Instruments by their maps' ids and by their names in messages."""
+    """Return the names of instruments by map id and by their names in messages."""
     in_japanese = language() == "ja"
     known = {one.names[0]: one.japanese if in_japanese else one.names[0] for one in vocabulary().instruments.values()}
     return known | _WORDS["map"]()
@@ -190,4 +190,4 @@ _WORDS: Mapping[str, Callable[[], dict[str, str]]] = {
     "angle": lambda: {"up": tr("word.up_and_down"), "left": tr("word.to_side"), "roll": tr("word.leaning")},
     "leader_reason": lambda: {"chosen": tr("word.chosen_as_leader"), "melody": tr("word.leads_melody")},
 }
-"""Arguments that are one of a few words."""
+"""Functions that return words by value, for arguments with few possible values."""

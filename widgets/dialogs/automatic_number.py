@@ -1,4 +1,4 @@
-"""A number that is found unless it is typed."""
+"""A number field with an automatic value."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from widgets.common.clicks import on_switch
 from widgets.common.layouts import in_row
 
 TEXT_MARGIN_PX = 6
-"""Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
+"""Left margin of the text in pixels as in other fields, since the style sheet does not affect spin boxes."""
 
 
 class AutomaticNumber(QWidget):
-    """A check box "Automatic", and a number that can be typed while it is not checked.
+    """A check box "Automatic" and a number field that is enabled while it is unchecked.
 
     Signals
     -------
@@ -23,7 +23,7 @@ class AutomaticNumber(QWidget):
     Parameters
     ----------
     name : str
-        Of the number for tests and style; the check box has ``_automatic`` behind it.
+        Object name of the number field; that of the check box ends in ``_automatic``.
     """
 
     changed = Signal()
@@ -50,15 +50,15 @@ class AutomaticNumber(QWidget):
 
     @property
     def value(self) -> float | None:
-        """The typed number; None while it is found automatically."""
+        """Return the typed number; None if it is automatic."""
         return None if self.check.isChecked() else self.number.value()
 
     def set_range(self, least: float, most: float) -> None:
-        """Offer only numbers within a range; `show_value` still shows a number outside of it."""
+        """Set the range of valid numbers; `show_value` may show others."""
         self._range = least, most
 
     def show_value(self, value: float | None, found: float | None) -> None:
-        """Show a value, or what was found where it is None, without a signal."""
+        """Show a value, or the automatic one if it is None, without a signal."""
         self.number.blockSignals(True)
         self.check.setChecked(value is None)
         self.number.setEnabled(value is not None)

@@ -1,4 +1,4 @@
-"""A drawn body with a dot for every joint, its hands enlarged: which bones were found, are guessed, or lack."""
+"""Drawing of a body with a dot for every joint and enlarged hands, which shows found, guessed and missing bones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from metadata.load import load_skeleton
 from widgets.dialogs.character_draft import State
 
 ASPECT: Final = 0.86
-"""Width to height."""
+"""Width divided by height."""
 _DOT: Final = 0.0105
 _TARGET: Final = 0.030
 _LIMBS: Final = (
@@ -78,21 +78,21 @@ def places() -> Mapping[str, tuple[float, float]]:
 
 
 class BodyMap(QWidget):
-    """The body.
+    """Drawing of a body with selectable joints.
 
     Parameters
     ----------
     session : Session
-        Its theme colours the drawing.
+        Session with the theme's colours.
     name_of : callable
-        What a joint is called, and which bone it is, in words.
+        Returns the description of a joint and its bone.
 
     Signals
     -------
     chosen(str)
         The user chose a joint.
     opened(str)
-        The user requests another bone for it.
+        The user wants to choose another bone for the joint.
     """
 
     chosen = Signal(str)
@@ -112,11 +112,11 @@ class BodyMap(QWidget):
 
     @property
     def joint(self) -> str:
-        """The chosen joint; empty: none."""
+        """Name of the selected joint; empty for none."""
         return self._joint
 
     def show_states(self, states: Mapping[str, State]) -> None:
-        """Show how sure the joints are."""
+        """Show the reliability of each joint's bone."""
         if states != self._states:
             self._states = dict(states)
             self.update()
@@ -272,7 +272,7 @@ class BodyMap(QWidget):
 
 
 def joints() -> tuple[str, ...]:
-    """Every joint that can be chosen, in the skeleton's order."""
+    """Return the selectable joints in the skeleton's order."""
     return tuple(joint.name for joint in load_skeleton().joints if joint.name != "root")
 
 

@@ -1,4 +1,4 @@
-"""The bones of a file as they hang together, to choose one from, with a search."""
+"""Tree of a file's bones with a search field, for choosing a bone."""
 
 from __future__ import annotations
 
@@ -14,11 +14,13 @@ from widgets.common.controls import named
 from widgets.common.layouts import in_column
 
 _INDENTATION_PX, _MOST_INDENTED_PX = 10, 40
-"""Indentation of a bone from its parent, and at most of the deepest one: fingers hang under ten bones and more."""
+"""Indentation of a bone from its parent in pixels, and the greatest total indentation, since fingers have ten parents
+or more.
+"""
 
 
 class BoneTree(QWidget):
-    """Bones; Enter or a double click chooses one.
+    """Tree of bones; Enter or a double click chooses one.
 
     Signals
     -------
@@ -56,7 +58,7 @@ class BoneTree(QWidget):
         in_column(self.search, (self.tree, 1), of=self, margins=0, spacing=4)
 
     def show_used(self, used: Mapping[int, str]) -> None:
-        """Write beside each bone which joint it is."""
+        """Show the joint of each used bone beside it."""
         dim = QColor(self._session.tokens.text_dim)
         for bone, item in enumerate(self._items):
             text = used.get(bone, "")
@@ -65,7 +67,7 @@ class BoneTree(QWidget):
             item.setForeground(1, dim)
 
     def reveal(self, bone: int | None) -> None:
-        """Mark a bone and bring it into view."""
+        """Select a bone and scroll to it."""
         if bone is None:
             self.tree.clearSelection()
             return
@@ -73,7 +75,7 @@ class BoneTree(QWidget):
         self.tree.scrollToItem(self._items[bone])
 
     def set_headers(self, headers: Sequence[str]) -> None:
-        """Name the columns."""
+        """Set the column headings."""
         self.tree.setHeaderLabels(list(headers))
         header = self.tree.header()
         header.setStretchLastSection(False)
@@ -82,8 +84,7 @@ class BoneTree(QWidget):
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
 
     def _filter(self, text: str) -> None:
-        """Show the bones whose name holds the text, and those above them; that which is named so is marked, else
-        the first."""
+        """Show only the bones whose name contains a text, and their parents; select an exact match, else the first."""
         requested = text.strip().casefold()
         first: QTreeWidgetItem | None = None
         exact: QTreeWidgetItem | None = None
@@ -106,7 +107,7 @@ class BoneTree(QWidget):
         self.chosen.emit(item.text(0))
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:
-        """Let the arrows go from the search to the bones, and Enter take the marked one."""
+        """Move from the search field to the bones with the arrow keys, and choose the selected one with Enter."""
         if watched is self.search and event.type() is QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             key = Qt.Key(event.key())
             if key in (Qt.Key.Key_Down, Qt.Key.Key_Up):
@@ -122,7 +123,7 @@ class BoneTree(QWidget):
 
 
 def _depth(figure: Figure) -> int:
-    """Return how many bones the deepest one hangs under."""
+    """Return the greatest number of ancestors of a bone."""
     depths = list[int]()
     for parent in figure.parents:
         depths.append(0 if parent < 0 else depths[parent] + 1)

@@ -1,7 +1,7 @@
-"""Bring your own character: which bone is which joint, which morphs make a face, and what will not be played.
+"""Dialog for adding a character from a file: joints, face shapes, and a list of what will not be animated.
 
-What is shown follows from `DraftHistory.now` and the figure alone; every change goes through `CharacterDialog.change`
-and can be undone. Pictures are drawn in the background, the newest only.
+The display depends only on `DraftHistory.now` and the figure; every change is made by `CharacterDialog.change` and can
+be undone. Pictures are drawn in the background, only for the latest state.
 """
 
 from __future__ import annotations
@@ -49,25 +49,25 @@ PICTURE_PX: Final = QSize(250, 340)
 _LEAST_WORDS_PX: Final = 72
 _LEAST_LIST_PX: Final = 230
 _SOON_MS: Final = 60
-"""Milliseconds after which the next picture of a drag is drawn, if the mouse rests or moves slowly."""
+"""Delay in milliseconds before a picture is drawn during a drag."""
 
 
 class CharacterDialog(Retranslated, QDialog):
-    """A character of a file that was read.
+    """Dialog about the character in a file.
 
     Parameters
     ----------
     path : Path
-        Of the file, for its name.
+        Path of the file, for its name.
     draft : CharacterDraft
-        What is known of it already.
+        Known settings.
     offered : str
-        Name of the player it may be given to, or of several; empty: no one.
+        Name of the player or players that may get the character; empty for none.
 
     Signals
     -------
     agreed(object, bool)
-        The user accepts the character of this `CharacterDraft`; and whether the selected players become it.
+        The user accepts the character of a `CharacterDraft`, and whether the selected players get it.
     """
 
     agreed = Signal(object, bool)
@@ -125,7 +125,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._choose_first()
 
     def _untouched(self) -> CharacterDraft:
-        """The draft under its title as it is found without the user."""
+        """Return a draft with the same title and automatic settings."""
         return found_by_itself(self._figure, self.draft.title)
 
     # Building
@@ -191,7 +191,7 @@ class CharacterDialog(Retranslated, QDialog):
 
     @property
     def joint(self) -> str:
-        """The chosen joint."""
+        """Name of the selected joint."""
         return self._joint
 
     def choose(self, joint: str) -> None:
@@ -206,7 +206,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._show_choice()
 
     def _choose_first(self) -> None:
-        """Select the first joint that is missing or doubtful, else the hips."""
+        """Select the first joint that is missing or uncertain, else the hips."""
         wrong = [*self._made.lacking, *self._made.joints.doubtful]
         self.choose(wrong[0] if wrong else "hips")
 
@@ -232,17 +232,17 @@ class CharacterDialog(Retranslated, QDialog):
         self.change(replace(self.draft, height_m=self.body_height.value or 0.0))
 
     def change(self, draft: CharacterDraft, gesture: object | None = None) -> None:
-        """Another draft; those of one gesture are one step."""
+        """Apply a draft; all changes of one gesture are a single undo step."""
         if self._steps.apply(draft, gesture):
             self._changed()
 
     def undo(self) -> None:
-        """Take the last change back."""
+        """Undo the last change."""
         self._steps.undo()
         self._changed()
 
     def redo(self) -> None:
-        """Make the change again that was undone last."""
+        """Redo the last undone change."""
         self._steps.redo()
         self._changed()
 
@@ -301,7 +301,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._ask_picture()
 
     def _show_reported(self) -> None:
-        """Say what will not be played, and how the body that was drawn last holds an instrument."""
+        """Show what will not be animated, and the result of holding an instrument."""
         reported = list(not_played(self._figure, self._made))
         if self._seen is not None:
             reported += [message_text(note) for note in notes_beside_joints(self._made, self._seen[2])]
@@ -314,7 +314,7 @@ class CharacterDialog(Retranslated, QDialog):
         self._automatic.setEnabled(self._joint in self.draft.joints)
 
     def _joint_text(self, joint: str) -> str:
-        """A joint, its bone and how sure that is, in words."""
+        """Return a joint, its bone and the bone's reliability as text."""
         state, bone = self._made.state(joint), self._made.joints.bones.get(joint)
         bone_name = "" if bone is None else self._figure.bone_names[bone]
         words = {

@@ -1,4 +1,4 @@
-"""A foreign character while the user says what its bones and morphs are: values, and what follows from them."""
+"""State of a character while the user assigns joints and face shapes, and its consequences."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ _MOST_STEPS: Final = 200
 
 @dataclass(frozen=True)
 class CharacterDraft:
-    """The user's entries about a character.
+    """The user's settings of a character.
 
     Attributes
     ----------
     joints : mapping of str to str
-        Bones by joint that are not found by themselves; empty: none.
+        Corrected bones by joint; empty for none.
     morphs : mapping of str to mapping of str to float
-        Faces by ARKit name that are not found by themselves.
+        Corrected morph weights by ARKit shape.
     height_m : float
         0: as tall as in the file.
     hidden : tuple of str
-        Meshes of the file that are not shown.
+        Hidden meshes of the file.
     """
 
     title: str
@@ -50,12 +50,12 @@ class CharacterDraft:
     hidden: tuple[str, ...] = ()
 
     def with_joint(self, joint: str, bone: str | None) -> CharacterDraft:
-        """The draft with another bone for a joint; empty for none, None for the bone found automatically."""
+        """Return the draft with another bone for a joint; empty for none, None for the automatic one."""
         joints = {name: own for name, own in self.joints.items() if name != joint}
         return replace(self, joints=joints if bone is None else {**joints, joint: bone})
 
     def with_face(self, face: str, parts: Mapping[str, float] | None) -> CharacterDraft:
-        """The draft with other morphs for a shape of the face; empty for none, None for those found automatically."""
+        """Return the draft with other morphs for a face shape; empty for none, None for the automatic ones."""
         morphs = {name: own for name, own in self.morphs.items() if name != face}
         return replace(self, morphs=morphs if parts is None else {**morphs, face: dict(parts)})
 
@@ -67,7 +67,7 @@ def found_by_itself(figure: Figure, title: str) -> CharacterDraft:
 
 @dataclass(frozen=True, eq=False)
 class Mapped:
-    """Joints and faces that a draft finds in a figure."""
+    """Joints and face shapes of a figure with a draft's corrections."""
 
     draft: CharacterDraft
     joints: JointMapping
@@ -75,20 +75,20 @@ class Mapped:
 
     @property
     def lacking(self) -> tuple[str, ...]:
-        """Joints without which no one can play."""
+        """Return the missing joints without which a character cannot play."""
         return tuple(joint for joint in REQUIRED_JOINTS if joint not in self.joints.bones)
 
     def state(self, joint: str) -> State:
-        """Report how sure the mapping of a joint is."""
+        """Return the reliability of a joint's bone."""
         if joint not in self.joints.bones:
             return "missing"
         return "doubtful" if joint in self.joints.doubtful else "mapped"
 
 
 def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) -> Mapped:
-    """Map a figure by a draft; results that are the same as before are taken from there.
+    """Return the mapping of a figure by a draft, reusing unchanged results of the previous mapping.
 
-    Raises FileError where it names what the figure has not.
+    Raises FileError if the draft refers to bones or morphs that the figure lacks.
     """
     same_joints = before is not None and before.draft.joints == draft.joints
     same_faces = before is not None and before.draft.morphs == draft.morphs
@@ -100,7 +100,7 @@ def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) 
 
 
 def character_of(figure: Figure, made: Mapped) -> Character:
-    """The character that a draft makes. Raises FileError where it cannot play."""
+    """Return the character of a draft. Raises FileError if it cannot play."""
     figure = figure.without(made.draft.hidden)
     return figure_character(figure, made.draft.title, made.joints.bones, made.faces.morphs, made.draft.height_m)
 
@@ -121,7 +121,7 @@ class DraftHistory:
 
     @classmethod
     def empty(cls) -> DraftHistory:
-        """History that begins without a correction."""
+        """Return a history that begins without corrections."""
         return cls(CharacterDraft(""))
 
     @property
@@ -131,16 +131,18 @@ class DraftHistory:
 
     @property
     def can_undo(self) -> bool:
-        """True if there is a step to take back."""
+        """True if there is a step to undo."""
         return len(self._done) > 1
 
     @property
     def can_redo(self) -> bool:
-        """True if a step was taken back."""
+        """True if there is a step to redo."""
         return bool(self._undone)
 
     def apply(self, draft: CharacterDraft, gesture: object | None = None) -> bool:
-        """Make a draft the current step, in place of the last one of the same gesture. Return whether it differs."""
+        """Add a draft as the current step, replacing the last one of the same gesture, and return whether it
+        differs.
+        """
         before = self.now
         if gesture is not None and gesture is self._gesture and self._of_gesture:
             self._done.pop()
@@ -151,20 +153,20 @@ class DraftHistory:
         return self.now != before
 
     def undo(self) -> None:
-        """Take the last step back."""
+        """Undo the last step."""
         if self.can_undo:
             self._undone.append(self._done.pop())
             self._gesture, self._of_gesture = None, False
 
     def redo(self) -> None:
-        """Make the change again that was undone last."""
+        """Redo the last undone step."""
         if self._undone:
             self._done.append(self._undone.pop())
             self._gesture, self._of_gesture = None, False
 
 
 def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
-    """List in words what a character will not do, the most severe first."""
+    """Return texts about what a character will not do, the most severe first."""
     _translate, reported = QCoreApplication.translate, list[str]()
     bones, faces = made.joints.bones, made.faces.morphs
     if made.lacking:
@@ -205,7 +207,7 @@ def not_played(figure: Figure, made: Mapped) -> tuple[str, ...]:
 
 
 def notes_beside_joints(made: Mapped, notes: Sequence[Message]) -> tuple[Message, ...]:
-    """Notes on a body that `not_played` does not say from bones and morphs: sizes, and skin that follows no bone."""
+    """Return notes about a body that `not_played` does not include: sizes, and skin that follows no bone."""
     bones = made.joints.bones
     fingers = all(any(bone.startswith(side + finger) for bone in bones) for side in _SIDES for finger in _FINGERS)
     said = {"character.lips_still"} | (set() if fingers else {"character.no_fingers", "character.some_fingers"})
@@ -213,7 +215,7 @@ def notes_beside_joints(made: Mapped, notes: Sequence[Message]) -> tuple[Message
 
 
 def _props(figure: Figure, made: Mapped) -> list[str]:
-    """Sentences about the props in the hands: those that are left out, and those that are shown."""
+    """Return sentences about props in the hands, hidden or shown."""
     props = props_in_hands(figure, made.joints.bones)
     sentences = []
     for id, hidden in (("character_words.props_left_out", True), ("character_words.props_shown", False)):

@@ -1,4 +1,4 @@
-"""The user's own characters: which there are, what is wrong with them; more of them, changed, removed."""
+"""Dialog with the list of the user's own characters and their problems, for adding, changing and removing them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PICTURE_PX = QSize(72, 96)
 
 
 class CharactersDialog(Retranslated, QDialog):
-    """The user's own characters.
+    """Dialog with the user's own characters.
 
     Signals
     -------
@@ -75,12 +75,12 @@ class CharactersDialog(Retranslated, QDialog):
 
     @property
     def chosen(self) -> str:
-        """Id of the chosen character; empty: none."""
+        """Return the id of the selected character; empty for none."""
         item = self.list.currentItem()
         return "" if item is None else str(item.data(Qt.ItemDataRole.UserRole))
 
     def refresh(self) -> None:
-        """Show those there are now."""
+        """Update the list."""
         before = self.chosen
         self.list.clear()
         for id in character_library().own:
@@ -100,7 +100,7 @@ class CharactersDialog(Retranslated, QDialog):
             button.setEnabled(bool(self.chosen))
 
     def _draw(self) -> None:
-        """Open every character in the background, and draw it."""
+        """Load every character in the background, and draw it."""
         ids, ratio = tuple(character_library().own), self.devicePixelRatioF()
         if not ids and not character_library().problems:
             self._wrong.hide()
@@ -149,7 +149,7 @@ class CharactersDialog(Retranslated, QDialog):
 
 
 def dropped_character(event: QDropEvent) -> Path | None:
-    """The first file of a drop that can hold a character."""
+    """Return the first file of a drop with the suffix of a character."""
     for path in dropped_paths(event):
         if path.suffix.lower() in SUFFIXES:
             return path

@@ -1,4 +1,4 @@
-"""The choice of the encoding in which a file's texts are read."""
+"""Choice of the text encoding of a file."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _TITLES: Final = {
 
 
 class EncodingChoice(Retranslated, ComboBox):
-    """Every encoding that users meet, after the automatic choice.
+    """Combo box of common encodings after "automatic".
 
     Signals
     -------
@@ -52,6 +52,6 @@ class EncodingChoice(Retranslated, ComboBox):
         self.texted(self, tip="import_dialog.encoding_tip", items=titles)
 
     def show_encoding(self, encoding: str | None) -> None:
-        """Show which one is used."""
+        """Show the current encoding."""
         with QSignalBlocker(self):
             self.setCurrentIndex(max(self.findData(encoding), 0))

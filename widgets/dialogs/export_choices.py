@@ -1,4 +1,4 @@
-"""Lists of the export dialog to choose one entry from."""
+"""Combo boxes of the export dialog."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from widgets.common.plain import ComboBox
 
 
 def bone_name_profiles(dialog: Retranslated) -> ComboBox:
-    """A choice of the tables of bone names by their ids, after an entry for the skeleton's own."""
+    """Return a combo box of tables of bone names by id, after an entry for the skeleton's own names."""
     box = named(ComboBox(), "export_bvh_names")
     # As wide as there is room, not as the longest title.
     box.setSizeAdjustPolicy(ComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)

@@ -1,4 +1,4 @@
-"""Destination of an export: a folder of files or an Unreal project, and how it is written."""
+"""Destination of an export (a folder or an Unreal project), and writing to it."""
 
 from __future__ import annotations
 
@@ -21,8 +21,9 @@ Destination = Literal["folder", "unreal"]
 
 @dataclass(frozen=True)
 class Done:
-    """The result of an export: the number of files, the folder to show, the excluded players, the warnings; whether
-    Unreal has a plug-in now that it loads when its editor starts."""
+    """Result of an export: number of files, folder to show, excluded players, warnings; whether the Unreal project now
+    has a plug-in that the Unreal editor loads at its start.
+    """
 
     count: int
     folder: Path
@@ -38,8 +39,9 @@ def write(
     stop_requested: Callable[[], bool],
     progress: Callable[[float, str], None],
 ) -> Done:
-    """Write an export; the request's folder is the place. Files are worded in English, as the command line words them,
-    the result in the language of the editor."""
+    """Write an export to the request's folder. Texts in files are English as on the command line; the result is in the
+    editor's language.
+    """
     if destination == "unreal":
         project = find_project(request.folder)
         written = export_into(request, project, text, stop_requested, progress, message_text)
@@ -54,7 +56,7 @@ def write(
 
 
 def _warnings(report: Report) -> tuple[str, ...]:
-    """Warnings of a report, after the number of the problems that the project ignores."""
+    """Return the warnings of a report after the number of ignored problems."""
     if not report.ignored_problems:
         return report.warnings
     return message_text(Message("problem.ignored", {"count": report.ignored_problems})), *report.warnings
@@ -65,19 +67,19 @@ def _left_out(report: Report) -> tuple[Message, ...]:
 
 
 class Written:
-    """Progress of an export, noted by its thread.
+    """Progress of an export, set by its thread.
 
     Parameters
     ----------
     performers : collection of str
-        Names of the performers that files are written of.
+        Names of the exported performers.
 
     Attributes
     ----------
     share : float
-        Share of the whole that is written.
+        Completed share, 0..1.
     label : str
-        The performer or file that was worked on last.
+        Current performer or file.
     """
 
     def __init__(self, performers: Collection[str]) -> None:
@@ -85,13 +87,14 @@ class Written:
         self._begun: dict[str, int] = {}
 
     def report(self, share: float, label: str) -> None:
-        """Note how far it is, and what was worked on."""
+        """Store the completed share and the current label."""
         if label in self.performers:
             self._begun.setdefault(label, len(self._begun) + 1)
         self.share, self.label = share, label
 
     @property
     def number(self) -> int | None:
-        """Place of the performer that was worked on last in the order of their beginning, from 1; None of a file of
-        everyone."""
+        """Return the number of the current performer in the order of starting, from 1; None for a file of all
+        performers.
+        """
         return self._begun.get(self.label)

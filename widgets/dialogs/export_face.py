@@ -1,4 +1,4 @@
-"""Curves of faces in exported files: their names, and the parts of a face that have some."""
+"""Options for face curves in exported files: names and parts of the face."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class FaceChooser(Retranslated, QWidget):
             layout.addWidget(box, 1 + row, column)
 
     def set_names_shown(self, shown: bool) -> None:
-        """Show the choice of names, or hide it where ARKit's are the only ones."""
+        """Show or hide the choice of names, hidden if only ARKit's are possible."""
         self._names.setVisible(shown)
 
     @property

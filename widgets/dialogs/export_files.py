@@ -1,4 +1,4 @@
-"""Export: which players, files and bars, where to; what will be replaced; progress, cancel, show in folder."""
+"""Export dialog: players, formats, bars, destination, replaced files, progress, and opening the folder."""
 
 from __future__ import annotations
 
@@ -40,11 +40,11 @@ from widgets.dialogs.export_skeleton import SkeletonChooser
 from widgets.dialogs.progress_dialog import WorkingDialog, stopping
 
 SHOW_MS = 50
-"""Progress is shown this often."""
+"""Interval of progress updates in milliseconds."""
 OUTCOME_PX = 84
-"""Room for some lines of what comes of an export; more are scrolled to."""
+"""Height in pixels of the result, which scrolls if longer."""
 _NAMES = 6
-"""Most replaced or removed files that are named."""
+"""Greatest number of replaced or removed files that are listed."""
 
 
 def _some(names: tuple[str, ...]) -> str:
@@ -52,23 +52,23 @@ def _some(names: tuple[str, ...]) -> str:
 
 
 class ExportDialog(WorkingDialog):
-    """Writes the players' files; stays usable while it works, and says what was written.
+    """Writes the players' files while the editor stays usable, and shows the result.
 
     Parameters
     ----------
     session : Session
     folder : Path
-        Where the last export went, or beside the project.
+        Folder of the last export, or that of the project.
     unreal : Path, optional
-        The Unreal project that was exported into before.
+        Unreal project of the last export.
     destination : str
-        Where the last export went: ``"folder"`` or ``"unreal"``.
+        Kind of the last destination: ``"folder"`` or ``"unreal"``.
     keys : str
-        What was chosen of `KEY_CHOICES` before.
+        Last choice of `KEY_CHOICES`.
     texture_px : int
-        What was chosen of `TEXTURE_SIZES` before.
+        Last choice of `TEXTURE_SIZES`.
     levels : int
-        What was chosen of `LEVEL_CHOICES` before.
+        Last choice of `LEVEL_CHOICES`.
     before : ExportedBars, of the piece's last export
     source, creator : str
         Name of the piece's file; program and version, for the report.
@@ -76,7 +76,7 @@ class ExportDialog(WorkingDialog):
     """
 
     exported = Signal(str, object)
-    """The destination, and the place that files were written to."""
+    """Signal: kind of the destination, and its path."""
 
     def __init__(
         self,
@@ -212,7 +212,7 @@ class ExportDialog(WorkingDialog):
 
     @property
     def texture_px(self) -> TextureSize:
-        """The chosen size of textures; 0: none."""
+        """The chosen size of textures in pixels; 0 for none."""
         return TEXTURE_SIZES[self._textures.currentIndex()]
 
     @property
@@ -364,7 +364,7 @@ class ExportDialog(WorkingDialog):
         self._files.setText(text)
 
     def _foreseen(self) -> str:
-        """Say which files will be written, replaced and removed."""
+        """Return a text about the files that will be written, replaced and removed."""
         performance, ids, bars = Performance(self._project), self.player_ids, self._range.bars
         place, made, source = self._place.path, self._formats, self._source
         if self._place.destination == "unreal":

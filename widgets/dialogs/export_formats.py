@@ -1,4 +1,4 @@
-"""Kinds of file that an export writes into a folder, and its choice of stage and sound."""
+"""Choice of formats for an export into a folder, and of stage and sound files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _COLUMNS = 2
 
 
 def _missing() -> dict[Format, Message]:
-    """Reasons that keep files of a kind from being written."""
+    """Return the reasons why formats are not available."""
     missing: dict[Format, Message] = {}
     for name, kind in FILE_FORMATS.items():
         try:
@@ -27,7 +27,7 @@ def _missing() -> dict[Format, Message]:
 
 
 class FormatChooser(Retranslated, QWidget):
-    """A box for every kind of file; those that cannot be written say why."""
+    """A check box for every format; unavailable ones show the reason."""
 
     changed = Signal()
 
@@ -73,12 +73,12 @@ class FormatChooser(Retranslated, QWidget):
 
     @property
     def stage(self) -> bool:
-        """True if everyone is also written into one file; it is off where no ticked kind of file can hold it."""
+        """True if the whole stage is also written to one file; False if no chosen format supports this."""
         return self._stage.isChecked() and self._stage.isEnabledTo(self)
 
     @property
     def motion_only(self) -> bool:
-        """True if meshes are left out; it is off where no ticked kind of file can do without."""
+        """True if meshes are omitted; False if no chosen format supports this."""
         return self._motion_only.isChecked() and self._motion_only.isEnabledTo(self)
 
     def _change(self) -> None:

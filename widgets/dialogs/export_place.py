@@ -1,4 +1,4 @@
-"""Choice between a folder of files and an Unreal project; each keeps the place typed for it."""
+"""Choice between a folder and an Unreal project; each keeps its path."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _DESTINATIONS: tuple[Destination, ...] = ("folder", "unreal")
 
 
 class PlaceChooser(Retranslated, QWidget):
-    """A choice of destination, and the path of the folder or of the project's file.
+    """Choice of destination with the path of the folder or project file.
 
     Parameters
     ----------
     folder : Path
     unreal : Path or None
-        None: there was no project yet.
+        Last Unreal project; None if there was none.
     destination : str
         ``"folder"`` or ``"unreal"``.
     parent : QWidget, optional
@@ -62,7 +62,7 @@ class PlaceChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """Say what is missing; empty if nothing is."""
+        """Return the text of what is missing; empty if nothing."""
         if self._path.path is not None:
             return ""
         if self.destination == "unreal":
@@ -91,7 +91,7 @@ class PlaceChooser(Retranslated, QWidget):
             self._path.set_path(chosen)
 
     def retranslate(self) -> None:
-        """Say what the path is of."""
+        """Set the texts by the kind of destination."""
         unreal = self.destination == "unreal"
         self._path.setPlaceholderText(
             self.tr("place_chooser.uproject_file") if unreal else self.tr("place_chooser.folder")

@@ -1,4 +1,4 @@
-"""Bars to export or judge: all of them, some, or those of the selection."""
+"""Choice of bars to export or evaluate: all, some, or those of the selection."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from widgets.common.plain import ComboBox, Label
 
 _WHOLE, _BARS, _SELECTION = "whole", "bars", "selection"
 TEXT_MARGIN_PX = 6
-"""Left margin of the text, as in other fields; the style sheet does not reach the text of a spin box."""
+"""Left margin of the text in pixels as in other fields, since the style sheet does not affect spin boxes."""
 
 
 class BeatsBox(QDoubleSpinBox):
@@ -30,19 +30,19 @@ class BeatsBox(QDoubleSpinBox):
 
 
 class RangeChooser(Retranslated, QWidget):
-    """A choice, and the first and the last bar.
+    """A choice, and the first and last bar.
 
     Parameters
     ----------
     session : Session
-        Whose selection may be chosen.
+        Session with the selection.
     score : Score
-        Whose bars they are.
+        Score with the bars.
     parent : QWidget, optional
     prefix : str
-        What the names of its fields begin with.
+        Prefix of the fields' object names.
     otherwise_id : str
-        Id of the text of the choice that names no bars.
+        Text id of the choice without bars.
     """
 
     changed = Signal()
@@ -80,7 +80,7 @@ class RangeChooser(Retranslated, QWidget):
 
     @property
     def bars(self) -> tuple[int, int] | None:
-        """The first and the last bar; None: no bars were named."""
+        """The first and last bar; None if no bars are chosen."""
         if self._choice.currentData() == _WHOLE:
             return None
         span = self._session.selection.span
@@ -90,7 +90,7 @@ class RangeChooser(Retranslated, QWidget):
         return self._first_bar.value(), self._last_bar.value()
 
     def begin_with(self, bars: tuple[int, int] | None) -> None:
-        """Offer bars that were chosen before, as far as the piece has them; None: no bars."""
+        """Set the initial bars, limited to the piece; None for no bars."""
         if bars is None:
             return
         self._choice.setCurrentIndex(self._choice.findData(_BARS))
@@ -99,7 +99,7 @@ class RangeChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """Say why these bars cannot be exported; empty if they can."""
+        """Return why the bars are invalid; empty if they are valid."""
         first, last = self.bars or (0, 0)
         return self.tr("range_chooser.last_bar_comes_before_first") if first > last else ""
 

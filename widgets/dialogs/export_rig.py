@@ -1,4 +1,4 @@
-"""Options of exported skeletons: attachment of instruments, root bone, rest pose, twist bones, eyes."""
+"""Options for exported skeletons: attachment of instruments, root bone, rest pose, twist bones, eyes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Skeleton to export on, the asset it is for, and the differences between the two."""
+"""Choice of the export skeleton and of an asset file, with the differences between the two."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ _CHOICES: Final[dict[SkeletonChoice, str]] = {
 
 
 class SkeletonChooser(Retranslated, QWidget):
-    """A choice of skeleton and an optional file of the asset; says in the background what differs.
+    """Choice of skeleton and optional asset file; compares them in the background.
 
     Parameters
     ----------
     session : Session
     players : callable
-        Those that are to be exported.
+        Function that returns the players to export.
     parent : QWidget, optional
     """
 
@@ -88,7 +88,7 @@ class SkeletonChooser(Retranslated, QWidget):
 
     @property
     def choice(self) -> SkeletonChoice:
-        """The skeleton chosen."""
+        """The chosen skeleton."""
         return CHOICES[self._box.currentIndex()]
 
     def set_destination(self, destination: Destination) -> None:
@@ -102,12 +102,12 @@ class SkeletonChooser(Retranslated, QWidget):
 
     @property
     def asset(self) -> Path | None:
-        """The asset's file; None where none is named."""
+        """Path of the asset file; None if there is none."""
         return self._asset.path
 
     @property
     def problem(self) -> str:
-        """Say why nothing can be written yet; empty if nothing is in the way."""
+        """Return why the export cannot start; empty if it can."""
         if self._comparing:
             return self.tr("skeleton_chooser.skeletons_are_being_compared")
         if self._error is not None:
@@ -119,7 +119,7 @@ class SkeletonChooser(Retranslated, QWidget):
         return ""
 
     def compare(self) -> None:
-        """Compare what is chosen with the asset's file, in the background."""
+        """Compare the skeleton with the asset file in the background."""
         players, choice, asset = self._players(), self.choice, self.asset
         # Typing a path gives many that are none; what was read already is not read again.
         requested = (choice, asset, tuple(player.character_id for player in players))
@@ -157,7 +157,7 @@ class SkeletonChooser(Retranslated, QWidget):
         self.changed.emit()
 
     def _fit(self) -> None:
-        """Keep the layout from squeezing wrapped lines where the window is low."""
+        """Set the height of wrapped lines so that a low window does not squeeze them."""
         self._reported.setMinimumHeight(max(self._reported.heightForWidth(self.width()), 0))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -165,7 +165,7 @@ class SkeletonChooser(Retranslated, QWidget):
         self._fit()
 
     def _differences(self) -> list[str]:
-        """One line per difference; players of the same character differ alike."""
+        """Return a line of text per difference; players with the same character have the same differences."""
         names = {player.id: player.name for player in self._players()}
         said: dict[str, list[str]] = {}
         spoilt = not all(map(_fits, self._checked.values()))
@@ -192,14 +192,14 @@ class SkeletonChooser(Retranslated, QWidget):
 
 
 def _fits(checked: CheckedTarget) -> bool:
-    """True if a player is exported for the asset; one whose animation it would lose or spoil is excluded."""
+    """Return whether a player can be exported for the asset without loss of animation."""
     return not any(difference.severe for difference in checked.differences)
 
 
 def _comparison(
     requested: Requested, players: tuple[Player, ...], choice: SkeletonChoice, asset: Path
 ) -> Callable[[Progress, StopRequested], Found]:
-    """The work of comparing: it knows nothing of the window."""
+    """Return the function that compares, independent of Qt."""
 
     def work(progress: Progress, stop_requested: StopRequested) -> Found:
         try:

@@ -1,4 +1,4 @@
-"""Maps a character's own morphs to the faces that players wear: a list of ARKit's shapes, and what each is made of."""
+"""Page that maps a character's morphs to ARKit's face shapes."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ MOST_FACTOR = 2.0
 
 
 class FaceMapPage(Retranslated, QWidget):
-    """The faces.
+    """List of face shapes with their morphs.
 
     Parameters
     ----------
     morphs : sequence of str
-        The file's own.
+        Morphs of the file.
 
     Signals
     -------
     chosen(str)
         The user looks at a face: an ARKit name.
     changed(str, object, object)
-        A face is made of these morphs (a mapping of factors; None: as found by itself); the token of a gesture.
+        The morphs of a face shape were changed (a mapping of weights; None for automatic); token of the gesture.
     released()
         A gesture is over.
     """
@@ -76,7 +76,7 @@ class FaceMapPage(Retranslated, QWidget):
 
     @property
     def face(self) -> str:
-        """The face that is looked at."""
+        """Name of the selected face shape."""
         return self._face
 
     def choose(self, face: str) -> None:
@@ -84,7 +84,7 @@ class FaceMapPage(Retranslated, QWidget):
         self.list.setCurrentItem(self._items[face])
 
     def show_parts(self, parts: Mapping[str, Mapping[str, float]], own: frozenset[str]) -> None:
-        """Show what the faces are made of, and which of them the user said."""
+        """Show the morphs of the face shapes, and the shapes that the user has changed."""
         self._parts, self._own = {face: dict(made) for face, made in parts.items()}, own
         self._show()
 
@@ -149,7 +149,7 @@ class FaceMapPage(Retranslated, QWidget):
 
 
 class _Part(QWidget):
-    """A morph with its weight in a shape of the face."""
+    """A morph with its weight in a face shape."""
 
     def __init__(self, session: Session, morph: str, remove: Callable[[], object]) -> None:
         super().__init__()
@@ -161,5 +161,5 @@ class _Part(QWidget):
 
 
 def made_of(parts: Mapping[str, float]) -> str:
-    """Write a face as a sum of morphs, on one line."""
+    """Return a face shape as a sum of morphs on one line."""
     return " + ".join(morph if factor == 1.0 else f"{morph} × {factor:g}" for morph, factor in parts.items())

@@ -1,4 +1,4 @@
-"""A table of fingerings while it is edited."""
+"""A fingering table while it is edited."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ class FingeringDraft:
     Attributes
     ----------
     instrument : InstrumentMap
-        As it is in the library.
+        Instrument as in the library.
     base : tuple of Fingering
-        What the map it extends has.
+        Fingerings of the map that it extends.
     states : list of tuple of Fingering
     at : int
-        The state that is shown.
+        Index of the displayed state.
     """
 
     instrument: InstrumentMap
@@ -38,19 +38,19 @@ class FingeringDraft:
 
     @property
     def is_saved(self) -> bool:
-        """True if the library has this table."""
+        """True if the table equals that in the library."""
         return self.table == self.instrument.fingerings
 
     @property
     def problems(self) -> tuple[tuple[str, str], ...]:
-        """Reasons for which the map would be refused."""
+        """Return the reasons why the map would be refused."""
         if self._judged is None or self._judged[0] is not self.table:
             self._judged = (self.table, edit.problems_of(self.instrument, self.table))
         return self._judged[1]
 
 
 def base_of(instrument: InstrumentMap) -> edit.Table:
-    """The fingerings of the map that an instrument extends; of a bundled one its own."""
+    """Return the fingerings of the map that an instrument extends; for a bundled one its own."""
     try:
         return edit.base_table(instrument, library().own.get(instrument.id))
     except AppError:

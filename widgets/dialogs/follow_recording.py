@@ -1,5 +1,6 @@
-"""Choice of what to take from the recording: its beats, and on request its dynamics, from recordings of single players
-too."""
+"""Dialog with the choice of properties to take from the recording: beats, and optionally dynamics, also from recordings
+of single players.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +23,7 @@ _SIZE = QSize(560, 380)
 
 
 class FollowRecordingDialog(Retranslated, QDialog):
-    """Asks what to take; sensible without touching it.
+    """Choice of properties, with useful defaults.
 
     Signals
     -------
@@ -65,7 +66,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._show()
 
     def _rows(self) -> QWidget:
-        """A row for each player: name, file, and buttons to choose one and to do without."""
+        """Return a row for each player: name, file, and buttons to choose and clear it."""
         rows = QWidget()
         layout = QGridLayout(rows)
         layout.setColumnStretch(1, 1)
@@ -89,7 +90,7 @@ class FollowRecordingDialog(Retranslated, QDialog):
         return FollowOptions(notes=self._notes.isChecked(), dynamics=dynamics, stems=stems)
 
     def set_stem(self, player_id: str, path: Path | None) -> None:
-        """A recording of a player alone, or none."""
+        """Set the recording of a single player; None for none."""
         if path is None:
             self._stems.pop(player_id, None)
         else:
@@ -117,6 +118,6 @@ class FollowRecordingDialog(Retranslated, QDialog):
         self._show()
 
     def accept(self) -> None:
-        """Begin to follow."""
+        """Start following the recording."""
         self.requested.emit(self.options)
         super().accept()

@@ -1,4 +1,4 @@
-"""Cells of the table of a MIDI file's tracks: ticks, lists of options, and the instruments of a row."""
+"""Cells of the table of a MIDI file's tracks: check boxes, combo boxes, and the instruments of a row."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from widgets.common.plain import ComboBox, Label
 
 
 class InstrumentCell(QWidget):
-    """The instrument of a row, and of each of its players where several share it.
+    """The instrument of a row, and of each player if several share it.
 
     Attributes
     ----------
     whole : ComboBox
-        For all of them.
+        Combo box for all players.
     boxes : list of ComboBox
-        By voice.
+        Combo boxes by voice.
     """
 
     def __init__(self, whole: ComboBox) -> None:
@@ -32,7 +32,7 @@ class InstrumentCell(QWidget):
         self._column = in_column(whole, of=self, margins=0, spacing=2)
 
     def show_players(self, boxes: Sequence[tuple[str, ComboBox]]) -> None:
-        """Show boxes for further players, with captions, below the row's own box."""
+        """Show boxes for further players with captions below the first one."""
         for row in self._rows:
             self._column.removeWidget(row)
             row.hide()
@@ -49,7 +49,7 @@ class InstrumentCell(QWidget):
 
 
 class Tick(QCheckBox):
-    """A box without a word: all of it can be clicked, not the small square alone."""
+    """A check box without text that can be clicked anywhere."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -60,7 +60,7 @@ class Tick(QCheckBox):
 
 
 def option_box(name: str, options: Iterable[tuple[str, object]], chosen: object) -> ComboBox:
-    """A list of options by their texts; the first where what is chosen is not among them."""
+    """Return a combo box of options, with the first selected if the chosen one is missing."""
     box = named(ComboBox(), name)
     for text, value in options:
         box.addItem(text, value)

@@ -1,6 +1,6 @@
-"""The import of a MIDI file: which of its tracks are played, by how many, on what and as whom.
+"""Import dialog of a MIDI file: the tracks to play, number of players, instruments and characters.
 
-What comes of the choices is worked out in the background: a file can ask for minutes of it.
+Consequences of the choices are computed in the background, since a file may take minutes.
 """
 
 from __future__ import annotations
@@ -51,12 +51,12 @@ _TITLE_PX = 600
 _SLOW_MS = 300
 _OUTFIT_LETTERS = 12
 _BY_PIECE = "\0by_piece"
-"""Option that is no outfit's id."""
+"""Value of the option that leaves the outfits to the piece; no outfit has this id."""
 """After this long the dialog says that it is working."""
 
 
 class _ReadAgain(NamedTuple):
-    """A file with its texts in another encoding, and what comes of the choices made for it."""
+    """A file read with another text encoding, and the consequences of the choices for it."""
 
     encoding: str | None
     contents: PieceContents
@@ -66,16 +66,16 @@ class _ReadAgain(NamedTuple):
 
 
 class ImportDialog(Retranslated, QDialog):
-    """Asks how a MIDI file becomes players; sensible without touching it.
+    """Choice of players for a MIDI file, with useful defaults.
 
     Parameters
     ----------
     maps : mapping of str to InstrumentMap
-        Every installed instrument by id.
+        All installed instruments by id.
     tasks : Tasks
-        Where what comes of the choices is worked out.
+        Background tasks for computing the consequences.
     read_again : callable, optional
-        Reads the file with its texts in another encoding; without it none can be chosen.
+        Function that reads the file with another encoding; without it the encoding cannot be chosen.
     """
 
     def __init__(
@@ -147,18 +147,18 @@ class ImportDialog(Retranslated, QDialog):
 
     @property
     def rows(self) -> tuple[ImportRow, ...]:
-        """The rows as they stand; empty until the file has been read."""
+        """The rows; empty until the file has been read."""
         return self._table.rows
 
     @property
     def assignment(self) -> ImportRequest:
-        """Rows, whether a dancer comes with them, the encoding of the file's texts, and what everyone wears."""
+        """The result: rows, whether to add a dancer, encoding, and outfit of all players."""
         table, chosen = self._table, self._outfit.shown
         outfit = None if chosen == _BY_PIECE else chosen
         return ImportRequest(table.rows, self._dancer.isChecked(), table.contents, self._encoding, outfit)
 
     def merge_selected(self) -> None:
-        """Make one part of the selected tracks."""
+        """Merge the selected tracks into one part."""
         places = self._table.selected()
         if len(places) > 1:
             self._table.rows = merged(self._table.rows, places)
@@ -167,7 +167,7 @@ class ImportDialog(Retranslated, QDialog):
             self._work_out(self._table.rows)
 
     def separate_selected(self) -> None:
-        """Take the selected part apart into its tracks."""
+        """Split the selected part into its tracks."""
         for place in reversed(self._table.selected()):
             if len(self._table.rows[place].assignment.channels) > 1:
                 self._table.rows = separated(self._table.rows, place)
@@ -233,7 +233,7 @@ class ImportDialog(Retranslated, QDialog):
         self.retranslate()
 
     def _work_out(self, rows: tuple[ImportRow, ...] | None) -> None:
-        """Find out what comes of these rows, or of the usual ones."""
+        """Compute the consequences of rows, or of the default ones."""
         contents, maps, before, closing = self._table.contents, self._maps, self._table.outcome, self._closing
 
         def work(progress: Progress, stop_requested: StopRequested) -> tuple[tuple[ImportRow, ...], ImportPreview]:
@@ -272,7 +272,7 @@ class ImportDialog(Retranslated, QDialog):
         self._separate.setEnabled(any(len(self._table.rows[place].assignment.channels) > 1 for place in places))
 
     def _show_outcome(self) -> None:
-        """Say what will come of it: the reader's warnings where nothing was changed, the players in any case."""
+        """Show the consequences: the players, and the reader's warnings if nothing was changed."""
         outcome = self._table.outcome
         asking = [row for row in self._table.rows if row.requested and self._table.asks(row)]
         self._buttons.ok.setEnabled(outcome is not None and not asking)
@@ -298,7 +298,7 @@ class ImportDialog(Retranslated, QDialog):
         self._warnings.setVisible(self._warnings.count() > 0)
 
     def _unplayed(self, part: UnplayedPart) -> str:
-        """Say why a part is not played, and that it is for dancers where it is."""
+        """Return why a part is not played, or that it is for dancers."""
         reason = message_text(part.reason)
         if part.is_of_played_part:
             return self.tr("import_dialog.excluded_part").format(name=part.name, reason=reason)

@@ -1,4 +1,4 @@
-"""The table of a MIDI file's tracks: which are played, by how many, on what and as whom."""
+"""Table of a MIDI file's tracks with the choices for each."""
 
 from __future__ import annotations
 
@@ -49,24 +49,24 @@ _COLUMNS: Final = tuple(
 _TAKES: Final[Mapping[TakeReason, str]] = {
     reason: f"import_dialog.take_{reason}" for reason in get_args(TakeReason) if reason
 }
-"""Text ids of the reasons for which a track looks like a take; each says what cleaning it does."""
+"""Text ids of the reasons why a track looks like a take; each mentions the cleaning."""
 _INSTRUMENT_LETTERS = 31
 """Width of the column of instruments: the longest names would leave the notes no room."""
 _ROWS_AT_ONCE, _ROWS_LATER = 14, 4
-"""Rows that are made before anything is shown, and of the others in each turn of the event loop."""
+"""Number of rows made before the first display, and in each later turn of the event loop."""
 
 
 class ImportTable(Retranslated, QTableWidget):
-    """A row for every track, or for tracks that are one part, with its choices.
+    """A row with choices for every track or part of several tracks.
 
     Attributes
     ----------
     contents : PieceContents
         The file.
     rows : tuple of ImportRow
-        What is requested so far.
+        Rows in their present state.
     outcome : ImportPreview or None
-        Of the newest rows for which it is known.
+        Consequences of the latest rows for which they are known.
 
     Signals
     -------
@@ -99,7 +99,7 @@ class ImportTable(Retranslated, QTableWidget):
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
     def read(self, contents: PieceContents) -> None:
-        """Take a file, and find its channels that are percussion, or sound effects, if no one says otherwise."""
+        """Read a file, and find its channels with percussion or sound effects by default."""
         self.contents = contents
         self.end_tick = max((max(channel.end_ticks) for channel in contents.channels), default=1)
         uses = [use_of(channel) for channel in contents.channels]
@@ -108,7 +108,7 @@ class ImportTable(Retranslated, QTableWidget):
         )
 
     def fill(self) -> None:
-        """Show the rows, whatever was there before."""
+        """Show the rows anew."""
         self.setRowCount(0)
         self.setRowCount(len(self.rows))
         self._filled = 0
@@ -119,7 +119,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._fill_more(_ROWS_AT_ONCE)
 
     def show_outcome(self, outcome: ImportPreview) -> None:
-        """Show what the rows are played on."""
+        """Show the instruments of the rows."""
         self.outcome = outcome
         for place in range(self._filled):
             self._show_instruments(place)
@@ -128,7 +128,7 @@ class ImportTable(Retranslated, QTableWidget):
         return sorted({index.row() for index in self.selectionModel().selectedRows()})
 
     def asks(self, row: ImportRow) -> bool:
-        """True if nothing says what plays a row."""
+        """Return whether the instrument of a row is unknown."""
         return self.outcome is not None and row.assignment.map_id is None and not self._played_on(row.assignment)
 
     def is_percussion(self, row: ImportRow) -> bool:
@@ -140,7 +140,7 @@ class ImportTable(Retranslated, QTableWidget):
         return " + ".join(name if count == 1 else f"{name} ×{count}" for name, count in names.items())
 
     def _fill_more(self, count: int) -> None:
-        """Make the widgets of some more rows, and of the others when the window has time."""
+        """Make the widgets of some more rows, and of the others later."""
         end = min(self._filled + count, len(self.rows))
         for place in range(self._filled, end):
             self._fill_row(place, self.rows[place])
@@ -215,7 +215,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._show_instruments(place)
 
     def _take_reason(self, row: ImportRow) -> TakeReason:
-        """The reason for which a row's tracks look like takes; empty if one of them does not."""
+        """Return why a row's tracks look like takes; empty if one of them does not."""
         own = (self.contents.channels[channel] for channel in row.assignment.channels)
         reasons = [take_reason(channel, self.contents.tempo_map) for channel in own]
         return reasons[0] if all(reasons) else ""
@@ -223,21 +223,23 @@ class ImportTable(Retranslated, QTableWidget):
     def _choice(
         self, place: int, column: int, name: str, options: Iterable[tuple[str, object]], chosen: object
     ) -> ComboBox:
-        """A cell with options by their texts; the first where what is chosen is not among them."""
+        """Return a cell with options, with the first selected if the chosen one is missing."""
         box = option_box(f"{name}_{place}", options, chosen)
         self.setCellWidget(place, column, box)
         return box
 
     def _played_on(self, assignment: PartAssignment) -> list[InstrumentMap]:
-        """Instruments that would play a row, if it were imported; empty while that is not known."""
+        """Return the instruments that would play a row; empty while unknown."""
         return [] if self.outcome is None else [self._maps[id_] for id_ in self.outcome.instruments_of(assignment)]
 
     def _can_choose(self, row: ImportRow) -> bool:
-        """Return whether a row that is not requested has an instrument to choose."""
+        """Return whether a row that is not played has an instrument to choose."""
         return row.assignment.map_id == PERCUSSION or self.asks(row)
 
     def _show_instruments(self, place: int) -> None:
-        """Say which instruments a row's names, programs and ranges choose, and whether its pitches can be written."""
+        """Show the instruments chosen by a row's name, program and range, and whether its pitches can be written
+        ones.
+        """
         row = self.rows[place]
         cell, pitches = self.cellWidget(place, _INSTRUMENT), self.cellWidget(place, _PITCHES)
         assert isinstance(cell, InstrumentCell)
@@ -265,7 +267,7 @@ class ImportTable(Retranslated, QTableWidget):
         pitches.setEnabled(row.requested and transposes)
 
     def _show_players(self, place: int, cell: InstrumentCell) -> None:
-        """Offer an instrument for each of the players who share a row."""
+        """Show a choice of instrument for each player of a row."""
         row = self.rows[place]
         assignment = row.assignment
         players = len(self._played_on(assignment)) if row.requested else 0
@@ -310,7 +312,7 @@ class ImportTable(Retranslated, QTableWidget):
         return ""
 
     def _choose(self, place: int, map_id: str | None) -> None:
-        """Take an instrument for a row; one that was asked for is what lets it be played. No one plays percussion."""
+        """Set the instrument of a row, which plays the row if it had none; percussion is not played."""
         row = self.rows[place]
         asked, was_percussion = self.asks(row), row.assignment.map_id == PERCUSSION
         self._assignment(place, map_id=map_id)
@@ -324,7 +326,7 @@ class ImportTable(Retranslated, QTableWidget):
             box.setChecked(True)
 
     def _request(self, place: int, requested: bool) -> None:
-        """Have a row played, or not; what is percussion by choice is no longer."""
+        """Set whether a row is played; playing it undoes a choice of percussion."""
         self._set(place, requested=requested)
         cell = self.cellWidget(place, _INSTRUMENT)
         if requested and self.rows[place].assignment.map_id == PERCUSSION and isinstance(cell, InstrumentCell):

@@ -1,6 +1,6 @@
-"""The instruments and their fingerings: a table that can be edited next to the drawn fingering.
+"""Dialog with the instruments and their fingerings: an editable table beside the diagram.
 
-The bundled maps stay unchanged: a change makes a map of the user's own that extends one.
+Bundled maps stay unchanged: a change creates a map of the user's that extends one.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from widgets.dialogs.fingering_draft import FingeringDraft, base_of
 
 WRITTEN, SOUNDS, RANK, LABEL, CENTS, TAGS = range(6)
 MOST_WRONG = 6
-"""Most problems of files that are reported together."""
+"""Greatest number of faulty files reported together."""
 _PLACE = Qt.ItemDataRole.UserRole
 _SIZE = QSize(1180, 740)
 
@@ -189,7 +189,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         return self._drafts[id]
 
     def _library_changed(self) -> None:
-        """Files changed: what is not edited here is read again, what is edited stays."""
+        """Read changed files again, except for a table that is being edited."""
         now, shown = library(), self.draft
         for id, draft in list(self._drafts.items()):
             instrument = now.maps.get(id)
@@ -219,8 +219,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._show_state()
 
     def _show_wrong(self) -> None:
-        """Show why files of the user's own cannot be used, apart from the list, in which such a file may have no
-        row."""
+        """Show why files of the user's cannot be used, apart from the list, in which they may lack a row."""
         reported = [problem for problems in library().problems.values() for problem in problems]
         lines = [self.tr("instruments_dialog.files_with_errors")]
         lines += [message_text(problem, self._session) for problem in reported[:MOST_WRONG]]
@@ -371,7 +370,7 @@ class InstrumentsDialog(Retranslated, QDialog):
     # Editing
 
     def _do(self, change: Callable[[FingeringDraft], edit.Table], chosen: tuple[int, int] | None = None) -> bool:
-        """Change the table by one step; what cannot be is reported beside it."""
+        """Apply a change to the table as one step; report an invalid one beside it."""
         draft = self.draft
         if draft is None:
             return False
@@ -401,7 +400,7 @@ class InstrumentsDialog(Retranslated, QDialog):
             self._do(lambda draft: edit.with_tags(draft.table, written, rank, tags_of_text(text)))
 
     def _number(self, text: str) -> float:
-        """Raises UsageError for what is no number."""
+        """Return the number in a text. Raises UsageError if it is invalid."""
         return edit.read_cents(text)
 
     def _move(self, by: int) -> None:
@@ -411,7 +410,7 @@ class InstrumentsDialog(Retranslated, QDialog):
             self._do(lambda draft: edit.moved(draft.table, written, rank, by), (written, rank + by))
 
     def _add(self) -> None:
-        """One more alternate, of which the label is to be typed: it begins as the first fingering the note has not."""
+        """Add an alternate fingering, starting with the first one that the note lacks, and edit its label."""
         one, draft = self._fingering(), self.draft
         if one is None or draft is None:
             return
@@ -442,7 +441,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         self._do(lambda draft: draft.base)
 
     def _toggle(self, name: str) -> None:
-        """A key was clicked in the drawing: up, down, and half down where it may be."""
+        """Change a key clicked in the diagram: up, down, or half down if possible."""
         draft, one = self.draft, self._fingering()
         if draft is None or one is None:
             return
@@ -460,7 +459,7 @@ class InstrumentsDialog(Retranslated, QDialog):
     # Files
 
     def save(self) -> bool:
-        """Write the shown instrument's table as the user's own; whether it was done, or there was nothing to do."""
+        """Save the displayed instrument's table as the user's own, and return whether it is saved."""
         draft = self.draft
         if draft is None or draft.is_saved:
             return True
@@ -494,7 +493,7 @@ class InstrumentsDialog(Retranslated, QDialog):
         return _SIZE
 
     def reject(self) -> None:
-        """Escape asks as closing does."""
+        """Handle Escape like closing."""
         self.close()
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -533,7 +532,7 @@ class InstrumentsDialog(Retranslated, QDialog):
 
 
 class _Completing(QStyledItemDelegate):
-    """Completes what is typed to what the instrument's other fingerings say."""
+    """Completes typed text from the instrument's other fingerings."""
 
     def __init__(self, choices: Callable[[int], list[str]], parent: QWidget) -> None:
         super().__init__(parent)
@@ -552,7 +551,7 @@ class _Completing(QStyledItemDelegate):
 
 
 def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
-    """The place of a problem as the user knows it: the note instead of the row's number."""
+    """Return the place of a problem by note instead of row number."""
     head, bracket, rest = path.partition("[")
     row, _, key = rest.partition("]")
     if head == "fingerings" and bracket and row.isdigit() and int(row) < len(table):
@@ -562,7 +561,7 @@ def _named(path: str, table: edit.Table, name: Callable[[int], str]) -> str:
 
 
 def _split(left: QWidget, right: QWidget, sizes_px: tuple[int, int], stretches: int) -> QSplitter:
-    """Two widgets side by side, of which one takes the room that is left over."""
+    """Return two widgets side by side, one of which takes the remaining width."""
     splitter = QSplitter()
     splitter.addWidget(left)
     splitter.addWidget(right)

@@ -3,10 +3,11 @@
 Vertices stay in the file's rest pose, which is the bind pose of the character; the skeleton's rest pose is the T-pose.
 A joint missing in the file is added in a way that allows exact transfer of the motion to the file's bones:
 
-- between two bones, it coincides with the upper one (a neck with the head, a shoulder with the arm); - in the trunk,
-the highest joint without a bone takes the bone below, since shoulders and neck depend on it, and joints between
-coincide with it too; - at the end of a chain (fingers of a mitten, toes, eyes) it is placed by the proportions of
-bundled bodies and moves nothing.
+- between two bones, it coincides with the upper one (a neck with the head, a shoulder with the arm);
+- in the trunk, the highest joint without a bone takes the bone below, since shoulders and neck depend on it, and
+  joints between coincide with it too;
+- at the end of a chain (fingers of a mitten, toes, eyes) it is placed by the proportions of bundled bodies and moves
+  nothing.
 """
 
 from __future__ import annotations

@@ -4,11 +4,12 @@ A `GripPose` is fitted once per character and instrument (`app.rig.grip.fitting.
 all frames at once:
 
 1. ``Lips.contact_m`` gives the lips in the head's frame; with the head's transform and the requested rotation of the
-instrument this gives ``world_from_instrument``. 2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand on a
-moving node moves with it). 3. `app.rig.ik.solve_limb` converts a shoulder and a target to rotations of upper arm, lower
-arm and hand; ``HandHold.elbow_direction`` is the comfortable pole. 4. `app.rig.grip.finger_poses.finger_rotations`
-interpolates the fingers in tables over the values of the controls, one for every station
-(`app.rig.grip.finger_stations`) of a finger.
+   instrument this gives ``world_from_instrument``.
+2. `hand_targets` gives ``world_from_hand`` of both wrists (a hand on a moving node moves with it).
+3. `app.rig.ik.solve_limb` converts a shoulder and a target to rotations of upper arm, lower arm and hand;
+   ``HandHold.elbow_direction`` is the comfortable pole.
+4. `app.rig.grip.finger_poses.finger_rotations` interpolates the fingers in tables over the values of the controls, one
+   for every station (`app.rig.grip.finger_stations`) of a finger.
 """
 
 from __future__ import annotations

@@ -64,8 +64,12 @@ class Spotlight(QWidget):
 class Bubble(Retranslated, QFrame):
     """A bubble with the task and number of a stop and buttons for next, back and close.
 
-    Signals ------- back_requested(), next_requested(), closed() The button of that name was pressed. left() Escape was
-    pressed, which gives up the keyboard focus.
+    Signals
+    -------
+    back_requested(), next_requested(), closed()
+        The button of that name was pressed.
+    left()
+        Escape was pressed, which gives up the keyboard focus.
     """
 
     back_requested = Signal()

@@ -43,7 +43,10 @@ ABOVE_PX: Final = 6
 class GuidePage(QTextBrowser):
     """A text browser for one guide with its pictures.
 
-    Signals ------- followed(QUrl) A link of the guide was clicked; its address is unchanged.
+    Signals
+    -------
+    followed(QUrl)
+        A link of the guide was clicked; its address is unchanged.
     """
 
     followed = Signal(QUrl)

@@ -1,1 +1,1 @@
-"""Dances as they are drawn in several panels."""
+"""Drawing of dances, shared by several panels."""

@@ -1,4 +1,4 @@
-"""Dancers as little figures of lines: in the timeline, in menus and in the view of a choreography."""
+"""Dancers as stick figures, for the timeline, menus and the dialog about a choreography."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ICON_PX = 40
 
 
 def draw_figures(painter: QPainter, points: FloatArray, colour: QColor, width_px: float, height_px: float) -> None:
-    """Draw figures (N, 21, 2) in pixels, with lines so wide; ``height_px`` is what they were `placed` with."""
+    """Draw figures (N, 21, 2) in pixels with lines of a width; ``height_px`` is the height given to `placed`."""
     from app.choreography.performed.dance_steps import BONES, HEAD
 
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
@@ -43,7 +43,7 @@ def placed(drawn: FloatArray, middles_px: FloatArray, floor_px: float, height_px
 
 
 def figure_icon(drawn: FloatArray, colour: QColor, ratio: float) -> QIcon:
-    """One figure (21, 2) as the picture of a menu's entry."""
+    """Return a figure (21, 2) as the icon of a menu entry."""
     picture = QPixmap(QSize(ICON_PX, ICON_PX) * ratio)
     picture.setDevicePixelRatio(ratio)
     picture.fill(Qt.GlobalColor.transparent)

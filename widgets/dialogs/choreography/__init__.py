@@ -1,1 +1,1 @@
-"""Dialogs of choreographies: what one has learned, and how one is learned."""
+"""Dialogs of choreographies: their learned contents, and learning."""

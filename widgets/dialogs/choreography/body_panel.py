@@ -1,4 +1,4 @@
-"""The body that was read from a pair's motion beside the file's own skeleton, and its bones corrected by hand."""
+"""The body read from a motion file beside the file's own skeleton, with correction of bones."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ _PICTURE_PX: Final = 136
 
 
 def t_pose_of(clip: MotionClip) -> MotionClip:
-    """One frame: the body in the T-pose."""
+    """Return a single frame with the body in T-pose."""
     still = np.tile(quaternion.IDENTITY, (1, len(SEGMENTS), 1))
     return MotionClip(clip.shape, clip.fps, clip.shape.offsets_m[:1], still)
 
 
 class BodyPanel(Retranslated, QWidget):
-    """Three pictures, the joints and the bones of the file.
+    """Three pictures, and lists of the joints and of the file's bones.
 
     Signals
     -------
@@ -110,7 +110,7 @@ class BodyPanel(Retranslated, QWidget):
 
     @property
     def joint(self) -> str:
-        """The chosen joint."""
+        """Name of the selected joint."""
         return self._joint
 
     @property
@@ -120,24 +120,24 @@ class BodyPanel(Retranslated, QWidget):
 
     @property
     def bones(self) -> BoneTree | None:
-        """Bones of the file; None before one is read."""
+        """Tree of the file's bones; None before a file is read."""
         return self._bones
 
     def choose(self, joint: str) -> None:
-        """Mark a joint, its bone in the tree and in the picture of the file."""
+        """Select a joint, and its bone in the tree and the picture."""
         self._joint = joint
         self.body.choose(joint)
         self.rows.setCurrentItem(self._items[joint])
         self._show_choice()
 
     def undo(self) -> None:
-        """Take the last correction back."""
+        """Undo the last correction."""
         if self._history.can_undo and self.isEnabled():
             self._history.undo()
             self.changed.emit()
 
     def redo(self) -> None:
-        """Make the change again that was undone last."""
+        """Redo the last undone correction."""
         if self._history.can_redo and self.isEnabled():
             self._history.redo()
             self.changed.emit()
@@ -163,7 +163,7 @@ class BodyPanel(Retranslated, QWidget):
     # Showing
 
     def show_pair(self, found: PairContents, history: DraftHistory) -> None:
-        """Show the body of a pair, with these corrections."""
+        """Show the body of a pair with corrections."""
         before = self._skeleton
         self._found, self._history, self._skeleton = found, history, found.skeleton
         skeleton = found.skeleton
@@ -241,7 +241,7 @@ class BodyPanel(Retranslated, QWidget):
         self.raw.show_skeleton(None if skeleton is None else skeleton_pose(skeleton, self._mapping, motion, bone))
 
     def _joint_text(self, joint: str) -> str:
-        """A joint, its bone and how sure that is, in words."""
+        """Return a joint, its bone and the bone's reliability as text."""
         bone, skeleton = self._mapping.bones.get(joint), self._skeleton
         words = {
             "mapped": self.tr("character_dialog.text"),

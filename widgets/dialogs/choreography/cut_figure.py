@@ -1,4 +1,4 @@
-"""The pose at a frame of a motion as a stick figure, and the skeleton of its file, as seen from the front."""
+"""Front view of the pose at a frame of a motion as a stick figure, and of the skeleton of its file."""
 
 from __future__ import annotations
 
@@ -24,12 +24,14 @@ from widgets.common.choreography.figures import HIGHEST, draw_figures, placed
 _WIDEST = 1.15
 """Width in parts of the body's height, with the arms to the sides, to the fingertips."""
 _LEAST_WIDTH, _LEAST_HEIGHT = 0.5, 1.1
-"""Room of a pose that the picture is fitted to, with that for a head beyond its joints."""
+"""Least width and height of a fitted pose, relative to the body's height, with room for the head above its joints."""
 _PEN_PX = 2.5
 
 
 def pose_of(clip: MotionClip, frame: int) -> FloatArray:
-    """(21, 2) the body at a frame from the front: X to the right and Y up from the floor, in parts of its height."""
+    """Return the front view (21, 2) of the body at a frame: X to the right, Y up from the floor, relative to the
+    height.
+    """
     poses = features(clip.span(frame, frame + 1), [Cut(0, 0, 0)])
     pose: FloatArray = poses.reshape(POSES, len(SEGMENTS) + len(ENDS), 3)[0, :, :2]
     return pose
@@ -41,9 +43,9 @@ class PoseFigure(QWidget):
     Parameters
     ----------
     session : Session
-        For its colours.
+        Session with the theme's colours.
     is_fitted : bool
-        True if the picture is as large as the pose that it shows; else as one that has room for all.
+        Whether the pose is scaled to fill the picture; else the scale is the same for all poses.
     """
 
     def __init__(self, session: Session, is_fitted: bool = False, parent: QWidget | None = None) -> None:
@@ -56,7 +58,7 @@ class PoseFigure(QWidget):
 
     @property
     def pose(self) -> FloatArray | None:
-        """(21, 2) what is drawn, see `pose_of`; None: nothing."""
+        """Points (21, 2) of the pose, see `pose_of`; None for no pose."""
         return self._pose
 
     def show_pose(self, pose: FloatArray | None) -> None:
@@ -74,7 +76,7 @@ class PoseFigure(QWidget):
         return height_px, 0.5 * (self.height() + height_px * high / HIGHEST) - 4.0
 
     def _points(self) -> FloatArray:
-        """(N, 2) what is drawn."""
+        """Return the drawn points (N, 2)."""
         return np.zeros((0, 2)) if self._pose is None else self._pose
 
     # Qt's own names
@@ -97,7 +99,7 @@ class PoseFigure(QWidget):
 
 @dataclass(frozen=True, eq=False)
 class SkeletonPose:
-    """A file's skeleton as seen from the front: X to the right, Y up from its lowest point, in parts of the height.
+    """Front view of a file's skeleton: X to the right, Y up from its lowest point, relative to the height.
 
     Attributes
     ----------
@@ -113,7 +115,7 @@ class SkeletonPose:
 def skeleton_pose(
     skeleton: RawSkeleton, mapping: JointMapping, motion: ReadMotion | None, bone: int | None
 ) -> SkeletonPose:
-    """The skeleton as the read motion faces in its first frame, or as its hip joints do; ``bone`` is marked."""
+    """Return the skeleton facing as in the first frame of the motion, or as its hip joints; ``bone`` is marked."""
     across = np.zeros(3)
     if {"leftUpperLeg", "rightUpperLeg"} <= mapping.bones.keys():
         left, right = (skeleton.places[mapping.bones[f"{side}UpperLeg"]] for side in ("left", "right"))
@@ -141,7 +143,7 @@ class SkeletonFigure(PoseFigure):
 
     @property
     def skeleton(self) -> SkeletonPose | None:
-        """The skeleton that is drawn."""
+        """The drawn skeleton."""
         return self._skeleton
 
     def show_skeleton(self, skeleton: SkeletonPose | None) -> None:

@@ -1,4 +1,4 @@
-"""Sets the cuts of a pair's motion, by hand, over a plot of its acceleration."""
+"""Panel for setting the cuts of a motion over a plot of its acceleration."""
 
 from __future__ import annotations
 
@@ -26,34 +26,34 @@ _EMPTY = np.zeros(0), Fraction(60), 0.0, np.zeros(0)
 
 @dataclass(eq=False)
 class CutHistory:
-    """Cuts that were set before and after those of a pair; None stands for found cuts."""
+    """Undo history of a pair's cuts; None stands for automatic cuts."""
 
     done: list[Cuts | None] = field(default_factory=list)
     undone: list[Cuts | None] = field(default_factory=list)
     token: object = None
 
     def push(self, before: Cuts | None, token: object) -> None:
-        """Cuts are replaced; those of one gesture as one step."""
+        """Add a change of cuts; changes of one gesture are a single step."""
         if token is None or token is not self.token:
             self.done.append(before)
         self.undone.clear()
         self.token = token
 
     def undo(self, now: Cuts | None) -> Cuts | None:
-        """Return to the cuts before the last change; there must be one."""
+        """Return the cuts before the last change, which must exist."""
         self.undone.append(now)
         self.token = None
         return self.done.pop()
 
     def redo(self, now: Cuts | None) -> Cuts | None:
-        """Return to the cuts that were undone last; there must be some."""
+        """Return the last undone cuts, which must exist."""
         self.done.append(now)
         self.token = None
         return self.undone.pop()
 
 
 class CutPanel(Retranslated, QWidget):
-    """The plot, the figure and the tools.
+    """Plot, figure and tools.
 
     Signals
     -------
@@ -126,12 +126,12 @@ class CutPanel(Retranslated, QWidget):
         self._show_tools()
 
     def undo(self) -> None:
-        """Undo the last change of this pair's cuts."""
+        """Undo the last change of the pair's cuts."""
         if self._history.done and self.plot.isEnabled():
             self.changed.emit(self._history.undo(self._draft.cuts))
 
     def redo(self) -> None:
-        """Redo what was undone last."""
+        """Redo the last undone change."""
         if self._history.undone and self.plot.isEnabled():
             self.changed.emit(self._history.redo(self._draft.cuts))
 

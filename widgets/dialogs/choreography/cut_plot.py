@@ -1,7 +1,7 @@
-"""The angular acceleration of a motion over time, with its cuts, to be moved, added and deleted.
+"""Plot of a motion's angular acceleration over time, with cuts to move, add and delete.
 
-The mouse is read here and not by pyqtgraph, so that it does what it does in the timeline: the wheel scrolls and
-zooms with Ctrl, the middle button pans.
+Mouse events are handled here and not by pyqtgraph, to agree with the timeline: the wheel scrolls, and zooms with Ctrl;
+the middle button pans.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _LEFT, _MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
 
 @dataclass(frozen=True)
 class CutLine:
-    """A line of the plot: a bound, or the accent of a motion, by its place in their order."""
+    """A line of the plot by its index: a bound or an accent of a motion."""
 
     kind: Kind
     number: int
@@ -58,7 +58,7 @@ class CutLine:
 
 @dataclass(frozen=True, eq=False)
 class _Drag:
-    """Drag of a line of these cuts, or of the view where the line is None."""
+    """Drag of a line, or of the view if the line is None."""
 
     line: CutLine | None
     cuts: Cuts
@@ -67,7 +67,7 @@ class _Drag:
 
 
 class CutPlot(QWidget):
-    """The curve, the cuts and the music of one motion.
+    """Plot of a motion's acceleration with cuts and music.
 
     Signals
     -------
@@ -81,7 +81,7 @@ class CutPlot(QWidget):
     Parameters
     ----------
     session : Session
-        For its colours.
+        Session with the theme's colours.
     """
 
     edited = Signal(object, object)
@@ -145,27 +145,27 @@ class CutPlot(QWidget):
 
     @property
     def cuts(self) -> Cuts:
-        """The cuts that are shown."""
+        """The displayed cuts."""
         return self._cuts
 
     @property
     def unfit(self) -> tuple[tuple[int, int], ...]:
-        """Spans of frames that are shaded as not danced."""
+        """Shaded spans of frames that are not learned from."""
         return self._unfit_spans
 
     @property
     def selected(self) -> CutLine | None:
-        """The line that keys move."""
+        """The selected line, which keys move."""
         return self._selected
 
     def show_motion(self, curve_rad_s2: FloatArray, fps: Fraction, start_s: float, hits_s: FloatArray) -> None:
-        """Show another motion in full.
+        """Show another motion completely.
 
         Parameters
         ----------
         curve_rad_s2 : (F,) float64
         start_s : float
-            Time of the motion's file at its first frame.
+            Time in seconds of the motion file's first frame.
         hits_s : (H,) float64
             When the music strikes, times of the file.
         """
@@ -182,7 +182,7 @@ class CutPlot(QWidget):
         self.fit()
 
     def show_unfit(self, spans: Sequence[tuple[int, int]]) -> None:
-        """Shade spans of frames from which nothing is learned."""
+        """Shade spans of frames that are not learned from."""
         self._unfit_spans = tuple(spans)
         starts, stops = (self.time_s([span[end] for span in spans]) for end in (0, 1))
         self._unfit.setOpts(x0=starts, x1=stops, height=np.full(len(spans), self._top))
@@ -193,7 +193,7 @@ class CutPlot(QWidget):
         self._items["hits"].setData(*_uprights(hits_s, np.full(len(hits_s), _HITS_PART * self._top)))
 
     def show_playhead(self, time_s: float | None) -> None:
-        """Show where the motion is played; None: nowhere."""
+        """Show the playhead; None to hide it."""
         times_s = np.array([] if time_s is None else [time_s], np.float64)
         self._items["playhead"].setData(*_uprights(times_s, np.full(len(times_s), self._top)))
 
@@ -225,7 +225,7 @@ class CutPlot(QWidget):
         self._look(self._start_s, self._start_s + max(LEAST_SPAN_S, (len(self._curve) - 1) / float(self._fps)))
 
     def zoom(self, factor: float, at_s: float) -> None:
-        """Show this times less of it; a time stays where it is."""
+        """Zoom by a factor around a time in seconds."""
         left, right = self._span_s()
         self._look(at_s + (left - at_s) / factor, at_s + (right - at_s) / factor)
 
@@ -234,7 +234,7 @@ class CutPlot(QWidget):
         return float(left), float(right)
 
     def _look(self, left_s: float, right_s: float) -> None:
-        """Show this, but nothing outside of the motion and not less than `LEAST_SPAN_S`."""
+        """Show a range, limited to the motion and to at least `LEAST_SPAN_S`."""
         first, last = self._start_s, self._start_s + max(LEAST_SPAN_S, (len(self._curve) - 1) / float(self._fps))
         span = min(max(right_s - left_s, LEAST_SPAN_S), last - first)
         middle = (left_s + right_s) / 2.0
@@ -244,7 +244,7 @@ class CutPlot(QWidget):
     # Between frames and pixels
 
     def time_s(self, frames: Any) -> Any:
-        """Convert frames of the motion's file to times in it, seconds."""
+        """Convert frames of the motion file to its times in seconds."""
         return self._start_s + np.asarray(frames, np.float64) / float(self._fps)
 
     def x_px(self, frame: float) -> float:
@@ -261,7 +261,7 @@ class CutPlot(QWidget):
         return self.frame_of(self._time_at(x_px))
 
     def frame_of(self, time_s: float) -> int:
-        """The frame at a time of the file; the first or the last one beyond them."""
+        """Return the frame at a time of the file, limited to the motion."""
         frame = round((time_s - self._start_s) * float(self._fps))
         return min(max(frame, 0), max(len(self._curve) - 1, 0))
 
@@ -313,7 +313,7 @@ class CutPlot(QWidget):
             self._ask(cuts)
 
     def delete(self) -> None:
-        """Delete the selected cut; put a selected accent where the acceleration is greatest."""
+        """Delete the selected cut, or move a selected accent to the greatest acceleration."""
         line = self._selected
         if line is None:
             return
@@ -391,7 +391,7 @@ class CutPlot(QWidget):
             self._look(left + by_s, right + by_s)
 
     def _key(self, event: QKeyEvent) -> bool:
-        """Handle a key of the plot; return False for any other."""
+        """Handle a key; return False if it has no function."""
         key, ctrl = event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
         step = 10 if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1
         middle_s = sum(self._span_s()) / 2.0

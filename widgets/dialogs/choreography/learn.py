@@ -1,4 +1,4 @@
-"""Learn Choreography: pairs of motion and music become a ``.choreography`` file."""
+"""Dialog "Learn Choreography", which learns a ``.choreography`` file from pairs of motion and music."""
 
 from __future__ import annotations
 
@@ -67,9 +67,9 @@ class LearnDialog(WorkingDialog):
     Parameters
     ----------
     folder : Path
-        Where files are looked for, and where the choreography is saved unless the user says otherwise.
+        Initial folder for files, and default folder of the choreography.
     playback : Playback, optional
-        Plays the music of a pair; one on the system's device, if None and the piece can be heard.
+        Player for the music of a pair; if None and sound is available, a new one.
     """
 
     used = Signal(object)
@@ -173,7 +173,7 @@ class LearnDialog(WorkingDialog):
 
     @property
     def _row(self) -> PairRow | None:
-        """The selected pair."""
+        """Return the selected pair."""
         item = self.list.currentItem()
         at = -1 if item is None else self.list.indexOfTopLevelItem(item)
         return self._rows[at] if 0 <= at < len(self._rows) else None
@@ -243,7 +243,7 @@ class LearnDialog(WorkingDialog):
             self._edited()
 
     def _read(self, row: PairRow) -> None:
-        """Read the files of a pair in the background; what was found before is of others."""
+        """Read the files of a pair in the background, discarding earlier results."""
         self._readings += 1
         draft, number = row.draft, self._readings
         row.found, row.reading = PairContents(), 0
@@ -313,7 +313,7 @@ class LearnDialog(WorkingDialog):
         return _with_suffix(path) if path is not None and path.name else None
 
     def _missing(self) -> str:
-        """Say what must be done before anything can be learned; empty if nothing."""
+        """Return the text of what must be done before learning; empty if nothing."""
         nowhere = "" if self._target is not None else self.tr("learn_dialog.choose_where_to_save_choreography")
         return missing_text(self._rows) or nowhere
 
@@ -327,7 +327,7 @@ class LearnDialog(WorkingDialog):
     # Showing
 
     def _edited(self, unknown: tuple[Path, ...] = ()) -> None:
-        """Drop the learned result, which is out of date; `unknown` are added files of unsupported kinds."""
+        """Discard the outdated learned result; `unknown` are added files of unsupported kinds."""
         self._result, self._failure, self._unknown = None, None, unknown
         for row in self._rows:
             row.states = None

@@ -1,4 +1,4 @@
-"""A pair of motion and music as a user fills it in, before anything is learned from it."""
+"""A pair of motion and music as filled in by the user, before learning."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from app.score.suffixes import MUSIC
 
 
 class PairDraft(msgspec.Struct, frozen=True):
-    """Filled-in fields of a pair.
+    """The fields of a pair.
 
     Attributes
     ----------
     motion, music, credits : Path or None
-        None: not chosen; the credits are then those beside the motion, if there are any.
+        Paths, None if not chosen; default credits are those beside the motion.
     offset_s : float or None
-        The music begins at this time of the motion's file; None to find it.
+        Time in seconds of the motion file at which the music begins; None for automatic.
     fps : Fraction or None
-        None: as the motion's file says.
+        Frame rate; None for that of the motion file.
     cuts : tuple of Cut or None
-        Frames of the analysed clip, as the user set them; None: those that were found.
+        Cuts in frames of the analysed clip set by the user; None for automatic.
     joints : mapping of str to str
-        Corrections of the motion's bones by joint; empty: none.
+        Corrected bones by joint; empty for none.
     figure : str
-        Skeleton of the motion's file that is learned from, where it has several; empty: the first.
+        Skeleton to learn from in a file with several; empty for the first.
     """
 
     motion: Path | None = None
@@ -47,12 +47,12 @@ class PairDraft(msgspec.Struct, frozen=True):
 
     @property
     def files(self) -> tuple[Path | None, Path | None, Path | None, Fraction | None, Mapping[str, str], str]:
-        """The fields that make the files be read again when they change."""
+        """Return the fields whose change requires reading the files again."""
         return self.motion, self.music, self.credits, self.fps, self.joints, self.figure
 
 
 class PairContents(msgspec.Struct, frozen=True):
-    """Contents of a pair's files, or the error of reading them; the motion's skeleton is known with some errors too."""
+    """Contents of a pair's files, or the error; the motion's skeleton is available with some errors too."""
 
     read: ReadPair | None = None
     analysis: Analysis | None = None
@@ -61,7 +61,9 @@ class PairContents(msgspec.Struct, frozen=True):
 
 
 def offset_s_of(draft: PairDraft, found: PairContents) -> float:
-    """Time of the motion's file at which the music begins: as it is set, else as it was found; 0 before that."""
+    """Return the time in seconds of the motion file at which the music begins: the user's, else the automatic one, else
+    0.
+    """
     if draft.offset_s is not None:
         return draft.offset_s
     if found.read is None or found.analysis is None:
@@ -70,8 +72,9 @@ def offset_s_of(draft: PairDraft, found: PairContents) -> float:
 
 
 def offset_range_s(found: PairContents) -> tuple[float, float] | None:
-    """The least and the greatest offset with which some of the percussion sounds during the motion; None before the
-    files are read."""
+    """Return the least and greatest offset in seconds with which percussion sounds during the motion; None before the
+    files are read.
+    """
     if found.read is None or found.analysis is None:
         return None
     start_s, hits_s = found.read.motion.start_s, found.read.pair.rhythm.hits_s
@@ -79,16 +82,16 @@ def offset_range_s(found: PairContents) -> tuple[float, float] | None:
 
 
 def is_offset_outside(draft: PairDraft, found: PairContents) -> bool:
-    """Return whether the offset that is set leaves the motion without music, as after a change of its file."""
+    """Return whether the user's offset leaves the motion without music, as after another file was chosen."""
     bounds = offset_range_s(found)
     return bounds is not None and draft.offset_s is not None and not bounds[0] <= draft.offset_s <= bounds[1]
 
 
 def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tuple[PairDraft, ...], tuple[Path, ...]]:
-    """Pairs to which files are added, and files that are none of the kinds.
+    """Return the pairs after adding files, and the files of unsupported kinds.
 
-    A motion or a piece goes to the first pair that lacks it and whose other file has its name, else to the first pair
-    that lacks it, else to a new pair; credits go to the pair whose motion has their name, else to the last one.
+    A motion or piece is added to the first pair that lacks it and whose other file has the same name, else to the first
+    pair that lacks it, else to a new pair; credits to the pair whose motion has the same name, else to the last one.
     """
     kinds = [path.suffix.lower() for path in paths]
     result = list(drafts)
@@ -108,7 +111,9 @@ def with_files(drafts: Sequence[PairDraft], paths: Sequence[Path]) -> tuple[tupl
 
 
 def _lacking(drafts: Sequence[PairDraft], field: str, other: str = "", path: Path = Path()) -> list[int]:
-    """Pairs that lack a file; with another field, those whose file there has the path's name."""
+    """Return the indices of pairs that lack a file; with another field, only those whose file there has the path's
+    name.
+    """
     lacking = [at for at, one in enumerate(drafts) if getattr(one, field) is None]
     if not other:
         return lacking

@@ -1,4 +1,4 @@
-"""Fields of one pair of motion and music, and what was found in its files."""
+"""Form for a pair of motion and music, with the contents of its files."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ class PairForm(Retranslated, QWidget):
         self.retranslate()
 
     def show_pair(self, draft: PairDraft, found: PairContents, busy: bool) -> None:
-        """Show a pair, and what its files hold; ``busy`` while they are read."""
+        """Show a pair and the contents of its files; ``busy`` while these are read."""
         self._draft, self._found, self._busy = draft, found, busy
         for name, edit in self._paths.items():
             path: Path | None = getattr(draft, name)
@@ -123,7 +123,7 @@ class PairForm(Retranslated, QWidget):
         self._show_notes()
 
     def _show_figures(self) -> None:
-        """Offer the skeletons of a file that has several."""
+        """Show the choice of skeletons for a file with several."""
         skeleton, motion = self._found.skeleton, self._draft.motion
         if skeleton is not None or motion != self._figures_of:
             # While another of them is read, or where it cannot be read, they stay.
@@ -216,17 +216,17 @@ class PairForm(Retranslated, QWidget):
 
 
 def file_name(path: Path | None) -> str:
-    """The name of a file without folders; a dash where there is none."""
+    """Return the name of a file without folders; a dash if there is none."""
     return "–" if path is None else shown(path.name)
 
 
 class _WholeLines(QScrollArea):
-    """Room for some lines of a text, which never shows a part of a line.
+    """Scroll area that shows only whole lines of a text.
 
     Parameters
     ----------
     text : Label
-        It is scrolled line by line.
+        Label, which is scrolled line by line.
     """
 
     def __init__(self, text: Label) -> None:
@@ -243,7 +243,7 @@ class _WholeLines(QScrollArea):
         self.fit()
 
     def fit(self) -> None:
-        """Leave what is no whole line free under the text. Japanese lines are higher than those of the font itself."""
+        """Leave the space of an incomplete line below the text empty. Japanese lines are higher than the font's."""
         line = self._text.fontMetrics().boundingRect(QRect(), Qt.TextFlag.TextSingleLine, self._text.text())
         line_px = max(line.height(), self._text.fontMetrics().lineSpacing())
         self.setMinimumHeight(_NOTES_LINES * line_px)

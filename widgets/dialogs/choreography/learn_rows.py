@@ -1,4 +1,4 @@
-"""The pairs of the dialog that learns a choreography: what is known of each, and the texts of its row."""
+"""State and texts of the rows in the dialog that learns a choreography."""
 
 from __future__ import annotations
 
@@ -45,20 +45,20 @@ COLUMNS: Final = {
 
 @dataclass(eq=False)
 class PairRow:
-    """A pair of the list.
+    """A pair in the list.
 
     Attributes
     ----------
     history : CutHistory
         Of the cuts of the draft.
     bones : DraftHistory
-        Of its corrections of bones.
+        History of bone corrections.
     cut_clip : tuple of float and int, or None
-        Start and length of the clip that the cuts are of, see `take_contents`.
+        Start and length of the clip to which the cuts belong, see `take_contents`.
     reading : int
-        Number of the reading whose result is awaited; 0: none.
+        Number of the current reading; 0 for none.
     states : int or None
-        Basic motions of it in what was learned last, from what the list says now.
+        Number of basic motions learned from the pair in its present state.
     """
 
     draft: PairDraft
@@ -79,7 +79,7 @@ class PairRead:
 
 
 def take_contents(row: PairRow, found: PairContents) -> None:
-    """Give a row what was read; cuts set by hand stay if the clip still has the frames that they are of."""
+    """Store the contents of a pair; the user's cuts stay if the clip has the same frames."""
     row.reading, row.found = 0, found
     if found.read is not None and found.analysis is not None:
         clip = (found.read.motion.start_s, len(found.analysis.clip))
@@ -89,7 +89,7 @@ def take_contents(row: PairRow, found: PairContents) -> None:
 
 
 def training_pair(row: PairRow) -> Pair | None:
-    """Make the pair to learn from, as it is filled in; None before the files are read."""
+    """Return the pair to learn from; None before the files are read."""
     read = row.found.read
     if read is None:
         return None
@@ -100,12 +100,12 @@ def training_pair(row: PairRow) -> Pair | None:
 
 
 def offset_confidence(row: PairRow) -> float:
-    """Return how sure the found offset is, 0..1; 1 before there is one."""
+    """Return the confidence of the automatic offset, 0..1; 1 before there is one."""
     return 1.0 if row.found.analysis is None else row.found.analysis.offset.confidence
 
 
 def row_texts(row: PairRow) -> tuple[str, ...]:
-    """The texts of a row, by `COLUMNS`."""
+    """Return the texts of a row by `COLUMNS`."""
     read, analysis, draft = row.found.read, row.found.analysis, row.draft
     names = file_name(draft.motion), file_name(draft.music)
     if read is None or analysis is None:
@@ -121,7 +121,7 @@ def row_texts(row: PairRow) -> tuple[str, ...]:
 
 
 def missing_text(rows: Sequence[PairRow]) -> str:
-    """Return what is to be done with the pairs before anything can be learned; empty: nothing."""
+    """Return the text of what must be done before learning; empty if nothing."""
     if not rows:
         return tr("learn_dialog.add_motion_files_and_midi")
     for at, row in enumerate(rows):
@@ -143,7 +143,7 @@ def missing_text(rows: Sequence[PairRow]) -> str:
 
 
 def left_out_text(rows: Sequence[PairRow]) -> str:
-    """Return which pairs are not learned from, and why: a line each."""
+    """Return the text of the pairs that are not used, with reasons, one per line."""
     texts = [
         tr("learn_dialog.pair_left_out").format(n=at + 1, error=message_text(row.found.error))
         for at, row in enumerate(rows)
@@ -153,7 +153,7 @@ def left_out_text(rows: Sequence[PairRow]) -> str:
 
 
 class PairList(ColumnList):
-    """The pairs as rows: their files, and what was found in them."""
+    """List of pairs with their files and contents."""
 
     def __init__(self) -> None:
         super().__init__("learn_pairs", *COLUMNS.values(), stretches=(0, 1))

@@ -1,4 +1,4 @@
-"""Work of the dialog that learns a choreography, done by threads that know nothing of it."""
+"""Work in threads for the dialog that learns a choreography, independent of Qt."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from widgets.dialogs.progress_dialog import stopping
 
 @dataclass(frozen=True, eq=False)
 class LearnedChoreography:
-    """A choreography that was learned and written, its pairs, and how well its music predicts its motion."""
+    """A learned and saved choreography with its pairs, and the accuracy with which music predicts its motion."""
 
     path: Path
     model: ChoreographyModel
@@ -31,7 +31,7 @@ class LearnedChoreography:
 
 
 def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callable[[Progress, StopRequested], PairRead]:
-    """Prepare the reading of a pair's files; what is wrong with them is part of its result."""
+    """Return a function that reads a pair's files; errors are part of its result."""
 
     def work(progress: Progress, stop_requested: StopRequested) -> PairRead:
         try:
@@ -51,14 +51,14 @@ def reading(number: int, motion: Path, music: Path, draft: PairDraft) -> Callabl
 def learning(
     path: Path, rows: tuple[PairRow, ...], states: int | None, seed: int, stop: threading.Event, share: list[float]
 ) -> Callable[[Progress, StopRequested], LearnedChoreography]:
-    """Prepare learning from the pairs in their present state, and writing what is learned.
+    """Return a function that learns from the pairs in their present state and saves the result.
 
     Parameters
     ----------
     states : int or None
-        Number of basic motions; None: as many as fit.
+        Number of basic motions; None for automatic.
     share : list of float
-        Its one number becomes the share that is done, 0..1.
+        List whose only number is set to the completed share, 0..1.
     """
     rows = tuple(row for row in rows if row.found.error is None)
     pairs = [pair for row in rows if (pair := training_pair(row)) is not None]

@@ -1,4 +1,4 @@
-"""The basic motions of a choreography as cards with figures."""
+"""Gallery of the basic motions of a choreography."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ _STATE: Final = Qt.ItemDataRole.UserRole
 
 
 class MotionModel(QAbstractListModel):
-    """Basic motions as rows.
+    """Model of basic motions as rows.
 
     Attributes
     ----------
     used : mapping of int to int
         How often a basic motion is danced.
     sources : int
-        Number of sources of the choreography.
+        Number of times that each basic motion is danced.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -64,11 +64,11 @@ class MotionModel(QAbstractListModel):
         return self.tr("motion_model.segments_s_on_average").format(count=motion.segments, seconds=motion.mean_s)
 
     def sources_text(self, state: int) -> str:
-        """Text of the number of sources that they are from."""
+        """Return the text of the number of sources of a basic motion."""
         return self.tr("motion_model.sources_of").format(count=len(self.motions[state].sources), all=self.sources)
 
     def used_text(self, state: int) -> str:
-        """Say how often a basic motion is danced in the piece."""
+        """Return the text of how often a basic motion is danced in the piece."""
         count = self.used.get(state, 0)
         return self.tr("motion_model.danced").format(count=count) if count else self.tr("motion_model.not_danced")
 
@@ -90,7 +90,7 @@ class MotionModel(QAbstractListModel):
 
 
 class MotionGallery(QListView):
-    """Cards that fill the width; the arrow keys go from one to another.
+    """Cards that fill the width; the arrow keys select.
 
     Signals
     -------
@@ -119,7 +119,7 @@ class MotionGallery(QListView):
     def show_motions(
         self, motions: Sequence[BasicMotion], used: Mapping[int, int], sources: int, colour: str, mirrored: bool
     ) -> None:
-        """Show these in a dancer's colour, and the way round that this dancer has them; what was selected stays so."""
+        """Show basic motions in a dancer's colour and side (normal or mirrored), keeping the selection."""
         before = max(self.currentIndex().row(), 0)
         self._delegate.colour, self._delegate.mirrored = colour, mirrored
         self.rows.show_motions(motions, used, sources)
@@ -129,7 +129,7 @@ class MotionGallery(QListView):
 
 
 class _CardDelegate(QStyledItemDelegate):
-    """Draws a card: number, how often it is danced, three poses, segments and sources."""
+    """Draws a card: number, times danced, three poses, segments and sources."""
 
     def __init__(self, session: Session, view: MotionGallery) -> None:
         super().__init__(view)

@@ -1,4 +1,4 @@
-"""Plays the music of a pair while its motion moves, so that the offset between them can be checked by ear and eye."""
+"""Player for the music of a pair in step with its motion, to check the offset."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _FRAME_MS: Final = 16
 _STEPS_PER_S: Final = 1000
 _STEP_MS, _PAGE_MS = 20, 1000
 _SAID_PX: Final = 250
-"""Room for the longest text, so that the slider stays where it is."""
+"""Width in pixels for the longest text, so that the slider does not move."""
 
 
 class PairPlayer(Retranslated, QWidget):
-    """A button to play, and a slider to scrub. Times are those of the motion's file.
+    """Play button and slider. Times are those of the motion file in seconds.
 
     Signals
     -------
@@ -37,7 +37,7 @@ class PairPlayer(Retranslated, QWidget):
     Parameters
     ----------
     playback : Playback
-        Its own, beside that of the piece; it becomes this widget's child.
+        Separate playback of this widget, which becomes its child.
     """
 
     moved = Signal(float)
@@ -83,7 +83,7 @@ class PairPlayer(Retranslated, QWidget):
         return self._playback.is_playing
 
     def show_pair(self, draft: PairDraft, found: PairContents) -> None:
-        """Play another pair, or this one with another offset: that is heard from now on."""
+        """Set the pair and offset, effective immediately during playback."""
         read, analysis = found.read, found.analysis
         self.setEnabled(read is not None and analysis is not None)
         if read is None or analysis is None:
@@ -110,7 +110,7 @@ class PairPlayer(Retranslated, QWidget):
         self._say()
 
     def toggle(self) -> None:
-        """Play from the playhead, or stop there."""
+        """Play from the playhead, or stop."""
         if self.is_playing:
             self.stop()
         elif self.isEnabled():
@@ -126,12 +126,12 @@ class PairPlayer(Retranslated, QWidget):
         self._playback.stop()
 
     def close_down(self) -> None:
-        """Stop the sound and its rendering, before the dialog goes."""
+        """Stop the sound and its rendering before the dialog closes."""
         self.stop()
         self._stems.stop()
 
     def scrub(self, time_s: float) -> None:
-        """Go to a time, which sounds for a moment."""
+        """Move to a time, and play a moment of sound."""
         if self.isEnabled():
             self._prepare()
             self._playback.set_volume(self._session.listening.volume)
@@ -142,7 +142,7 @@ class PairPlayer(Retranslated, QWidget):
         self.scrub(self._span_s[0] + value / _STEPS_PER_S)
 
     def _prepare(self) -> None:
-        """Have the music rendered, which waits until it is first to be heard."""
+        """Start rendering the music, which is postponed until first needed."""
         if self._project is None and self._read is not None:
             self._project = project_to_hear(self._read.score)
             self._take_sound()
@@ -153,14 +153,14 @@ class PairPlayer(Retranslated, QWidget):
             self._stems.follow(self._project, self.position_s - self._offset_s)
 
     def _take_sound(self) -> None:
-        """Play what is rendered, where the offset has it."""
+        """Set the rendered sound, shifted by the offset."""
         if self._project is not None:
             by = round(self._offset_s * RATE_HZ)
             self._playback.set_mix(Mix(track.moved(by) for track in self._stems.tracks(self._project)))
         self._say()
 
     def _follow(self) -> None:
-        """Show where the sound is."""
+        """Move the playhead with the sound."""
         time_s = min(max(self.position_s, self._span_s[0]), self._span_s[1])
         self.slider.blockSignals(True)
         self.slider.setValue(round((time_s - self._span_s[0]) * _STEPS_PER_S))

@@ -1,4 +1,4 @@
-"""Probabilities as a table of shades with numbers, its sides headed by figures of basic motions or by names."""
+"""Table of probabilities as shades and numbers, with figures of basic motions or names as headings."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ AnyIndex = QModelIndex | QPersistentModelIndex
 FIGURE_PX: Final = 38
 COLUMN_PX: Final = 42
 _LEAST_SHOWN: Final = 0.005
-"""A probability that is no percent."""
+"""Probabilities below this are not shown, since they round to 0 %."""
 _LEAST_SHADE, _MOST_SHADE = 0.06, 0.95
 
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """Titles of the rows or the columns of a table.
+    """Headings of the rows or columns.
 
     Attributes
     ----------
     names : tuple of str
         Numbers of basic motions, or names.
     marked : frozenset of int
-        What occurs in the piece.
+        Indices that occur in the piece.
     notes : mapping of int to str
         Short texts beside names.
     figures : (N, 21, 2) float64, optional
@@ -59,7 +59,7 @@ _NONE: Final = Side((), frozenset(), {})
 
 
 class _TableModel(QAbstractTableModel):
-    """Probabilities (R, C) and what stands at their sides."""
+    """Model of probabilities (R, C) with headings."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -100,7 +100,7 @@ class _TableModel(QAbstractTableModel):
 
 
 class ProbabilityTable(QTableView):
-    """Shades with percentages; the arrow keys go from cell to cell.
+    """Shades with percentages; the arrow keys select cells.
 
     Signals
     -------
@@ -136,7 +136,7 @@ class ProbabilityTable(QTableView):
         self.selectionModel().currentChanged.connect(self._point)
 
     def show_table(self, values: FloatArray, rows: Side, columns: Side, sentence: Callable[[int, int], str]) -> None:
-        """Show probabilities (R, C) and what each of them says; the current cell stays so."""
+        """Show probabilities (R, C) with a sentence for each, keeping the current cell."""
         before = self.currentIndex()
         row, column = max(before.row(), 0), max(before.column(), 0)
         self.table.show_table(values, rows, columns, sentence)
@@ -165,7 +165,7 @@ def _mixed(below: str, above: str, share: float) -> QColor:
 
 
 def _legible(tokens: Tokens, ground: QColor) -> QColor:
-    """The text colour that stands out more."""
+    """Return the text colour with the greater contrast."""
     candidates = [QColor(tokens.text), QColor(tokens.accent_text)]
     return max(candidates, key=lambda colour: _contrast(colour, ground))
 
@@ -217,7 +217,7 @@ class _CellDelegate(QStyledItemDelegate):
 
 
 class _Header(QHeaderView):
-    """Draws figures with numbers, or names; what occurs in the piece is marked."""
+    """Draws figures with numbers, or names; marks those that occur in the piece."""
 
     def __init__(self, orientation: Qt.Orientation, session: Session, view: ProbabilityTable) -> None:
         super().__init__(orientation, view)
@@ -227,7 +227,7 @@ class _Header(QHeaderView):
         self.setHighlightSections(False)
 
     def measure(self) -> None:
-        """Take as much room as what stands here needs."""
+        """Set the size needed by the headings."""
         size = self.sizeHint()
         if self.orientation() == Qt.Orientation.Vertical:
             self.setFixedWidth(size.width())

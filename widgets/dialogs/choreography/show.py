@@ -1,4 +1,4 @@
-"""The choreography of the selected dancer: its basic motions, what follows what, and what is struck in each."""
+"""Dialog with the choreography of the selected dancer: basic motions, their order, and their percussion."""
 
 from __future__ import annotations
 
@@ -37,23 +37,23 @@ _SIZE: Final = QSize(1000, 820)
 _MOTION_ROW_PX: Final = 40
 _SOUND_ROW_PX: Final = 26
 _MOST_NAMED: Final = 3
-"""Most followers and sounds of a basic motion that are named below the gallery."""
+"""Greatest number of following motions and sounds listed for a basic motion."""
 
 
 @dataclass(frozen=True, eq=False)
 class ChoreographyView:
-    """Contents of the dialog that shows a dancer's choreography.
+    """Contents of the dialog.
 
     Attributes
     ----------
     used : mapping of int to int
-        How often the dancer dances each basic motion of the piece.
+        Number of times that the dancer dances each basic motion in the piece.
     symbols : tuple of int
         Percussion symbols that were learned or occur in the piece.
     struck : frozenset of int
-        Those that occur in the piece.
+        Symbols that occur in the piece.
     derived : bool
-        The piece has no percussion: its symbols are derived.
+        Whether the symbols are derived because the piece has no percussion.
     error : Message or None
         Why the dancer does not dance.
     """
@@ -69,8 +69,7 @@ class ChoreographyView:
 
 
 class ChoreographyDialog(Retranslated, QDialog):
-    """Shows what the selected dancer's choreography has learned. Nothing is changed here. Not modal: it follows the
-    selection."""
+    """Shows the learned contents of the selected dancer's choreography, read-only. Not modal; follows the selection."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -139,7 +138,7 @@ class ChoreographyDialog(Retranslated, QDialog):
             self._ask()
 
     def _ask(self) -> None:
-        """Find out in the background what the selected dancer dances."""
+        """Compute the selected dancer's dance in the background."""
         dancer, performance = self._session.dancer, self._session.performance
         if dancer is None:
             self._asked = self._shown = self._error = None
@@ -244,7 +243,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         return text
 
     def _about(self, state: int) -> str:
-        """All there is to know of a basic motion; empty for none."""
+        """Return all information about a basic motion; empty for none."""
         shown = self._shown
         if shown is None or not 0 <= state < len(shown.motions):
             return ""
@@ -264,7 +263,7 @@ class ChoreographyDialog(Retranslated, QDialog):
         return " · ".join(parts)
 
     def _credits_text(self, model: ChoreographyModel) -> str:
-        """Sources with the same credits together."""
+        """Return the sources as text, grouped by equal credits."""
         together: dict[str, list[str]] = {}
         for source in model.sources:
             names = self.tr("choreography_dialog.with").format(motion=source.motion_name, music=source.music_name)

@@ -1,4 +1,4 @@
-"""Draws learned transitions as a graph: basic motions on a circle, and an arrow for each transition."""
+"""Graph of learned transitions: basic motions on a circle, with an arrow for each transition."""
 
 from __future__ import annotations
 
@@ -15,26 +15,27 @@ from app.editor.session import Session
 from widgets.common.choreography.figures import draw_figures, placed
 
 LEARNED: Final = 1.5
-"""A transition was seen whose probability is this many times that of the row's least, which smoothing gives to all."""
+"""Ratio to the row's least probability (caused by smoothing) above which a transition was learned."""
 NODE_PX, LEAST_FIGURE_PX = 44.0, 30.0
 WIDEST_PX = 7.0
 BEND = 0.14
-"""Bend as a share of an arrow's length, which keeps there and back apart."""
+"""Bend of an arrow relative to its length, which separates both directions."""
 DIM = 60
 
 
 class TransitionGraph(QWidget):
-    """Draws the transitions of a choreography. Point at a basic motion, or go on with the arrow keys, to see its own.
+    """Draws the transitions of a choreography; those of the basic motion under the mouse, or selected by arrow keys,
+    are highlighted.
 
     Parameters
     ----------
     session : Session
-        For its colours.
+        Session with the theme's colours.
 
     Attributes
     ----------
     pointed : signal (int)
-        The basic motion that is looked at; -1: none.
+        Signal: the highlighted basic motion; -1 for none.
     """
 
     pointed = Signal(int)
@@ -62,7 +63,7 @@ class TransitionGraph(QWidget):
         figures : (K, 21, 2) float64
             See `widgets.common.choreography.figures`.
         used : frozenset of int
-            Basic motions that the dancer dances, which are drawn in their colour.
+            Basic motions of the dancer, drawn in the dancer's colour.
         """
         self._transition, self._figures, self._used, self._colour = transition, figures, used, colour
         if self.looked_at >= len(transition):
@@ -70,7 +71,7 @@ class TransitionGraph(QWidget):
         self.update()
 
     def arrows(self) -> list[tuple[int, int]]:
-        """The transitions that were learned, the likeliest last."""
+        """Return the learned transitions, the most probable last."""
         if not len(self._transition):
             return []
         least = self._transition.min(axis=1, keepdims=True)
@@ -87,7 +88,7 @@ class TransitionGraph(QWidget):
         return middle + QPointF(wide * math.cos(angle), high * math.sin(angle))
 
     def look_at(self, state: int) -> None:
-        """Show the arrows of one basic motion before all others; -1: of none."""
+        """Highlight the arrows of a basic motion; -1 for none."""
         if state != self.looked_at:
             self.looked_at = state
             self.pointed.emit(state)
@@ -171,7 +172,7 @@ class TransitionGraph(QWidget):
 
 
 def _unit(way: complex) -> complex:
-    """A vector scaled to length 1; one of length 0 stays unchanged."""
+    """Return a vector scaled to length 1; a zero vector is unchanged."""
     return way / max(abs(way), 1e-9)
 
 

@@ -1,1 +1,1 @@
-"""Dialogs of evaluations: what is made, and what viewers answered."""
+"""Dialogs of evaluations: making one, and its results."""

@@ -1,4 +1,4 @@
-"""Evaluation: clips and a questionnaire for viewers, beside a film of real players."""
+"""Dialog that makes an evaluation: clips and a questionnaire, compared with a film of real players."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _AT_CONTROLS: Final = {
     "evaluate.keyframes_lacking": "evaluate.keyframes_lacking_here",
     "evaluate.keyframes_report": "evaluate.keyframes_report_here",
 }
-"""By the id of an error the one that says which controls of the dialog to use, instead of options."""
+"""Ids of errors, and of texts that mention the dialog's controls instead of command options."""
 _OF_FILES: Final[tuple[Variant, ...]] = ("film", "keyframes")
 _VARIANTS: Final[dict[Variant, str]] = {variant: f"evaluation_dialog.variant_{variant}" for variant in VARIANTS}
 _PLACES: Final = {
@@ -56,7 +56,7 @@ _PLACES: Final = {
 _KEYFRAMES_PLACES: Final = {_BY_SOUND: "evaluation_dialog.found", _BY_HAND: "evaluation_dialog.by_hand"}
 _VIEWS: Final = {view: f"playblast_dialog.{view}" for view in ("ensemble", "front", "side", "hands", "mouth", "feet")}
 _PRESENTATIONS: Final = {id: f"evaluation_dialog.presentation_{id}" for id in get_args(Presentations)}
-"""Text ids of the choices, by value."""
+"""Text ids of the choices by value."""
 
 
 class EvaluationDialog(WorkingDialog):
@@ -225,7 +225,7 @@ class EvaluationDialog(WorkingDialog):
         return tuple(variant for variant, check in self._variants.items() if check.isChecked() and self._there(variant))
 
     def _there(self, variant: Variant) -> bool:
-        """True if the files that a variant is made of were chosen."""
+        """Return whether the files for a variant were chosen."""
         field = {"film": self._film, "keyframes": self._keyframes}.get(variant)
         return field is None or field.path is not None
 
@@ -285,7 +285,7 @@ class EvaluationDialog(WorkingDialog):
             show_folder(self._folder.path)
 
     def _show_state(self) -> None:
-        """Enable what can be chosen, and say what is missing."""
+        """Enable the fields, and show what is missing."""
         if self._running:
             return
         film, folder = self._film.path is not None, self._folder.path

@@ -1,4 +1,4 @@
-"""The results of an evaluation: viewers' files in, conclusions, picture and tables out."""
+"""Dialog with the results of an evaluation: conclusions, plot and tables from viewers' files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from widgets.common.plain import Label
 from widgets.common.text import message_text
 
 Gather: TypeAlias = Callable[[Sequence[Path], Path | None], Gathered]
-"""See `app.evaluation.viewer_files.gather`."""
+"""Type of `app.evaluation.viewer_files.gather`."""
 
 _AT_CONTROLS: Final = {
     "results.no_key": "results.no_key_here",
@@ -47,20 +47,20 @@ _AT_CONTROLS: Final = {
     "results.unknown_clip": "results.unknown_clip_here",
     "results.unasked": "results.unasked_here",
 }
-"""By the id of an error the one that says which controls of the dialog to use, instead of options."""
+"""Ids of errors, and of texts that mention the dialog's controls instead of command options."""
 _SIZE: Final = QSize(1120, 700)
 _SHARPER: Final = 2
-"""Pixels of a copied picture by those of its own size."""
+"""Scale factor of a copied picture."""
 
 
 class EvaluationResultsDialog(Retranslated, QDialog):
-    """Takes the files of viewers, by a button or dropped, and shows what they say.
+    """Reads viewers' files, chosen or dropped, and shows their results.
 
     Parameters
     ----------
     gather : Gather
     folder : Path
-        Where files are looked for first.
+        Initial folder for files.
     """
 
     def __init__(self, gather: Gather, folder: Path, parent: QWidget | None = None) -> None:
@@ -116,17 +116,17 @@ class EvaluationResultsDialog(Retranslated, QDialog):
     # What is shown
 
     def add_files(self, paths: Sequence[Path]) -> None:
-        """Take the files of more viewers."""
+        """Add viewers' files."""
         self._files += [path for path in dict.fromkeys(paths) if path not in self._files]
         self._evaluate()
 
     def set_key(self, path: Path) -> None:
-        """Take another key than the one that lies beside the files."""
+        """Use another key than that beside the files."""
         self._key_file = path
         self._evaluate()
 
     def copy(self) -> None:
-        """Put what the tab in front shows on the clipboard: words, a table for a spreadsheet, or the picture."""
+        """Copy the current tab to the clipboard: text, a table for spreadsheets, or the plot."""
         shown_now, clipboard = self._tabs.currentWidget(), QGuiApplication.clipboard()
         if shown_now is self._words:
             clipboard.setText(self._words.toPlainText())
@@ -245,7 +245,7 @@ class EvaluationResultsDialog(Retranslated, QDialog):
 
 
 class _TableView(QWidget):
-    """A table and what its columns mean."""
+    """A table with explanations of its columns."""
 
     def __init__(self, table: ResultTable) -> None:
         super().__init__()
@@ -264,12 +264,12 @@ class _TableView(QWidget):
         in_column((grid, 1), selectable(wrapped(Label(table.note))), of=self)
 
     def as_text(self) -> str:
-        """Rows with tabs between their cells, as spreadsheets take them."""
+        """Return the rows with tabs between cells, for spreadsheets."""
         return "\n".join("\t".join(row) for row in (self._table.head, *self._table.rows))
 
 
 class _Picture(QWidget):
-    """The picture in its own shape, larger where there is room."""
+    """A picture that is scaled in proportion."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -283,7 +283,7 @@ class _Picture(QWidget):
         self.update()
 
     def image(self, factor: int) -> QImage:
-        """The picture at a multiple of its own size."""
+        """Return the picture at a multiple of its own size."""
         image = QImage(self._renderer.defaultSize() * factor, QImage.Format.Format_RGB32)
         image.fill(QColor("white"))
         painter = QPainter(image)
