@@ -140,15 +140,18 @@ def check_character(arguments: argparse.Namespace) -> None:
 def add_character(arguments: argparse.Namespace) -> None:
     """Add a character and print its id. Raises FileError, UsageError."""
     from app.rig.characters.character_library import add_character as add
+    from app.rig.characters.figure_build import at_height
+    from app.rig.characters.load_character import read_character
 
     joints, morphs = joints_of(arguments.joint), morphs_of(arguments.morph)
     hidden: Collection[str] = arguments.hide
+    reading = read_character(arguments.file, joints, morphs)
+    notes = list(at_height(reading.figure, arguments.height).notes)
     if not arguments.keep_props:
-        from app.rig.characters.load_character import read_character
-
-        hidden, note = _left_out(read_character(arguments.file, joints, morphs), hidden)
-        if note is not None:
-            warn(spoken()(note))
+        hidden, note = _left_out(reading, hidden)
+        notes += [] if note is None else [note]
+    for note in notes:
+        warn(spoken()(note))
     say(add(arguments.file, arguments.name, joints, morphs, arguments.height, hidden))
 
 

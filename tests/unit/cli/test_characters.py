@@ -9,7 +9,7 @@ import pytest
 from app.cli import main
 from app.cli.characters import joints_of, morphs_of
 from app.errors import MapError, UsageError
-from app.rig.characters import character_library
+from app.rig.characters import character_library, figure_build
 from app.rig.characters.character_library import FOLDER_VARIABLE, characters
 
 DATA = Path(__file__).parents[2] / "data" / "characters"
@@ -68,6 +68,17 @@ def test_a_correction_is_kept_with_the_character(folder: Path, capsys: pytest.Ca
     assert main(["characters", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [row["id"] for row in found["characters"] if row["own"]] == ["the_baby"]
+
+
+def test_what_is_odd_in_a_file_is_said_when_it_is_added(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(figure_build, "TALLEST_M", 1.2)
+    file = str(DATA / "woman_game_engine.glb")
+    assert main(["characters", "add", file, "--name", "tall"]) == 0
+    assert "is 1.53" in capsys.readouterr().err
+    assert main(["characters", "add", file, "--name", "as told", "--height", "1.1"]) == 0
+    assert capsys.readouterr().err == ""
 
 
 def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
