@@ -1,4 +1,4 @@
-"""Finds out how late a device comes: clicks sound, and the user blows on each of them."""
+"""Dialog that measures the latency of a device: clicks sound, and the user blows on each of them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from widgets.common.layouts import STRETCH, in_column, in_row
 from widgets.common.plain import Label
 
 LEAD: Final = 4
-"""Clicks that are only listened to, or played along without counting."""
+"""Number of first clicks that are not counted."""
 COUNTED: Final = 12
 PERIOD_S: Final = 0.6
 _AFTER_S: Final = 0.5
@@ -35,19 +35,19 @@ CLICKS_S: Final = tuple(PERIOD_S * (1 + index) for index in range(LEAD + COUNTED
 
 
 class LatencyDialog(Retranslated, QDialog):
-    """Window to measure or type the latency; a button applies it. It is not modal.
+    """Measures the latency, or takes a typed one; a button applies it. Not modal.
 
     Parameters
     ----------
     playback : Playback
-        Plays the clicks; becomes the dialog's. Its device and its clock are those of the playback of a take.
+        Playback of the clicks on the same device and clock as that of takes; becomes the dialog's.
     now_ns : callable
         The clock of the events.
 
     Signals
     -------
     latency_chosen(float)
-        Seconds, to be taken off every event.
+        Latency in seconds, to be subtracted from every event's time.
     """
 
     latency_chosen = Signal(float)
@@ -116,7 +116,7 @@ class LatencyDialog(Retranslated, QDialog):
         return self._running
 
     def sounding_s(self) -> float:
-        """The moment of the clicks that sounds now."""
+        """Return the position of the audible sound in the clicks in seconds."""
         return self._playback.position_s()
 
     def toggle(self) -> None:
@@ -159,7 +159,7 @@ class LatencyDialog(Retranslated, QDialog):
             ]
 
     def _look(self) -> None:
-        """Record the position that sounds now, and show the input."""
+        """Record the position of the audible sound, and show the input."""
         ns, position_s = self._now_ns(), self._playback.position_s()
         # The device plays nothing for a while at first: the clock does not run yet.
         if not self._positions or position_s > self._positions[-1][1]:
@@ -258,7 +258,7 @@ class LatencyDialog(Retranslated, QDialog):
 
 
 class HitChart(Retranslated, QWidget):
-    """Chart of the lateness of every hit, click by click, with a light."""
+    """Chart of the delay of every note, click by click, with a light."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -269,13 +269,13 @@ class HitChart(Retranslated, QWidget):
         self.texted(self, name="hit_chart.title")
 
     def show_click(self, number: int, flashes: bool) -> None:
-        """The counted click of this number was the last; the light shines."""
+        """Show the number of the last counted click, and the light."""
         if (number, flashes) != (self._click, self._flashes):
             self._click, self._flashes = number, flashes
             self.update()
 
     def show_measured(self, found: LatencyMeasurement | None) -> None:
-        """Show the measurement so far."""
+        """Show the present measurement."""
         if found != self.found:
             self.found = found
             self.update()

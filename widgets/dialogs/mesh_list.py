@@ -1,4 +1,4 @@
-"""Meshes of a character's file, each with a check box: those that are off are not shown (a sword, a shield, a hat)."""
+"""List of a character file's meshes with check boxes, for hiding some (a sword, a shield, a hat)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from widgets.common.plain import Label, verbatim
 
 
 class MeshList(Retranslated, QWidget):
-    """The meshes by name; those of one name are one row.
+    """Meshes by name; meshes of the same name are one row.
 
     Signals
     -------
@@ -40,7 +40,7 @@ class MeshList(Retranslated, QWidget):
         in_column(self.texted(wrapped(Label()), text="mesh_list.help"), (self.list, 1), of=self, margins=(0, 8, 0, 0))
 
     def show_hidden(self, hidden: Collection[str]) -> None:
-        """Show which are off."""
+        """Show which meshes are hidden."""
         self.list.blockSignals(True)
         for name, item in self._items.items():
             item.setCheckState(0, Qt.CheckState.Unchecked if name in hidden else Qt.CheckState.Checked)

@@ -1,4 +1,4 @@
-"""Differences between a piece's metadata and those of a file."""
+"""Dialog with the differences between a piece's acting metadata and a file's."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NOTHING = "–"
 
 
 class MetadataDifferencesDialog(Retranslated, QDialog):
-    """A list of places with what the piece and the file have there."""
+    """List of keys with their values in the piece and in the file."""
 
     def __init__(self, differences: Sequence[MetadataDifference], file: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)

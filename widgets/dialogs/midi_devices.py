@@ -1,6 +1,6 @@
-"""The MIDI devices: which one is recorded from, what kind it is, and what comes in from it.
+"""Dialog of the MIDI devices: the recorded one, its kind, and a monitor of its input.
 
-The dialog asks by its signals; what holds is what `session.recording` says.
+The dialog emits requests as signals; the present state is in `session.recording`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _SIDE_PX = 300
 
 
 class MidiDevicesDialog(Retranslated, QDialog):
-    """Devices, the kind of the chosen one, and a monitor. Not modal: one plays, and looks.
+    """Devices, the kind of the chosen one, and a monitor. Not modal, so that the user can play meanwhile.
 
     Parameters
     ----------
@@ -46,13 +46,13 @@ class MidiDevicesDialog(Retranslated, QDialog):
     Signals
     -------
     chosen(str)
-        Record from this device; empty: from none.
+        Record from this device; empty for none.
     controller_chosen(str)
-        The device is of this kind.
+        The kind of the device was chosen.
     mapping_chosen(object)
-        It sends breath and bite so: an `app.score.take.ControllerMapping`.
+        The messages for breath and bite were recognised: an `app.score.take.ControllerMapping`.
     latency_asked()
-        Find out how late it comes.
+        The user wants to measure the latency.
     """
 
     chosen = Signal(str)
@@ -156,7 +156,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self.mapping_chosen.emit(mapping)
 
     def beep(self) -> None:
-        """Play a short tone, or say why there is none."""
+        """Play a short tone, or show why there is none."""
         volume, playback = self._session.listening.volume, self._playback
         playback.stop()
         playback.set_volume(volume)
@@ -215,7 +215,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         self._start_learning()
 
     def _learn_bite(self, breath: Learned, bite: BiteSource | None) -> None:
-        """Show what was found; without a bite, the known calibration of the bite stays."""
+        """Show the recognised controllers; without a bite, its known calibration stays."""
         if bite is not None:
             self._wire(bite=bite)
             text = self.tr("midi_devices_dialog.found_breath_bite_channel")
@@ -303,7 +303,7 @@ class MidiDevicesDialog(Retranslated, QDialog):
         }[recording.connection]
 
     def _advice(self) -> str:
-        """Advise what to do where nothing can be recorded yet."""
+        """Return advice if recording is not possible yet."""
         recording = self._session.recording
         if recording.refusal is not None:
             return sentence(recording.refusal, self._session)

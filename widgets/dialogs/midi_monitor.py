@@ -1,4 +1,4 @@
-"""Shows what a device sends now: note, breath, bite, channel, and the last messages."""
+"""Monitor of a device's input: note, breath, bite, channel, and the last messages."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from widgets.common.pitch import pitch_text
 from widgets.common.plain import Label
 
 SHOW_MS = 40
-"""Least milliseconds between two updates of the list, however much comes in."""
+"""Least time between two updates of the list in milliseconds."""
 _FULL = 1000
 
 
 class MidiMonitor(Retranslated, QWidget):
-    """Shows what `session.recording` hears."""
+    """Shows the input received by `session.recording`."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -124,7 +124,7 @@ class MidiMonitor(Retranslated, QWidget):
                 item.setText(text)
 
     def _pitch(self, pitch: int) -> str:
-        """Name a pitch, as written for the recorded player's instrument where pitches are shown so."""
+        """Return the name of a pitch, written for the recorded player's instrument if so set."""
         recording, players = self._session.recording, self._session.project.players
         player = next((player for player in players if player.id == recording.armed), self._session.player)
         instrument = all_maps().get(player.instrument_id) if player is not None else None
@@ -154,7 +154,7 @@ class MidiMonitor(Retranslated, QWidget):
 
 
 def source_name(source: str) -> str:
-    """Name the kind of message by which a device sends something."""
+    """Return the name of the kind of message for a source."""
     named = {
         "none": tr("midi_source.nothing"),
         "cc1": tr("midi_source.cc_1_modulation"),

@@ -1,4 +1,4 @@
-"""The notes of a track as a picture, for a row of the import."""
+"""Picture of a track's notes for a row of the import."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class NotesPreview(QWidget):
             painter.fillRect(QRectF(area.left() + begin, top, end - begin, max(height, 1.5)), colour)
 
     def _runs(self, width_px: float) -> list[tuple[int, int, int]]:
-        """Pitches and the columns of pixels, from the first to the one behind the last, that their notes fill."""
+        """Return the pitches with the first and the past-the-end column of pixels of their notes."""
         columns = max(int(width_px), 1)
         begins = np.clip((self._onsets * columns / self._end_tick).astype(np.intp), 0, columns - 1)
         ends = np.clip(np.ceil(self._ends * columns / self._end_tick).astype(np.intp), begins + 1, columns)

@@ -1,4 +1,4 @@
-"""A person of the user's own: like one of ours, of another height, age and build."""
+"""Dialog for a person of the user's own, made from a bundled one with another height, age and build."""
 
 from __future__ import annotations
 
@@ -26,23 +26,23 @@ from widgets.common.text import message_text
 
 PICTURES_PX: Final[dict[Crop, QSize]] = {"head": QSize(280, 220), "body": QSize(280, 250)}
 SOON_MS: Final = 60
-"""Milliseconds after which the next picture of a drag is drawn."""
+"""Delay in milliseconds before a picture is drawn during a drag."""
 
 
 class PersonDialog(Retranslated, QDialog):
-    """A person as sliders and a picture.
+    """Sliders and a picture of a person.
 
     Parameters
     ----------
     title : str
         Name of the person.
     person : Person or None
-        One of the user's own, to be changed; None: a new one.
+        An existing person of the user's to change; None for a new one.
 
     Signals
     -------
     agreed(str, object)
-        The user accepts the `Person` of this title.
+        The user accepts the `Person` under a title.
     """
 
     agreed = Signal(str, object)
@@ -117,7 +117,7 @@ class PersonDialog(Retranslated, QDialog):
         self._soon.start()
 
     def _show(self) -> None:
-        """Show the numbers of the person, and draw it."""
+        """Show the person's numbers, and draw the person."""
         phenotype = self.person.phenotype
         self.sliders["height_m"].show_value(phenotype.height_m)
         self.sliders["age"].show_value(round(years_of(phenotype.age)))

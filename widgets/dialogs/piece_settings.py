@@ -25,7 +25,7 @@ from widgets.common.plain import ComboBox, Label
 from widgets.dialogs.automatic_number import TEXT_MARGIN_PX
 
 PROBLEM_PX = 40
-"""Room for two lines, so that nothing moves when there is something to say."""
+"""Height in pixels of two lines of messages, so that the layout does not change."""
 
 _BEATS: Final[dict[float | None, str]] = {
     None: "automatic_by_metre_and_tempo",
@@ -43,7 +43,7 @@ Value = TypeVar("Value", str, float)
 
 
 class PieceSettingsDialog(Retranslated, QDialog):
-    """Changes the settings of the piece in one step, or none."""
+    """Changes the settings of the piece in a single edit."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -126,7 +126,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
 
     @property
     def settings(self) -> PieceSettings | None:
-        """Read the fields; None if one of them holds nothing valid."""
+        """Return the settings in the fields; None if a field is invalid."""
         rate, seed = self._typed_rate(), self._typed_seed()
         if rate is None or seed is None:
             return None
@@ -141,7 +141,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         )
 
     def _place(self) -> ConductorPlace | None:
-        """The conductor's place; None where there was none and none is selected."""
+        """Return the conductor's place; None if there was none and none is chosen."""
         across, ahead = self._conductor
         on_stage = self._conducted.isChecked()
         if not on_stage and not self._has_place:
@@ -150,7 +150,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
         return ConductorPlace(x_m, z_m, on_stage)
 
     def _kept(self, name: str, value: Value) -> Value:
-        """A value that the user left alone is what it was, to the last digit and sign."""
+        """Return the original value if the user did not change the displayed one, since that may be rounded."""
         shown, held = self._shown[name]
         return cast(Value, held) if value == shown else value
 
@@ -260,7 +260,7 @@ class PieceSettingsDialog(Retranslated, QDialog):
 
 
 class _Beats(QDoubleSpinBox):
-    """A number without zeros behind it."""
+    """A number without trailing zeros."""
 
     def textFromValue(self, value: float) -> str:
         return self.locale().toString(value, "g", 6)

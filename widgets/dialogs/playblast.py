@@ -1,4 +1,4 @@
-"""Playblast: what the viewport shows, as a film with sound."""
+"""Dialog that makes a film of the viewport with sound."""
 
 from __future__ import annotations
 
@@ -35,15 +35,16 @@ Pictures = npt.NDArray[np.uint8]
 Draw = Callable[[float], Pictures]
 """Time in seconds to a picture (H, W, 3 or 4)."""
 Film = Callable[[int, int, tuple[float, float], View | CameraBookmark | None, bool], Draw]
-"""Width, height, span in seconds, view (None: as the viewport shows it now) or bookmark to what draws the pictures in
-order."""
+"""Function from width, height, span in seconds, view (None for the viewport's present one) or bookmark, and a flag to a
+function that draws the pictures in order.
+"""
 Sound = Callable[[float, float, int], SingleArray]
 """Start, end in seconds and samples per second to (N, 2) samples of the sound; runs in the background."""
 
 SIZES: Final = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1080, 1920))
 _WHOLE, _LOOP, _SELECTION = "whole_piece", "loop", "selection"
 _AHEAD = 8
-"""Pictures drawn before the encoder has taken them."""
+"""Greatest number of pictures that wait for the encoder."""
 
 
 class PlayblastDialog(WorkingDialog):
@@ -52,13 +53,13 @@ class PlayblastDialog(WorkingDialog):
     Parameters
     ----------
     film : Film
-        Called in the window's thread, as what it returns is.
+        Function that, like its result, is called in the window's thread.
     path : Path
         Proposed file.
     """
 
     filmed = Signal(object)
-    """The film's path."""
+    """Signal: path of the film."""
 
     def __init__(self, session: Session, film: Film, sound: Sound, path: Path, parent: QWidget | None = None) -> None:
         super().__init__("playblast", "playblast", parent)
@@ -220,7 +221,7 @@ class PlayblastDialog(WorkingDialog):
             self._failed(self._trouble)
 
     def _offer_ranges(self) -> None:
-        """Offer the loop and the selected range where there are any, and choose the one that was made last."""
+        """Offer the loop and the selected range if there are any, and select the one that was made last."""
         selected, clock = self._session.selection.span, self._session.project.score.tempo_map
         before, rows = self._offered, self._range.model()
         self._offered = {
@@ -277,7 +278,7 @@ class PlayblastDialog(WorkingDialog):
 
 
 def _next(pictures: queue.Queue[Pictures], stop_requested: Callable[[], bool]) -> Pictures:
-    """Return the next picture as soon as it is drawn. Raises Cancelled."""
+    """Wait for the next picture, and return it. Raises Cancelled."""
     while not stop_requested():
         try:
             return pictures.get(timeout=0.1)

@@ -1,4 +1,4 @@
-"""The preferences: what the user chooses for the editor on this machine. Everything holds at once."""
+"""Dialog of the preferences, which are stored for this computer and apply immediately."""
 
 from __future__ import annotations
 
@@ -34,20 +34,20 @@ from widgets.dialogs.shortcuts import ShortcutRow, ShortcutsPage
 
 @dataclass(frozen=True)
 class Choice:
-    """A setting that is one of several.
+    """A setting with several possible values.
 
     Attributes
     ----------
     options : tuple of (value, word)
         Label and words are English, translated in the context ``Setting``.
     chosen : callable
-        Gives the present value.
+        Returns the present value.
     choose : callable
         Given another value.
     changed : signal or None
-        Sent when there is another one.
+        Emitted when the value changes.
     is_list : bool
-        A list that opens, instead of all options beside one another.
+        Whether to use a combo box instead of a row of buttons.
     """
 
     name: str
@@ -141,7 +141,7 @@ class PreferencesDialog(Retranslated, QDialog):
         return field
 
     def _instruments_page(self) -> QWidget:
-        """Make the page of the user's own maps: their folder, and what is wrong with them."""
+        """Return the page of the user's own instrument maps with their folder and faults."""
         page = QWidget()
         self._own, self._found = Caption("preferences_dialog.your_own_instruments_map_toml"), Label()
         self._folder = named(QLineEdit(shown(own_folder())), "preferences_instruments")
@@ -174,7 +174,7 @@ class PreferencesDialog(Retranslated, QDialog):
             self.shortcuts.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def refresh(self) -> None:
-        """Show what is chosen now."""
+        """Update the displayed values."""
         for choice in self._choices:
             values = [value for value, _ in choice.options]
             chosen = values.index(choice.chosen())

@@ -1,4 +1,4 @@
-"""Dialogs that work in the background, show how far they are, and cancel before they close."""
+"""Base of dialogs that work in the background, show progress, and cancel before they close."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ _LEAST_SHARE, _LEAST_S = 0.02, 0.5
 
 
 def stopping(stop: threading.Event, stop_requested: StopRequested) -> StopRequested:
-    """Return whether work is to stop, for its thread: it was cancelled in its dialog, or in the status line, which the
-    dialog then knows too."""
+    """Return a function for the working thread that tells whether work was cancelled, in the dialog or in the status
+    line.
+    """
 
     def asked() -> bool:
         if stop_requested():
@@ -35,17 +36,17 @@ def stopping(stop: threading.Event, stop_requested: StopRequested) -> StopReques
 
 
 class WorkingDialog(Retranslated, QDialog):
-    """Begins work with one button; with another it cancels while it works, and closes while it does not.
+    """Starts work with one button; the other cancels it, or closes the dialog if none is running.
 
     Parameters
     ----------
     name, prefix : str
-        Object name, and what the names of its buttons begin with.
+        Object name, and prefix of the buttons' names.
 
     Attributes
     ----------
     fields : tuple of QWidget
-        What is chosen: disabled while it works.
+        Fields, which are disabled during work.
     """
 
     def __init__(self, name: str, prefix: str, parent: QWidget | None = None) -> None:
@@ -68,7 +69,7 @@ class WorkingDialog(Retranslated, QDialog):
         on_click(self._close, self.reject)
 
     def _box(self, start_id: str, start: Callable[[], object], show_folder: Callable[[], object]) -> QLayout:
-        """Buttons to start, to look at what was written, and to cancel or close."""
+        """Return the buttons that start, open the output folder, and cancel or close."""
         box = QDialogButtonBox()
         self._start = Button(start_id, start, f"{self._prefix}_start")
         self._start.setDefault(True)
@@ -98,7 +99,7 @@ class WorkingDialog(Retranslated, QDialog):
         self.retranslate()
 
     def _show_share(self, share: float, doing: str = "") -> None:
-        """Show how much is done, what is being done, and how long the rest will take once that can be said."""
+        """Show the completed share, the current work, and the remaining time once it can be estimated."""
         self._progress.setValue(round(_PARTS * share))
         elapsed_s = time.monotonic() - self._began_s
         left = self.tr("working_dialog.finishing" if share >= 1.0 else "working_dialog.estimating")
@@ -113,7 +114,7 @@ class WorkingDialog(Retranslated, QDialog):
             self._under_way.setText(sentence(Message("work.stopped")))
 
     def reject(self) -> None:
-        """Escape and the window's own button too."""
+        """Cancel running work, or close; also on Escape and the window's close button."""
         if self._running:
             self._stop.set()
         else:

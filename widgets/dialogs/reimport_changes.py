@@ -1,4 +1,4 @@
-"""The changes of a re-import by player and bar, to step through, and to take or leave by player."""
+"""Changes of a re-import by player and bar, for stepping through and for selecting players."""
 
 from __future__ import annotations
 
@@ -30,16 +30,16 @@ _ALL = "all"
 _SIDE = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _COUNTS = slice(2, 6)
 MARGIN_PX = 16
-"""Beside a text of the first column, both sides together."""
+"""Total horizontal margin of the first column in pixels."""
 
 
 class _Row:
-    """A part of the re-import, or what it changes of the whole piece, and its item in the tree.
+    """A part of the re-import, or the changes of the whole piece, with its tree item.
 
     Attributes
     ----------
     shown : tuple of PartChange
-        Those that the filter lets through.
+        Changes that pass the filter.
     """
 
     def __init__(self, part_id: str, name: str, player: Player | None, changes: tuple[PartChange, ...]) -> None:
@@ -49,7 +49,7 @@ class _Row:
 
 
 class ReimportChanges(Retranslated, QWidget):
-    """A tree of players and, below each, its changes in the order of the music; rows are made when they are opened.
+    """Tree of players with their changes in score order; rows are made when a player is unfolded.
 
     Signals
     -------
@@ -105,7 +105,7 @@ class ReimportChanges(Retranslated, QWidget):
         self._begun = False
 
     def _rows_of(self, outcome: Reimport) -> list[_Row]:
-        """The parts of the file, each with its player, count and check."""
+        """Return the rows of the file's parts, each with player, number of changes and check box."""
         former = {part.id: part for part in self._before.score.parts}
         matches = {match.part_id: match for match in outcome.parts}
         gone = {outcome.project.player(id).part_id for id in outcome.gone_players}
@@ -144,7 +144,7 @@ class ReimportChanges(Retranslated, QWidget):
 
     @property
     def kept(self) -> frozenset[str]:
-        """Ids of the parts whose changes are not to be taken."""
+        """Ids of the parts that keep their present notes."""
         return frozenset(
             row.part_id for row in self._rows if row.changes and row.item.checkState(0) == Qt.CheckState.Unchecked
         )
@@ -155,7 +155,7 @@ class ReimportChanges(Retranslated, QWidget):
         return frozenset(row.part_id for row in self._rows if row.changes)
 
     def _apply_filter(self, kind: str) -> None:
-        """Show the changes of one kind, or all; a player without any is hidden, unless all are shown."""
+        """Show the changes of one kind or all; players without any are hidden, unless all are shown."""
         blocker = QSignalBlocker(self._tree)
         current = self._current_row()
         opened = {row.part_id for row in self._rows if row.item.isExpanded()}
@@ -182,12 +182,12 @@ class ReimportChanges(Retranslated, QWidget):
         return self._rows[self._tree.indexOfTopLevelItem(item.parent() or item)]
 
     def _place_of(self, item: QTreeWidgetItem) -> tuple[_Row, int]:
-        """Return the player of an item, and which of its changes it is; -1: the player itself."""
+        """Return the player's row of an item, and the index of the change; -1 for the player's item."""
         parent = item.parent()
         return self._row_of(item), -1 if parent is None else parent.indexOfChild(item)
 
     def _fill(self, item: QTreeWidgetItem) -> None:
-        """Make the rows of a player when it is opened."""
+        """Make the rows of a player when it is unfolded."""
         if item.childCount():
             return
         row = self._row_of(item)
@@ -196,7 +196,7 @@ class ReimportChanges(Retranslated, QWidget):
         self._widen([place for place, _ in texts])
 
     def _widen(self, texts: Sequence[str]) -> None:
-        """Make the first column as wide as texts behind a check box need; it does not shrink."""
+        """Widen the first column to fit texts behind a check box; it does not shrink."""
         style, metrics = self._tree.style(), self._tree.fontMetrics()
         box_px = style.pixelMetric(QStyle.PixelMetric.PM_IndicatorWidth, None, self._tree)
         text_px = max(map(metrics.horizontalAdvance, texts), default=0)
@@ -204,7 +204,7 @@ class ReimportChanges(Retranslated, QWidget):
         self._tree.setColumnWidth(0, max(self._tree.columnWidth(0), needed))
 
     def _begin(self) -> None:
-        """Open the first player with changes, if its rows leave the other players in sight."""
+        """Unfold the first player with changes, if the other players stay visible."""
         first = next((row for row in self._rows if row.shown), None)
         if first is not None:
             row_px = max(self._tree.visualItemRect(first.item).height(), 1)
@@ -212,7 +212,7 @@ class ReimportChanges(Retranslated, QWidget):
                 first.item.setExpanded(True)
 
     def _step(self, step: int) -> Callable[[], None]:
-        """Return what goes to the next change (1) or the one before (-1), through all players."""
+        """Return a function that selects the next change (1) or the previous one (-1) over all players."""
 
         def go() -> None:
             places = [(row, place) for row in self._rows for place in range(len(row.shown))]
@@ -241,7 +241,7 @@ class ReimportChanges(Retranslated, QWidget):
             row.item.setCheckState(0, Qt.CheckState.Unchecked if checked else Qt.CheckState.Checked)
 
     def _show(self, item: QTreeWidgetItem | None) -> None:
-        """Bring a change into view behind the dialog: its player, its note, and the playhead at it."""
+        """Show a change in the window: its player, its note, and the playhead at it."""
         row, place = (None, -1) if item is None else self._place_of(item)
         if row is None or place < 0:
             return
@@ -258,7 +258,7 @@ class ReimportChanges(Retranslated, QWidget):
         session.reveal(time_s)
 
     def _summary(self, row: _Row) -> str:
-        """Count a player's changes by kind."""
+        """Return the number of a player's changes by kind."""
         if not row.changes:
             return tr("reimport_dialog.no_changes")
         found = []
@@ -269,7 +269,7 @@ class ReimportChanges(Retranslated, QWidget):
         return tr("reimport_dialog.and").join(found)
 
     def _texts(self, row: _Row, change: PartChange) -> tuple[str, str]:
-        """A change's place and what it is."""
+        """Return a change's position and description."""
         former, now = self._before.metre_map, self._outcome.project.metre_map
         there, here = former.label(change.tick), now.label(change.tick_now)
         before, after = change.before, change.now
@@ -295,7 +295,7 @@ class ReimportChanges(Retranslated, QWidget):
         return place, self._note_text(before, after, pitch, pitch_now)
 
     def _note_text(self, before: Note, now: Note, pitch: str, pitch_now: str) -> str:
-        """A note's changes: pitch, or else its length and its velocity under its pitch."""
+        """Return a note's changes: of pitch, or else of length and velocity."""
         length = max(round(before.duration_tick * self._scale), 1)
         parts = [pitch if before.pitch == now.pitch else f"{pitch} → {pitch_now}"]
         if length != now.duration_tick:
@@ -319,7 +319,7 @@ class ReimportChanges(Retranslated, QWidget):
 
 
 def _mark_text(before: Note | Mark | None, now: Note | Mark | None) -> str:
-    """Name a mark and what happened to it."""
+    """Return the name of a mark and the kind of its change."""
     mark = now if before is None else before
     assert isinstance(mark, Mark)
     name = mark_name(mark.kind)
@@ -333,7 +333,7 @@ def _mark_text(before: Note | Mark | None, now: Note | Mark | None) -> str:
 
 
 def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fraction) -> str:
-    """Name the distance that notes moved: in bars where that is exact, else as a note value."""
+    """Return the distance by which notes moved: in bars if exact, else as a note value."""
     (bar, *rest), (bar_now, *rest_now) = former.place_of_tick(change.tick), now.place_of_tick(change.tick_now)
     ticks = change.tick_now - round(change.tick * scale)
     sign = "+" if ticks > 0 else "−"
@@ -344,7 +344,7 @@ def _distance(change: PartChange, former: MetreMap, now: MetreMap, scale: Fracti
 
 
 def _value(ticks: int, whole: int) -> str:
-    """Ticks as a fraction of a whole note, or as ticks where that is not simple."""
+    """Return ticks as a fraction of a whole note, or as ticks if the fraction is complicated."""
     value = Fraction(ticks, whole)
     if value.denominator > 64:
         return tr("reimport_dialog.ticks").format(count=ticks)

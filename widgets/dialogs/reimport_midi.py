@@ -1,4 +1,4 @@
-"""The re-import of a changed MIDI file: what was found again, what is new, what is gone, before it is done."""
+"""Dialog that shows the changes of a re-imported MIDI file before they are applied."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ from widgets.dialogs.reimport_changes import ReimportChanges
 
 
 class ReimportDialog(Retranslated, QDialog):
-    """Shows what a re-import would do and asks whether to do it.
+    """Shows the changes of a re-import, and asks whether to apply them.
 
     Parameters
     ----------
     session : Session
-        Has the project as it is; changes that are stepped through are shown in it.
+        Session with the present project, in which changes are shown.
     file : str
         Name of the MIDI file.
     title : callable
         Names a correction.
     changes : PartChanges
-        Of the outcome (`app.project.part_changes.changes_by_part`): worked out beforehand, since it takes a while.
+        Changes by part (`app.project.part_changes.changes_by_part`), computed beforehand since that takes time.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class ReimportDialog(Retranslated, QDialog):
         return "reimport_dialog.changes_hint"
 
     def _new_and_gone(self) -> tuple[QWidget, ...]:
-        """Players and parts that the file has and the project lacks, and the other way round."""
+        """Return the widgets about players and parts that only the file or only the project has."""
         outcome = self._outcome
         names = {player.id: player.name for player in (*outcome.project.players, *self._before.players)}
         new = ", ".join(names[id] for id in outcome.new_players)
@@ -119,7 +119,7 @@ class ReimportDialog(Retranslated, QDialog):
         return (players, *unplayed, *_shown(bool(outcome.gone_players), gone, self._gone))
 
     def _timing(self) -> tuple[QWidget, ...]:
-        """Name what the file changes of the whole piece; it is taken whichever players are kept."""
+        """Return the widgets about changes of the whole piece, which are applied regardless of the selected players."""
         before, now = (timing_of(project.score) for project in (self._before, self._outcome.project))
         changed = {
             "tempo": before.tempo_map != now.tempo_map,
@@ -131,14 +131,16 @@ class ReimportDialog(Retranslated, QDialog):
         return _shown(bool(ids), label)
 
     def _replaced(self) -> tuple[QWidget, ...]:
-        """List what the file replaces in the piece, whatever the project had."""
+        """Return the widgets about data of the piece that the file replaces completely."""
         ids = [f"reimport_dialog.{kind}" for kind in self._outcome.replaced]
         label = named(wrapped(Label()), "reimport_replaced")
         self.texted(label, text=lambda: tr("reimport_dialog.file_version_used").format(kinds=", ".join(map(tr, ids))))
         return _shown(bool(ids), label)
 
     def _lost_and_contradicted(self) -> tuple[QWidget, ...]:
-        """Notes that were changed here and in the file, and corrections that have lost their notes."""
+        """Return the widgets about notes changed both in the project and in the file, and corrections whose notes are
+        gone.
+        """
         outcome, title, session = self._outcome, self._title, self._session
         names = {part.id: part.name for part in self._before.score.parts}
         players = {player.part_id: player for player in reversed(self._before.players)}
@@ -159,7 +161,7 @@ class ReimportDialog(Retranslated, QDialog):
         return (*self._conflicts, *self._list("reimport_orphans", lost, orphans))
 
     def _list(self, name: str, heading: Label, items: Sequence[Callable[[], str]]) -> tuple[Label, QListWidget]:
-        """A list under its heading; neither where it is empty."""
+        """Return a list with its heading, both hidden if it is empty."""
         below = named(QListWidget(), name)
         below.addItems([""] * len(items))
         below.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
@@ -171,7 +173,7 @@ class ReimportDialog(Retranslated, QDialog):
 
     @property
     def removed(self) -> tuple[str, ...]:
-        """Ids of the players whose part is gone and who are to be removed."""
+        """Ids of the players without a part that the user removes."""
         items = (self._gone.item(row) for row in range(self._gone.count()))
         return tuple(
             item.data(Qt.ItemDataRole.UserRole) for item in items if item.checkState() == Qt.CheckState.Checked
@@ -179,16 +181,16 @@ class ReimportDialog(Retranslated, QDialog):
 
     @property
     def kept(self) -> frozenset[str]:
-        """Ids of the parts whose changes are not taken."""
+        """Ids of the parts that keep their present notes."""
         return self._changes.kept
 
     @property
     def taken(self) -> Reimport:
-        """The re-import of the players that are checked."""
+        """The re-import of the selected players."""
         return self._outcome.keeping(self.kept) if self.kept else self._outcome
 
     def _chosen(self) -> None:
-        """List only conflicts of the players that are checked: the others keep what they have."""
+        """Show only conflicts of the selected players."""
         kept, below = self.kept, self._conflicts[1]
         for row, conflict in enumerate(self._outcome.conflicts):
             below.item(row).setHidden(conflict.part_id in kept)
@@ -199,13 +201,13 @@ class ReimportDialog(Retranslated, QDialog):
         self._enable()
 
     def _enable(self) -> None:
-        """Enable the button only where the re-import changes something."""
+        """Enable the button if the re-import changes anything."""
         some = bool(self._changes.changed - self._changes.kept)
         self._buttons.ok.setEnabled(some or bool(self.removed) or self.taken.project is not self._before)
 
 
 def _shown(shown: bool, *widgets: QWidget) -> tuple[QWidget, ...]:
-    """The widgets, hidden unless they say something."""
+    """Return the widgets after hiding them if there is nothing to show."""
     for widget in widgets:
         if not shown:
             widget.hide()
@@ -217,7 +219,7 @@ def _said_of(text_id: str, part: str, reason: Message) -> str:
 
 
 def _conflict(session: Session, name: str, conflict: Conflict, player: Player | None) -> str:
-    """Name what happens to a note: as the user has it → as the file has it."""
+    """Return a note's conflict as text: the user's version → the file's version."""
     mine, file = conflict.by_hand, conflict.file
     here = tr("reimport_dialog.erased") if mine is None else note_text(session, mine, player)
     there = tr("reimport_dialog.no_longer_in_file") if file is None else note_text(session, file, player)

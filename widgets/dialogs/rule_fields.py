@@ -1,4 +1,4 @@
-"""The fields of a rule: what they are called, their bounds and units, and the widgets that set them."""
+"""Fields of a rule (names, bounds, units) and their widgets."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ SEMITONES: Final = "rules_dialog.unit_semitones"
 
 
 class Field(NamedTuple):
-    """A number of a rule: its name in the table, the id of its text, bounds, step, the id of its unit, and a value to
-    begin with."""
+    """A number of a rule: key in the table, text id, bounds, step, text id of the unit, and initial value."""
 
     name: str
     text_id: str
@@ -47,7 +46,7 @@ CONDITIONS: Final = (
     Field("rest_after_longer_s", "rules_dialog.rest_after_longer_s", 0.0, 600.0, 0.5, SECONDS, 2.0),
     Field("played_longer_s", "rules_dialog.played_longer_s", 0.0, 3600.0, 10.0, SECONDS, 60.0),
 )
-"""Numbers that may be asked of a note."""
+"""Fields of a rule's conditions about notes."""
 PLACES: Final[Mapping[str, str]] = {place: f"rules_dialog.place_{place}" for place in get_args(Place)}
 MOMENTS: Final[Mapping[str, str]] = {
     "": "rules_dialog.moment_note",
@@ -60,12 +59,12 @@ ANCHORS: Final[Mapping[str, str]] = {"onset": "rules_dialog.anchor_onset", "end"
 
 
 def kept(value: float, before: float) -> float:
-    """A number that is shown rounded: what it was where it was left alone."""
+    """Return the original number if the displayed, rounded one is unchanged."""
     return before if abs(value - before) < 5e-4 else value
 
 
 class Number(QDoubleSpinBox):
-    """A number with its unit and no zeros behind it; the wheel works only where the keyboard is."""
+    """A number with its unit and without trailing zeros; the wheel works only with keyboard focus."""
 
     def __init__(self, name: str, low: float, high: float, step: float) -> None:
         super().__init__()
@@ -102,16 +101,16 @@ class OptionalNumberField:
 
     @property
     def value(self) -> float | None:
-        """The condition's number; None if it is not set."""
+        """The number; None if it is not set."""
         return self.number.value() if self.check.isChecked() else None
 
     def kept(self, of: object) -> float | None:
-        """The condition's number; an untouched field gives what ``of`` has, to the last digit."""
+        """Return the number; that of ``of`` if the field is unchanged, since the displayed one may be rounded."""
         value, before = self.value, getattr(of, self.field.name)
         return value if value is None or before is None else kept(value, before)
 
     def show_value(self, value: float | None) -> None:
-        """Show it without a signal."""
+        """Set the number without a signal."""
         self.number.blockSignals(True)
         self.number.setValue(self.field.first if value is None else value)
         self.number.blockSignals(False)
@@ -119,7 +118,7 @@ class OptionalNumberField:
 
 
 class Several(QPushButton):
-    """Any number of things out of a list, in a menu.
+    """A button with a menu for selecting any number of items.
 
     Signals
     -------
@@ -147,7 +146,9 @@ class Several(QPushButton):
         return self._chosen
 
     def show_choice(self, names: Mapping[str, str], chosen: Sequence[str], none: str) -> None:
-        """Offer things by id; ``none`` stands for nothing chosen. What is chosen and not there is offered too."""
+        """Set the items by id; ``none`` is the text for an empty selection. Selected ids that do not exist are listed
+        too.
+        """
         self._names = {**{id: id for id in chosen}, **names}
         self._chosen, self._none = tuple(chosen), none
         self._menu.clear()

@@ -1,4 +1,4 @@
-"""The form of one rule: when it holds, and what is done then."""
+"""Form of one rule: its conditions and effects."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _FADE_OUT = Field("fade_out_s", "rules_dialog.fade_out", 0.01, 60.0, 0.05, SECON
 
 
 class RuleForm(Retranslated, QWidget):
-    """Shows a rule and changes it.
+    """Shows and changes a rule.
 
     Signals
     -------
@@ -138,7 +138,7 @@ class RuleForm(Retranslated, QWidget):
     # The rule
 
     def show_rule(self, rule: Rule | None) -> None:
-        """Show a rule; None: there is none."""
+        """Show a rule; None for no rule."""
         self._rule = None
         self.setEnabled(rule is not None)
         if rule is None:
@@ -188,7 +188,7 @@ class RuleForm(Retranslated, QWidget):
         _choose(self._does, {**does, **({} if now in does else {now: now.split(":", 1)[1]})}, now)
 
     def _enable(self) -> None:
-        """Disable fields that have no effect beside the others."""
+        """Disable fields that have no effect in combination with others."""
         rule = self._rule
         if rule is None:
             return

@@ -1,5 +1,6 @@
-"""The rules by which players act: switched on and off, changed, added and removed, previewed at once, and saved in the
-user's own folder."""
+"""Dialog of the rules by which players act: switching, changing, adding and removing them, with immediate preview, and
+saving in the user's own folder.
+"""
 
 from __future__ import annotations
 
@@ -36,14 +37,14 @@ from widgets.dialogs.rule_form import RuleForm
 
 _SIZE = QSize(900, 720)
 PREVIEW_MS = 250
-"""After the last change; so that a number that is typed is played once."""
+"""Delay in milliseconds after a change before it is previewed, so that a typed number is previewed once."""
 PROBLEM_PX = 40
-"""Room for two lines, so that nothing moves when there is something to say."""
+"""Height in pixels of two lines of messages, so that the layout does not change."""
 FAULTS = {
     kind: f"rules_dialog.fault_{kind}"
     for kind in ("name", "do", "fades", "stays", "moment", "growth_at_moment", "when")
 }
-"""By the kind of fault what is said of it; of a growth that has nothing to begin from see `NEEDED`."""
+"""Text ids by kind of fault; for a growth without a starting point see `NEEDED`."""
 NEEDED = {
     "loudness": "rules_dialog.loudness_above",
     "height": "rules_dialog.semitones_above_easy",
@@ -54,7 +55,7 @@ NEEDED = {
 
 
 class RulesDialog(Retranslated, QDialog):
-    """A list of all rules, and the one that is selected as a form beside it."""
+    """List of all rules, and a form with the selected one."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -119,12 +120,12 @@ class RulesDialog(Retranslated, QDialog):
 
     @property
     def draft(self) -> Draft:
-        """The rules as they would be saved."""
+        """The rules to be saved."""
         return self._draft
 
     @property
     def current(self) -> int:
-        """Number of the rule that is selected; -1 where there is none."""
+        """Index of the selected rule; -1 for none."""
         return self._list.currentRow()
 
     def _fill(self, row: int) -> None:
@@ -139,7 +140,7 @@ class RulesDialog(Retranslated, QDialog):
         self._show_current()
 
     def _word(self, index: int) -> None:
-        """Set what the list says of a rule."""
+        """Set the text of a rule in the list."""
         one, item = self._draft[index], self._list.item(index)
         blocked = self._list.blockSignals(True)
         item.setText(f"{rule_title(one.rule)} *" if one.file else rule_title(one.rule))
@@ -220,7 +221,7 @@ class RulesDialog(Retranslated, QDialog):
         return f"{rule_title(self._draft[index].rule)}: {text}"
 
     def _play(self) -> None:
-        """Let everybody act by the draft, or by what is saved."""
+        """Make all players act by the edited rules, or by the saved ones."""
         RULES.put_back(self._shelf)
         if self._preview.isChecked() and not self.faults() and self._draft != self._saved:
             made = sets_of(self._draft, self._shelf.items, self._shelf.files)
@@ -247,7 +248,7 @@ class RulesDialog(Retranslated, QDialog):
         self.accept()
 
     def done(self, result: int) -> None:
-        """Restore the rules as they were, unless they were saved."""
+        """Restore the saved rules when the dialog closes."""
         self._timer.stop()
         if self._preview.isChecked() and self._draft != self._saved:
             RULES.put_back(self._shelf)
@@ -262,7 +263,7 @@ class RulesDialog(Retranslated, QDialog):
     # Qt's own names
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Return takes what is typed into a field; with Ctrl it saves."""
+        """Accept a typed value on Return; save on Ctrl+Return."""
         if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             super().keyPressEvent(event)
         elif event.modifiers() & Qt.KeyboardModifier.ControlModifier and self._save.isEnabled():
@@ -273,7 +274,7 @@ class RulesDialog(Retranslated, QDialog):
 
 
 class _Rules(QListWidget):
-    """The list, with keys of its own."""
+    """The list with keys of its own."""
 
     keys: Mapping[QKeySequence, Callable[[], None]] = {}
 

@@ -1,4 +1,4 @@
-"""The list of keyboard shortcuts: searched, changed, given back; a conflict is reported where it is made."""
+"""List of keyboard shortcuts with search, change and reset; conflicts are reported immediately."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class ShortcutRow:
     Attributes
     ----------
     text, place, context : str
-        What it does, where it stands in the menus, where its shortcut holds; in the language of the editor.
+        Name of the action, its menu, and the part of the window where its shortcut works; in the editor's language.
     keys, default : str
-        As they are and as they come: portable text, ``;`` between several.
+        Present and default shortcuts: portable text, ``;`` between several.
     """
 
     id: str
@@ -43,16 +43,16 @@ class ShortcutsPage(Retranslated, QWidget):
     Parameters
     ----------
     rows : callable
-        Gives the rows as they are now.
+        Returns the present rows.
     conflicts : callable
-        Action id and keys to the ids of actions that have them already.
+        Returns the ids of actions that already have keys, given an action id and these keys.
     menu_of : callable
-        Keys to the name of the menu that they open; empty: none.
+        Returns the name of the menu that keys open; empty for none.
 
     Signals
     -------
     chosen(str, object)
-        An action should have these keys; None: as it comes.
+        An action gets these keys; None for the default.
     """
 
     chosen = Signal(str, object)
@@ -204,7 +204,7 @@ class ShortcutsPage(Retranslated, QWidget):
 
 
 def native(keys: str) -> str:
-    """Shortcuts as this system writes them."""
+    """Return shortcuts in the system's notation."""
     portable, own = QKeySequence.SequenceFormat.PortableText, QKeySequence.SequenceFormat.NativeText
     parts = (part.strip() for part in keys.split(";"))
     return ", ".join(QKeySequence.fromString(part, portable).toString(own) for part in parts if part)

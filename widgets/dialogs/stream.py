@@ -1,6 +1,6 @@
-"""Streaming to other programs: to which computer and port, who, how the face is named, and how it goes.
+"""Dialog of the live stream: computer, port, players, names of face shapes, and state.
 
-What is chosen holds at once, in `session.streaming`.
+Choices apply immediately to `session.streaming`.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _LIST_PX = 130
 
 
 class StreamDialog(Retranslated, QDialog):
-    """The live stream. Not modal: one plays, and looks at the other program."""
+    """The live stream. Not modal, so that the user can play and watch the other program."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -127,7 +127,7 @@ class StreamDialog(Retranslated, QDialog):
         self._reported.setStyleSheet(f"color: {colour};")
 
     def _show_lines(self) -> None:
-        """List who is sent where, or would be."""
+        """List the players with their ports."""
         state, project = self._state, self._session.project
         lines = state.lines or state.planned(project, self._session.in_front)
         names, unseen = {one.id: one.name for one in project.performers}, self._session.performance.unseen
@@ -157,7 +157,7 @@ class StreamDialog(Retranslated, QDialog):
         self._show()
 
     def _state_text(self) -> tuple[str, str]:
-        """Describe the state of the stream, with its colour."""
+        """Return the state of the stream and its colour."""
         state, tokens = self._state, self._session.tokens
         if state.trouble is not None:
             return sentence(state.trouble, self._session), tokens.error

@@ -1,1 +1,1 @@
-"""The inspector: what is selected, what was made by hand, problems, history."""
+"""The inspector: selection, manual changes, problems, history."""

@@ -1,4 +1,4 @@
-"""A line that says what the generator made and what the user made of it, with the way back."""
+"""A line with the generated value, the user's value, and a button to revert."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from widgets.common.plain import Label
 
 
 class ByHandLine(QWidget):
-    """``generated 0 · yours 2·3 ⟲``; hidden where nothing was done by hand.
+    """``generated 0 · yours 2·3 ⟲``; hidden if nothing was changed by hand.
 
     Signals
     -------
@@ -40,7 +40,7 @@ class ByHandLine(QWidget):
         self.hide()
 
     def show_values(self, generated: str | None, yours: str) -> None:
-        """Show both; None as generated value while it is being made, empty where there was nothing."""
+        """Show both values; the generated one is None while it is computed, empty if there was none."""
         self._generated, self._yours = generated, yours
         self._retranslate()
         self.show()

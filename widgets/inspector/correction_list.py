@@ -1,4 +1,4 @@
-"""Everything that was done by hand for the selected players: where, instead of what, and the way back."""
+"""List of all manual changes of the selected players with position, generated value, and a button to revert."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class CorrectionRow:
 
 
 class CorrectionList(Retranslated, QWidget):
-    """Corrections of the selected players, those that lost their place first."""
+    """Corrections of the selected players; those that lost their note first."""
 
     def __init__(self, session: Session, generated: Generated, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -82,7 +82,7 @@ class CorrectionList(Retranslated, QWidget):
     # Showing
 
     def show_corrections(self) -> None:
-        """Show what was done by hand for the selected players."""
+        """Update the list."""
         if not self.isVisible():
             return
         project, plans = self._session.project, self._session.plans
@@ -148,7 +148,9 @@ class CorrectionList(Retranslated, QWidget):
         return ListRow(place, title, where, detail, self._session.colour(player), "by_hand")
 
     def _mark(self, item: OfMark, player: Player) -> str:
-        """Describe a mark set by hand and the mark of the score that it replaces, or say that one was removed."""
+        """Return the description of a mark set by hand and of the score's mark that it replaces, or of a removed
+        mark.
+        """
         if not isinstance(item, SetMark):
             return self.tr("correction_list.mark_removed")
         project = self._session.project
@@ -161,13 +163,13 @@ class CorrectionList(Retranslated, QWidget):
         return self.tr("correction_list.added_as" if text else "correction_list.added").format(yours=text)
 
     def _stretch(self, item: Correction) -> str:
-        """Describe the end of a correction and the number of its keys."""
+        """Return the description of a correction's end and the number of its keys."""
         end = self._session.project.metre_map.label(getattr(item, "end_tick", LATE_TICK))
         detail = self.tr(_STRETCHES[item.tag]).format(end=end, count=len(getattr(item, "keys", ())))
         return detail if getattr(item, "enabled", True) else self.tr("correction_list.curve_off").format(detail=detail)
 
     def _change(self, place: CorrectionRow) -> str:
-        """Describe the current event and the generated one."""
+        """Return the description of the present and the generated event."""
         score = self._session.project.score
         instrument_id, events = (
             self._session.project.player(place.player_id).instrument_id,

@@ -1,4 +1,4 @@
-"""The selected events: when, how much, why; edited as numbers."""
+"""Section with the selected events: time, amount and reason, editable as numbers."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ class EventSection(Retranslated, QWidget):
     # Showing
 
     def show_events(self) -> bool:
-        """Show the selected events; whether there are any."""
+        """Show the selected events, and return whether there are any."""
         found = selected_events(self._session)
         self._plan, self._events = found if found is not None else (None, ())
         self.setVisible(bool(self._events))

@@ -1,4 +1,4 @@
-"""Making expressions: morph sliders beside the live face, named, kept in the project and for other projects."""
+"""Section for making expressions: sliders of morphs with live preview, stored in the project or for other projects."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ GROUPS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("mouth", ("mouth",)),
     ("rest", ("cheek", "nose", "tongue")),
 )
-"""Groups of morph targets by how their names begin."""
+"""Groups of morph targets by the beginning of their names."""
 _TOOLS = (
     ("duplicate", "duplicate", "expression_maker.duplicate_tip"),
     ("remove", "delete", ""),
@@ -45,11 +45,11 @@ _TOOLS = (
     ("both", "link", "expression_maker.move_both_sides_of_face"),
     ("preview", "eye", "expression_maker.preview_tip"),
 )
-"""Buttons, their pictures and the ids of their tips; that of the second depends on the expression."""
+"""Buttons with their pictures and the ids of their tips; the tip of the second depends on the expression."""
 
 
 def mirrored(morph: str) -> str:
-    """The morph target of the other side; itself for one in the middle."""
+    """Return the morph target of the other side; the same for one in the middle."""
     if morph in ("jawLeft", "jawRight", "mouthLeft", "mouthRight"):
         # These move the middle to a side: they are opposites, not a pair.
         return morph
@@ -59,7 +59,7 @@ def mirrored(morph: str) -> str:
 
 
 class ExpressionMaker(Retranslated, QWidget):
-    """Shows an expression as sliders, and its face on the player in front.
+    """Shows an expression as sliders, and previews it on the active player.
 
     Signals
     -------
@@ -126,7 +126,7 @@ class ExpressionMaker(Retranslated, QWidget):
         in_column(self._section, of=self, margins=0)
 
     def _make_sliders(self) -> None:
-        """52 sliders, made when they are first seen."""
+        """Make the 52 sliders when they are first visible."""
         for group, beginnings in GROUPS:
             section = Section(self._session, f"morphs_{group}", folded=group not in ("brows", "eyes"))
             section.body.setContentsMargins(0, 4, 0, 6)
@@ -163,12 +163,12 @@ class ExpressionMaker(Retranslated, QWidget):
 
     @property
     def is_open(self) -> bool:
-        """True if its sliders show."""
+        """True if the sliders are visible."""
         return self._section.is_open
 
     @property
     def expression(self) -> Expression | None:
-        """The expression that is shown; one of the project's own can be edited."""
+        """The displayed expression; it can be edited if it is the project's own."""
         own = {item.name: item for item in self._session.project.expressions}
         return {**self._kept, **load_expressions(), **own}.get(self._name or "")
 
@@ -240,7 +240,7 @@ class ExpressionMaker(Retranslated, QWidget):
             self._groups[group].header.set_texts(self._group_title(group), str(used) if used else "")
 
     def _preview(self, *_: object) -> None:
-        """Let the player in front wear the face, while the section is open."""
+        """Preview the expression on the active player while the section is open."""
         expression = self.expression
         seen = self._section.is_open and self.isVisible() and expression is not None
         live = seen and self._tools["preview"].isChecked()
@@ -279,7 +279,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self._put(token, weights=kept)
 
     def duplicate(self) -> None:
-        """Copy the shown expression into the project, under a new name; one from the user's folder unchanged."""
+        """Copy the expression into the project under a new name; one from the user's folder keeps its name."""
         expression = self.expression
         if expression is None:
             return
@@ -318,7 +318,7 @@ class ExpressionMaker(Retranslated, QWidget):
             self._forget(name)
 
     def _forget(self, name: str) -> None:
-        """Delete it from the user's folder; projects that have it keep it."""
+        """Delete an expression from the user's folder; projects that contain it keep it."""
         try:
             presets.delete_expression(presets.expression_folder(), name)
         except AppError as error:
@@ -329,7 +329,7 @@ class ExpressionMaker(Retranslated, QWidget):
         self.show_expression()
 
     def _keep(self) -> None:
-        """Write it to the user's folder, for other projects."""
+        """Save the expression in the user's folder for other projects."""
         expression = self.expression
         if expression is None:
             return

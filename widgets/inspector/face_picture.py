@@ -1,4 +1,4 @@
-"""The face of an expression from the front, beside its sliders: of the character of the player in front."""
+"""Front view of an expression on the active player's character."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from widgets.common.plain import Label
 
 SIZE_PX: Final = 200
 WAITS_MS: Final = 120
-"""Milliseconds without a change after which a face is drawn again; the player in the viewport follows immediately."""
+"""Delay in milliseconds before a changed face is drawn; the viewport follows immediately."""
 
 
 class FacePicture(Label):
@@ -38,11 +38,11 @@ class FacePicture(Label):
 
     @property
     def weights(self) -> Mapping[str, float] | None:
-        """Weights of the face that was drawn last."""
+        """Weights of the face drawn last."""
         return self._weights
 
     def show_face(self, weights: Mapping[str, float] | None) -> None:
-        """Show a face soon; None: no longer."""
+        """Show a face after a delay; None to hide it."""
         self._weights = None if weights is None else dict(weights)
         if weights is None:
             self._wait.stop()

@@ -1,4 +1,4 @@
-"""Generated values without a player's corrections, to be shown beside them."""
+"""Generated values without a player's corrections, for comparison."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from app.plan.model import PlayerPlan
 from app.project.model import Project
 
 AT_ONCE_NOTES = 3000
-"""Number of notes up to which a change is planned immediately, since that takes no noticeable time; see `AT_ONCE_S`."""
+"""Number of notes up to which a change is planned immediately, since that is not noticeable; see `AT_ONCE_S`."""
 AT_ONCE_S = 0.1
-"""Processor seconds from which planning is no longer done immediately."""
+"""Processor time in seconds above which plans are no longer made immediately."""
 
 
 class Generated(QObject):
-    """Plans of single players as they would be without anything done by hand.
+    """Plans of single players without manual changes.
 
     Signals
     -------
@@ -39,7 +39,7 @@ class Generated(QObject):
         self._underway: tuple[Performance, str] | None = None
 
     def plan(self, player_id: str) -> PlayerPlan | None:
-        """The plan of a player without that player's corrections; None while it is being made (see `changed`)."""
+        """Return a player's plan without corrections; None while it is computed (see `changed`)."""
         performance = self._session.performance
         if not performance.planned or player_id not in performance.plans:
             return None

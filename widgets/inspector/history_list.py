@@ -1,4 +1,4 @@
-"""List of the undo steps; a click goes to one."""
+"""List of undo steps; a click moves to a step."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from widgets.inspector.rows import LineList, ListRow
 
 
 class HistoryList(QWidget):
-    """Every step that can be undone or done again; the last one done is marked."""
+    """All steps to undo or redo; the last one done is marked."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)

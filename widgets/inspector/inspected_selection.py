@@ -1,4 +1,4 @@
-"""The notes and events under inspection, and their players."""
+"""The inspected notes and events, and their players."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from app.project.performers import Player
 from app.score.model import Note, Part
 
 MOST_NOTES = 500
-"""Most selected notes that are looked at: by then it is known whether values differ."""
+"""Greatest number of selected notes that are examined, sufficient to find differing values."""
 
 
 _OF_NOTES = frozenset({"fingering", "embouchure"})
@@ -21,18 +21,18 @@ _OF_NOTES = frozenset({"fingering", "embouchure"})
 
 @dataclass(frozen=True)
 class SelectedNotes:
-    """The selected notes of the active player, else of the first that plays some of them.
+    """The selected notes of the active player, else of the first player with selected notes.
 
     Attributes
     ----------
     player : Player or None
-        None: a part that no one plays.
+        Player; None for a part without a player.
     note : Note
-        The first one.
+        First of the notes.
     notes : tuple of Note
-        At most `MOST_NOTES` of those this player plays.
+        At most `MOST_NOTES` of the player's selected notes.
     note_ids : frozenset of str
-        Every selected note, also of others.
+        Ids of all selected notes, including other players'.
     """
 
     player: Player | None
@@ -42,18 +42,18 @@ class SelectedNotes:
 
     @cached_property
     def own_ids(self) -> tuple[str, ...]:
-        """Ids of the notes that this player plays."""
+        """Return the ids of the player's notes."""
         return tuple(note.id for note in self.notes)
 
 
 class NoteFinder:
-    """Notes of parts by id, found again quickly while a part stays the same."""
+    """Notes of parts by id, cached while a part is unchanged."""
 
     def __init__(self) -> None:
         self._known: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
 
     def chosen(self, part: Part, ids: frozenset[str]) -> list[Note]:
-        """The notes of a part that have these ids."""
+        """Return the notes of a part with given ids."""
         notes, by_id = self._known.get(part.id, ((), {}))
         if notes is not part.notes:
             by_id = {note.id: note for note in part.notes}
@@ -64,7 +64,7 @@ class NoteFinder:
 
 
 def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None:
-    """See `SelectedNotes`; None where no note is selected."""
+    """Return the selected notes (see `SelectedNotes`); None if there are none."""
     project, selection = session.project, session.selection
     # A fingering or an embouchure is a note's.
     events = [EventId.parse(key.event_id) for key in selection.events]
@@ -85,7 +85,7 @@ def selected_notes(session: Session, finder: NoteFinder) -> SelectedNotes | None
 
 
 def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] | None:
-    """The selected events of one player and one kind (that of the first in time), with the player's plan."""
+    """Return the selected events of one player and one kind (those of the first in time), with the player's plan."""
     keys = session.selection.events
     if not keys:
         return None
@@ -107,10 +107,10 @@ def selected_events(session: Session) -> tuple[PlayerPlan, tuple[Placed, ...]] |
 
 
 def fingering_of(plan: PlayerPlan, note_id: str) -> FingeringEvent | None:
-    """The fingering event of a note; None for one that cannot sound (the lower note of a chord)."""
+    """Return the fingering event of a note; None for one that cannot sound (a lower note of a chord)."""
     return next((event for event in plan.fingerings if event.note_id == note_id), None)
 
 
 def embouchure_of(plan: PlayerPlan, note_id: str) -> EmbouchureEvent | None:
-    """The embouchure event of a note; None for one that cannot sound."""
+    """Return the embouchure event of a note; None for one that cannot sound."""
     return next((event for event in plan.embouchures if event.note_id == note_id), None)

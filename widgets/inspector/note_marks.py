@@ -1,4 +1,4 @@
-"""Marks of the selected notes: what is written over them, by whom, and how the first of them is tongued."""
+"""Marks of the selected notes with their origins, and the tonguing of the first note."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class _Alike(NamedTuple):
     Attributes
     ----------
     is_everywhere : bool
-        All of the notes have it.
+        Whether all of the notes have it.
     """
 
     marks: tuple[Mark, ...]
@@ -93,7 +93,7 @@ class NoteMarks(Retranslated, QWidget):
         self._tongued.setText(self.tr("note_marks.tongue").format(reason=told))
 
     def _chip(self, key: tuple[str, str]) -> Chip:
-        """The chip of a kind and text; it stays when it is hidden, so that the keyboard stays where it is."""
+        """Return the chip of a kind and text; hidden chips are kept for the keyboard focus."""
         chip = self._chip_of.get(key)
         if chip is None:
             chip = self._chip_of[key] = named(Chip(self._session, ""), f"mark_{key[0]}")
@@ -115,7 +115,7 @@ class NoteMarks(Retranslated, QWidget):
         offer_actions(self._session, MENU, self, "marks_menu", at)
 
     def _toggle(self, key: tuple[str, str]) -> None:
-        """Take marks away that all notes have; give one that some have to the others."""
+        """Remove a mark if all notes have it; otherwise add it to the others."""
         if self._shown is None:
             return
         (player, notes), alike = self._shown, self._kinds[key]

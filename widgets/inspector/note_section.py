@@ -1,4 +1,4 @@
-"""The selected notes: what they are, how they are fingered and why, their embouchure, and what is wrong with them."""
+"""Section with the selected notes: pitch and time, fingering with reason, embouchure, and problems."""
 
 from __future__ import annotations
 
@@ -135,12 +135,14 @@ class NoteSection(Retranslated, QWidget):
 
     @property
     def diagram_bottom_px(self) -> int:
-        """Distance from the top of the section to the end of the diagram of the fingering; 0 without one."""
+        """Return the distance in pixels from the top of the section to the end of the fingering diagram; 0 without
+        one.
+        """
         end = QPoint(0, self._diagram.height() + 4)
         return self._diagram.mapTo(self, end).y() if self._diagram.isVisible() else 0
 
     def show_notes(self) -> bool:
-        """Show the selected notes; whether there are any."""
+        """Show the selected notes, and return whether there are any."""
         self._shown = selected_notes(self._session, self._finder)
         self.setVisible(self._shown is not None)
         if self._shown is None:
@@ -271,8 +273,9 @@ class NoteSection(Retranslated, QWidget):
         return () if shown.player is None else self._session.project.corrections.get(shown.player.id, ())
 
     def _pin_label(self, shown: SelectedNotes) -> str | None:
-        """Label of the fingering pinned to the shown note (the instrument may not have it), else to another of the
-        selected."""
+        """Return the label of the fingering pinned to the displayed note (possibly unknown to the instrument), else to
+        another selected one.
+        """
         ids = frozenset(shown.own_ids)
         pins = {
             item.note_id: item.label
@@ -305,7 +308,7 @@ class NoteSection(Retranslated, QWidget):
     def _edit(
         self, name: str, change: Callable[[Project, SelectedNotes], Project], token: object | None = None
     ) -> None:
-        """Edit the shown notes, by a function that takes them."""
+        """Edit the displayed notes by a function."""
         shown = self._shown
         if shown is None:
             return
@@ -316,7 +319,9 @@ class NoteSection(Retranslated, QWidget):
     def _edit_own(
         self, name: str, change: Callable[[Project, str, tuple[str, ...]], Project], token: object | None = None
     ) -> None:
-        """Edit the shown notes of the player whose fingering is seen, by a function that takes its id and theirs."""
+        """Edit the displayed notes of the player with the fingering by a function of the player's id and the notes'
+        ids.
+        """
         if self._shown is None or self._shown.player is None:
             return
         player_id, ids = self._shown.player.id, self._shown.own_ids
@@ -368,7 +373,7 @@ class NoteSection(Retranslated, QWidget):
         )
 
     def _without(self, kind: type[PinFingering] | type[SetEmbouchure], field: str | None = None) -> None:
-        """Remove corrections of the shown notes, or only one of their values."""
+        """Remove corrections of the displayed notes, or only one of their values."""
         self._edit_own(
             "edit.give_back",
             lambda project, player_id, ids: edit_events.forget(project, player_id, kind, frozenset(ids), field),
@@ -387,12 +392,12 @@ class NoteSection(Retranslated, QWidget):
 
 
 def _cents_text(cents: float) -> str:
-    """``"+12¢"``; empty where a fingering is in tune."""
+    """Return ``"+12¢"``; empty if a fingering is in tune."""
     return f"{cents:+.0f}¢".replace("-", "−") if round(cents) else ""
 
 
 def _spaced(label: str, instrument: InstrumentMap) -> str:
-    """``"13"`` as ``"1·3"`` where it names valves one by one; keys and holes in words."""
+    """Return ``"13"`` as ``"1·3"`` if it names single valves; keys and holes in words."""
     signs = {control.label for control in instrument.controls if control.label}
     if not says_words(instrument.controls) and len(label) > 1 and all(sign in signs for sign in label):
         return "·".join(label)

@@ -1,4 +1,4 @@
-"""The inspector: what is selected, and why it is as it is; problems, handwork and history."""
+"""The inspector panel: selection with reasons; problems, manual changes and history."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from widgets.inspector.take_section import TakeSection
 MOST_COUNTED = 999
 LISTS_SHARE = 0.55
 WHOLE = 1000
-"""Sizes of the splitter in shares of its height."""
+"""Total of the splitter's sizes, which are shares of its height."""
 TAB_EDGE_PX = 2
 LEAST_LISTS_PX = 60
 """Least height of the lists with their tabs."""
@@ -102,16 +102,16 @@ class InspectorPanel(Retranslated, QWidget):
         in_column(self._splitter, of=self, margins=0)
 
     def divide(self, lists_share: float, tab: int = 0, kept: bool = False) -> None:
-        """Give the lists a share of the height, and bring one of them to the front.
+        """Set the lists' share of the height, and the tab in front.
 
         Parameters
         ----------
         lists_share : float
-            The most they get, 0..1; less where all problems are in sight in less, and where a note's fingering needs
-            the room.
+            Greatest share of the lists, 0..1; less if all problems fit into less, or if a note's fingering needs the
+            space.
         tab : int
         kept : bool
-            Whether they keep it however few problems there are, as after the user dragged the divider.
+            Whether the share is kept for few problems too, as after the user dragged the divider.
         """
         self._lists_share, self._kept = min(max(lists_share, 0.0), 1.0), kept
         self._diagram_px = 0
@@ -127,8 +127,9 @@ class InspectorPanel(Retranslated, QWidget):
         self._lists_share, self._kept = below / max(above + below, 1), True
 
     def _fit_lists(self) -> None:
-        """Leave the room that a short list of problems does not need to what is selected, and let a long one leave a
-        fingering in sight. The other lists stand as high, so that the tabs stay under the mouse."""
+        """Fit the lists to the problems, so that the selection gets the remaining space and a fingering stays visible.
+        All lists have the same height, so that the tabs do not move.
+        """
         if self._kept or not self.isVisible():
             return
         whole_px = sum(self._splitter.sizes())
@@ -142,7 +143,7 @@ class InspectorPanel(Retranslated, QWidget):
             self._splitter.setSizes([whole_px - lists_px, lists_px])
 
     def save_state(self) -> str:
-        """The lists' share of the height, and which of them is shown, as text."""
+        """Return the lists' share of the height and the current tab as text."""
         state = _State(self._lists_share, self._tabs.currentIndex(), self._kept)
         return msgspec.json.encode(state).decode()
 

@@ -1,4 +1,4 @@
-"""Problems that the animator should look at, of all players' plans and of dances."""
+"""List of problems in all players' plans and in dances."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ _KIND_TEXTS = {
     "project": "problem_list.instruments_and_characters",
 }
 MOST_LINES = 300
-"""No one reads more; a large score that does not fit its instruments has thousands."""
+"""Greatest number of lines, since a large score that does not fit its instruments may have thousands."""
 
 
 class ProblemGroup(NamedTuple):
-    """Problems of one kind and performer: a row of the list."""
+    """Problems of one kind and performer, shown as a row."""
 
     performer: Player | Dancer
     problems: tuple[Problem, ...]
@@ -57,7 +57,7 @@ class ProblemGroup(NamedTuple):
 
 
 class ProblemList(Retranslated, QWidget):
-    """Problems, by player and kind; a click shows where.
+    """Problems by player and kind; a click moves to one.
 
     Signals
     -------
@@ -122,7 +122,7 @@ class ProblemList(Retranslated, QWidget):
         return ProblemFilter(self._kind.shown or ALL, self._who.shown == SELECTED)
 
     def show_problems(self) -> None:
-        """Show what the newest plans have."""
+        """Show the problems of the latest plans."""
         session, project = self._session, self._session.performance.project
         by_player = [(one, session.problems(one.id)) for one in project.performers]
         ignored = [(one, session.ignored_problems(one.id)) for one in project.performers]
@@ -165,7 +165,7 @@ class ProblemList(Retranslated, QWidget):
         self.listed.emit()
 
     def height_px(self, most_rows: int | None = None) -> int:
-        """Height at which all rows, or a number of them, are in sight."""
+        """Return the height in pixels at which all rows, or a number of them, are visible."""
         layout = self._column
         layout.invalidate()
         width_px = self.width()
@@ -176,7 +176,7 @@ class ProblemList(Retranslated, QWidget):
         return whole_px - self.list.sizeHint().height() + self.list.height_px(most_rows)
 
     def _show_lines(self, lines: list[ListRow]) -> None:
-        """Show rows; those that are selected stay so where their player still has problems of the kind."""
+        """Show rows; the selection is kept for players that still have problems of the kind."""
         chosen = {(player_id, problem_kind(problems[0])) for player_id, problems in self._chosen()}
         self.list.lines.show_lines(lines)
         if chosen and not self._chosen():
@@ -185,7 +185,7 @@ class ProblemList(Retranslated, QWidget):
                 self.list.selectionModel().select(self.list.lines.index(row), QItemSelectionModel.SelectionFlag.Select)
 
     def _select_gone_to(self) -> None:
-        """Select the row of the problem that the user went to by other means than this list."""
+        """Select the row of the problem that was shown by other means than this list."""
         gone_to = self._session.problem
         if gone_to is None or self._is_opening:
             return
@@ -210,7 +210,7 @@ class ProblemList(Retranslated, QWidget):
     def _requested(
         self, by_player: list[tuple[Player | Dancer, tuple[Problem, ...]]], is_ignored: bool
     ) -> list[ProblemGroup]:
-        """Groups of the players and the kind that are asked for."""
+        """Return the groups that pass the filter of players and kinds."""
         chosen, selected = self._filter, self._session.players
         return [
             ProblemGroup(player, tuple(problems), is_ignored)
@@ -238,7 +238,7 @@ class ProblemList(Retranslated, QWidget):
             self.show_problems()
 
     def _open(self, key: object) -> None:
-        """Go to a problem of a row: another click goes to its next one."""
+        """Move to a problem of a row; another click moves to the next one."""
         assert isinstance(key, tuple)
         player_id, problems = key
         step = self._gone_to[1] + 1 if self._gone_to is not None and self._gone_to[0] == key else 0
@@ -265,7 +265,7 @@ class ProblemList(Retranslated, QWidget):
         self._ignore.setText(self.tr(self._ignore_text(chosen)))
 
     def _fix_tip(self, chosen: list[RowKey], has_fix: bool) -> str:
-        """The text of what the button does, or of why it does nothing."""
+        """Return the tool tip of the button: its effect, or why it is disabled."""
         if has_fix:
             return "problem_list.mend_selected"
         if len(chosen) != 1:
@@ -302,7 +302,7 @@ class ProblemList(Retranslated, QWidget):
         self._set_ignored(self._chosen())
 
     def _set_ignored(self, rows: list[RowKey]) -> None:
-        """Ignore rows, or count them again where all of them are ignored."""
+        """Ignore the problems of rows; if all are ignored already, count them again."""
         if not rows:
             return
         again = self._are_ignored(rows)
@@ -354,7 +354,7 @@ class ProblemList(Retranslated, QWidget):
 
 
 def _edit_of(project: Project, name: str, rows: Sequence[RowKey]) -> Message:
-    """Return the name of an edit of rows of problems: their number, their players, from where to where."""
+    """Return the name of an edit of problem rows: their number, players and range."""
     problems = [problem for _, of_row in rows for problem in of_row]
     ticks = [round(project.score.tempo_map.ticks(problem.start_s)) for problem in problems]
     return edit_at(project, name, len(problems), {player_id for player_id, _ in rows}, ticks)

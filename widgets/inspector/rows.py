@@ -1,4 +1,4 @@
-"""A list of lines with a title, a place and a detail; as many as there are, drawn only where they are seen."""
+"""A list of any number of lines with title, place and detail, drawn only where visible."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class ListRow:
     Attributes
     ----------
     key : object
-        What it is about, for the receiver of a click.
+        Object that a click passes on.
     title, place, detail : str
-        The place stands at the right; the detail below.
+        Texts: the place at the right, the detail below.
     colour : str
-        Of the bar at the left; empty: none.
+        Colour of the bar at the left; empty for none.
     tone : str
         ``""``, ``"warning"``, ``"by_hand"``, ``"faint"`` or ``"current"``.
     """
@@ -42,7 +42,7 @@ class ListRow:
 
 
 class LineModel(QAbstractListModel):
-    """Lines in order."""
+    """Model of the lines."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -148,7 +148,7 @@ class _LineDelegate(QStyledItemDelegate):
 
 
 class LineList(QListView):
-    """Lines that can be walked with the arrows and opened with a click or Return.
+    """List of lines that are selected by arrow keys and opened by a click or Return.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ class LineList(QListView):
     Signals
     -------
     opened(object)
-        The user clicked the line of this key, or pressed Return on it.
+        The line of this key was clicked, or opened by Return.
     deleted()
         The user pressed Delete or Backspace.
     """
@@ -187,7 +187,7 @@ class LineList(QListView):
         return tuple(self.lines.lines[number].key for number in numbers)
 
     def height_px(self, most_lines: int | None = None) -> int:
-        """Height at which every line, or a number of them, is in sight."""
+        """Return the height in pixels at which all lines, or a number of them, are visible."""
         count = self.lines.rowCount()
         lines_px = (count if most_lines is None else min(count, most_lines)) * self.sizeHintForRow(0)
         return max(lines_px + 2 * self.frameWidth(), self.minimumHeight())
@@ -208,11 +208,11 @@ class LineList(QListView):
 
 
 def _line_px(font: QFont) -> float:
-    """Height of a line whatever it is written in: the signs of a fallback font may be taller."""
+    """Return the height of a line in pixels for all scripts, since glyphs of a fallback font may be taller."""
     metrics = QFontMetricsF(font)
     return max(metrics.height(), metrics.boundingRect("漢あÁgj").height() + 1.0)
 
 
 def _two_lines(metrics: QFontMetricsF, text: str, width_px: int) -> str:
-    """The text, shortened so that it takes at most about two lines."""
+    """Return the text shortened to about two lines."""
     return metrics.elidedText(text, Qt.TextElideMode.ElideRight, width_px * 1.85)

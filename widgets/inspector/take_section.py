@@ -1,4 +1,4 @@
-"""The selected take: what it is called, when it was played, and how notes are made of it."""
+"""Section with the selected take: name, time of recording, and conversion to notes."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ BUTTONS: Final = ("takes.listen", "takes.listen_alone", "takes.whole", "takes.re
 
 @dataclass(frozen=True)
 class _Number:
-    """Display of one number of the cleaning: ``scale`` units per unit of the value; text and tip by their ids."""
+    """Slider of one number of the cleaning: ``scale`` displayed units per unit of the value, with text ids."""
 
     field: str
     scale: float
@@ -79,7 +79,7 @@ NUMBERS: Final = (
 
 
 class TakeSection(Retranslated, QWidget):
-    """Shows and edits the selected take of the player in front."""
+    """Shows and edits the selected take of the active player."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -171,7 +171,7 @@ class TakeSection(Retranslated, QWidget):
     # Showing
 
     def show_take(self) -> bool:
-        """Show the selected take; whether there is one."""
+        """Show the selected take, and return whether there is one."""
         player, take_id = self._session.player, self._session.selection.take
         recorded = self._session.project.takes.get(player.id) if player is not None and take_id else None
         takes = recorded.takes if recorded is not None else ()
@@ -214,7 +214,7 @@ class TakeSection(Retranslated, QWidget):
         self._counts.setText(self._counts_text())
 
     def _counts_text(self) -> str:
-        """Count the notes that are left out, by fault."""
+        """Return the numbers of omitted notes by fault as text."""
         assert self._player is not None
         assert self._take is not None
         clean = take_cleaned(self._session.project, self._player.id, self._take.id)

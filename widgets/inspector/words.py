@@ -1,4 +1,4 @@
-"""Events and corrections in words, short enough for a list."""
+"""Short descriptions of events and corrections for lists."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from widgets.common.instrument_name import language
 
 
 def amount_field(event: Placed) -> str | None:
-    """Name of the field that holds an event's amount."""
+    """Return the name of the field with an event's amount."""
     field, _ = AMOUNTS.get(type(event), (None, 0.0))
     return field
 
@@ -39,13 +39,13 @@ def event_title(event: Event) -> str:
 
 
 def fingering_text(label: str, instrument_id: str) -> str:
-    """A fingering in words; as it is where the instrument is not installed."""
+    """Return a fingering in words; the label if the instrument is not installed."""
     instrument = all_maps().get(instrument_id)
     return label if instrument is None else fingering_words(instrument, label, language())
 
 
 def event_text(score: Score, event: Event | None, instrument_id: str, correction: Correction | None = None) -> str:
-    """Place and amount of an event, ``"12.3–12.4, 0.80"``; for an embouchure, what a correction sets."""
+    """Return the place and amount of an event, ``"12.3–12.4, 0.80"``; for an embouchure, the corrected values."""
     match event:
         case None:
             return ""
@@ -98,7 +98,7 @@ _TITLES: Final = {
 
 
 def mark_text(score: Score, part: Part, mark: Mark) -> str:
-    """Text of a mark and its end: ``"mf"``, ``"to 13.1"``."""
+    """Return the text of a mark and its end: ``"mf"``, ``"to 13.1"``."""
     ends = [note.onset_tick for note in part.notes if note.id == mark.last_note_id] if mark.last_note_id else []
     end_tick = ends[0] if ends else mark.end_tick
     until = tr("inspector.mark_until").format(end=score.metre_map.label(end_tick)) if end_tick else ""
@@ -106,7 +106,7 @@ def mark_text(score: Score, part: Part, mark: Mark) -> str:
 
 
 def correction_title(item: Correction, instrument_id: str) -> str:
-    """Title of a correction made by hand for a player of an instrument."""
+    """Return the title of a manual correction for a player of an instrument."""
     kind, name = item.named
     shown = fingering_text(name, instrument_id) if kind == "fingering" else _NAMES[kind](name)
     if item.title:

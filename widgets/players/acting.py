@@ -1,4 +1,4 @@
-"""The style of the selected players, and their habits, as switches."""
+"""Style and habits of the selected players."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _STYLE, _HABITS = PARAMETERS["style"], PARAMETERS["habits"]
 
 
 class ActingRows(Retranslated, QWidget):
-    """A list of styles, and below it every habit as a switch.
+    """List of styles, and a switch for every habit.
 
     Signals
     -------
@@ -53,7 +53,7 @@ class ActingRows(Retranslated, QWidget):
         self.retranslate()
 
     def show_players(self, players: Sequence[Player]) -> None:
-        """Show what these players are, of whom there is at least one."""
+        """Show the style and habits of one or more players."""
         self._players = tuple(players)
         self._show()
 

@@ -26,13 +26,13 @@ from widgets.players.parameter_rows import ParameterSlider, rows_of
 
 _GENERATED = ""
 _FROM_FILE = "\0file"
-"""Option that is no choreography's name."""
+"""Value of the option that opens a file; no choreography has this name."""
 _DANCED = PARAMETERS["choreography"]
 _VARIATION = "dance_variation"
 
 
 class BodyDanceRows(Retranslated, QWidget):
-    """Generated or a choreography, how much of it, and which of its dances; the latter two while there is one."""
+    """Choice between generated motion and a choreography, with its amount and number of the dance."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -59,7 +59,7 @@ class BodyDanceRows(Retranslated, QWidget):
     # Showing
 
     def show_players(self, players: Sequence[Player]) -> None:
-        """Show what these players dance, of whom there is at least one."""
+        """Show the dance of one or more players."""
         dances = self._dances = list(dict.fromkeys(player.parameters.choreography for player in players))
         self.retranslate()
         for widget in (*self._sliders.values(), self._dice):

@@ -1,4 +1,4 @@
-"""Switch that shows a layer of the selected players, before the slider of its amount."""
+"""Check box that shows or hides a motion layer of the selected players, beside its amount."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from widgets.common.controls import Retranslated
 
 
 class LayerSwitch(Retranslated, QCheckBox):
-    """A box to tick; filled in part where only some of the players show the layer.
+    """A check box; partially checked if only some of the players show the layer.
 
     Parameters
     ----------
     amount : Parameter
-        That of the layer.
+        Parameter with the amount of the layer.
     slider : QWidget
-        The control of the amount: dimmed while no one shows the layer.
+        Control of the amount, disabled if no player shows the layer.
     """
 
     def __init__(self, session: Session, amount: Parameter, slider: QWidget) -> None:
@@ -39,14 +39,14 @@ class LayerSwitch(Retranslated, QCheckBox):
         self.texted(self, explained=lambda: tr("layer_switch.show_layer").format(layer=tr(amount.label)))
 
     def show_players(self, players: Sequence[Player]) -> None:
-        """Show what these players show, of whom there is at least one."""
+        """Show the state of one or more players."""
         shown = {self._amount.name not in names_in(player.parameters.layers_off) for player in players}
         states = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
         self.setCheckState(states[shown.pop()] if len(shown) == 1 else Qt.CheckState.PartiallyChecked)
         self._slider.setEnabled(self.checkState() != Qt.CheckState.Unchecked)
 
     def nextCheckState(self) -> None:
-        """Go from shown by some to shown by all."""
+        """Change a partially checked box to checked."""
         self.setChecked(self.checkState() != Qt.CheckState.Checked)
 
     def _switch(self) -> None:

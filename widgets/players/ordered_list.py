@@ -1,4 +1,4 @@
-"""A list whose rows are put in another order by hand, as the players and the dancers are."""
+"""Base of the lists of players and dancers, whose rows the user can reorder."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _BAR_PX = 5
 class OrderedList(QListView):
     """A list in which a drag or Alt with the arrows reorders, and F2 or a double click renames.
 
-    Its model has an id of each row as `ID_ROLE`.
+    Its model provides an id for each row as `ID_ROLE`.
 
     Signals
     -------
@@ -75,7 +75,7 @@ class OrderedList(QListView):
         return self.visualRect(self.model().index(number, 0))
 
     def _selected_numbers(self) -> list[int]:
-        """Numbers of the rows that a drag or Alt with an arrow moves."""
+        """Return the indices of the rows moved by a drag or Alt with an arrow."""
         return sorted(index.row() for index in self.selectionModel().selectedIndexes())
 
     def _move(self, before: int) -> None:
@@ -97,7 +97,9 @@ class OrderedList(QListView):
         return next((number for number in rows if y < self._box(number).center().y()), self._count())
 
     def _edge_px(self, number: int) -> int:
-        """Height of the edge above a row; where the row is hidden or past the last, below the last that is seen."""
+        """Return the vertical position of the edge above a row; below the last visible row if the row is hidden or past
+        the end.
+        """
         if number < self._count() and self._box(number).isValid():
             return self._box(number).top()
         above = (self._box(row).bottom() for row in range(number - 1, -1, -1) if self._box(row).isValid())
@@ -175,7 +177,7 @@ class OrderedList(QListView):
 
 
 class RowDelegate(QStyledItemDelegate):
-    """Draws what the rows of both lists have: colour, selection, number of problems, frame of the keyboard."""
+    """Draws the common parts of rows: colour, selection, number of problems, focus frame."""
 
     def __init__(self, session: Session, view: OrderedList) -> None:
         super().__init__(view)
@@ -184,14 +186,14 @@ class RowDelegate(QStyledItemDelegate):
     def paint_ground(
         self, painter: QPainter, option: QStyleOptionViewItem, colour: str, opacity: float, inset_px: int
     ) -> None:
-        """Paint what lies below the texts.
+        """Paint the background of the texts.
 
         Parameters
         ----------
         colour : str
             Of the bar at the left.
         opacity : float
-            Of the accent, where the row is selected.
+            Opacity of the accent colour in selected rows.
         inset_px : int
             Room above and below the bar.
         """
@@ -209,7 +211,9 @@ class RowDelegate(QStyledItemDelegate):
         painter.drawRoundedRect(bar, 2, 2)
 
     def paint_problems(self, painter: QPainter, room: QRect, count: int, font: QFont) -> int:
-        """A mark and the number of problems at the right; returns where the room left of them ends, in pixels."""
+        """Draw a mark with the number of problems at the right, and return the right end of the remaining space in
+        pixels.
+        """
         if not count:
             return room.right()
         tokens, text = self._session.tokens, str(count)
@@ -222,7 +226,7 @@ class RowDelegate(QStyledItemDelegate):
         return spot.left() - 6
 
     def paint_frame(self, painter: QPainter, box: QRect, is_front: bool) -> None:
-        """The line below, and a frame where the keyboard is."""
+        """Draw the line below, and a frame around the row with keyboard focus."""
         tokens = self._session.tokens
         painter.setPen(QColor(tokens.line))
         painter.drawLine(box.bottomLeft(), box.bottomRight())
@@ -232,7 +236,7 @@ class RowDelegate(QStyledItemDelegate):
             painter.drawRoundedRect(QRectF(box).adjusted(1, 1, -1, -1.5), 3, 3)
 
     def tip(self, index: AnyIndex, box: QRect, at: QPoint) -> str:
-        """Tip of a place in a row, whose box is given."""
+        """Return the tool tip for a point in a row with a rectangle."""
         raise NotImplementedError
 
     def helpEvent(

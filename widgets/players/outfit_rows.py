@@ -1,4 +1,4 @@
-"""Controls of what someone wears: the outfit, and the colours of its parts."""
+"""Controls for outfits and the colours of their parts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from widgets.common.swatch import ColourSwatch
 
 
 class OutfitChooser(Retranslated, Combo):
-    """The outfits, and the clothes that people have of their own."""
+    """Combo box of outfits, including the character's own clothes."""
 
     def __init__(self, prefix: str) -> None:
         super().__init__()
@@ -28,7 +28,7 @@ class OutfitChooser(Retranslated, Combo):
         self.retranslate()
 
     def show_worn(self, performers: Sequence[Player | Dancer]) -> None:
-        """Show what some performers wear; those who are no people have no choice."""
+        """Show the outfits of performers; disabled for characters that are not people."""
         worn = {one.outfit.id for one in _people(performers)}
         self.setEnabled(bool(worn))
         self.setToolTip("" if worn else self.tr("outfit_rows.own_figure"))
@@ -42,7 +42,7 @@ class OutfitChooser(Retranslated, Combo):
 
 
 class OutfitColours(Retranslated, QWidget):
-    """The colours of the parts of outfits that can be chosen.
+    """Buttons for the selectable colours of outfits.
 
     Signals
     -------
@@ -66,7 +66,7 @@ class OutfitColours(Retranslated, QWidget):
         self.caption.setBuddy(self._swatches["main"])
 
     def show_worn(self, performers: Sequence[Player | Dancer]) -> None:
-        """Show the colours of what some performers wear; nothing where none can be chosen."""
+        """Show the colours of performers' outfits; hidden if none can be chosen."""
         people = _people(performers)
         tints = {tint for one in people if one.outfit.id in wardrobe() for tint in wardrobe()[one.outfit.id].tints}
         for one in (self, self.caption):
@@ -81,11 +81,11 @@ def _outfits() -> list[Option]:
 
 
 def _people(performers: Sequence[Player | Dancer]) -> list[Player | Dancer]:
-    """Those of the performers who can wear outfits."""
+    """Return the performers that can wear outfits."""
     return [one for one in performers if person_behind(one.character_id) is not None]
 
 
 def _seen(choice: OutfitChoice, tint: Tint) -> str:
-    """The colour that a part of an outfit has; empty where there is no such part."""
+    """Return the colour of a part of an outfit; empty if there is no such part."""
     outfit = wardrobe().get(choice.id)
     return "" if outfit is None or tint not in outfit.colours else choice.colour(tint) or outfit.colours[tint]

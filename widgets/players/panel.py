@@ -1,4 +1,4 @@
-"""The players' panel: the players, their parameters and their places."""
+"""The players' panel: players, parameters and places."""
 
 from __future__ import annotations
 
@@ -66,16 +66,16 @@ MENU = (
     "players.grouped",
     "players.fold_sections",
 )
-"""The context menu: actions by id, an empty one is a line."""
+"""Action ids of the context menu; an empty one is a separator."""
 LEAST_LIST_PX = 130
 SEARCHED_FROM = 9
-"""Players from which on the list can be searched."""
+"""Number of players from which the list has a search field."""
 LIST_SHARE = 0.5
-"""Largest share of the panel: where there are many players the parameters still have room."""
+"""Largest share of the list in the panel's height, so that parameters have room."""
 
 
 class PlayersPanel(Retranslated, QWidget):
-    """The list of players, and below it the parameters of those selected."""
+    """The list of players, and the parameters of the selected ones."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -179,14 +179,14 @@ class PlayersPanel(Retranslated, QWidget):
         self._divided = True
 
     def divide(self, upper_px: int | None = None) -> None:
-        """Give the list this height; None: the height it needs."""
+        """Set the height of the list in pixels; None for the height that it needs."""
         self._divided = upper_px is not None
         if upper_px is not None:
             self._splitter.setSizes([upper_px, max(self._splitter.height() - upper_px, 1)])
         self._divide()
 
     def save_state(self) -> str:
-        """Height that the user gave the list, as text; empty if none."""
+        """Return the list's height set by the user as text; empty if not set."""
         return str(self._splitter.sizes()[0]) if self._divided else ""
 
     def restore_state(self, state: str) -> None:
@@ -195,7 +195,7 @@ class PlayersPanel(Retranslated, QWidget):
             self.divide(int(state) if state else None)
 
     def _divide(self) -> None:
-        """Give the list the room its rows need, up to about half, until the user divides the panel."""
+        """Give the list the height that its rows need, up to about half, unless the user has divided the panel."""
         height = self._splitter.height()
         if self._divided or not height:
             return
@@ -263,7 +263,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._divide()
 
     def _by_section(self, rows: list[PlayerRow]) -> list[Row]:
-        """Put players under the headers of their sections, where that is requested and clearer."""
+        """Put players under headers of their sections, if requested and useful."""
         session = self._session
         if not (session.groups_players and are_worth_grouping(session.project)):
             return list(rows)
@@ -275,7 +275,7 @@ class PlayersPanel(Retranslated, QWidget):
         return result
 
     def _select_found(self) -> None:
-        """Select all whom the search shows: a section is muted or soloed by one of them."""
+        """Select all players that the search shows; one of a section mutes or solos the section."""
         if self.list.found:
             self._session.set_players(self.list.found)
 
@@ -295,7 +295,7 @@ class PlayersPanel(Retranslated, QWidget):
         self._variety.header.set_texts(self.tr("players_panel.variety"), whom)
 
     def _scroll_to(self, section: QWidget) -> None:
-        """Scroll to a section once it has its new height."""
+        """Scroll to a section after its height has changed."""
         QTimer.singleShot(0, self, lambda: self._scroll.verticalScrollBar().setValue(section.y()))
 
     # Editing
@@ -307,7 +307,7 @@ class PlayersPanel(Retranslated, QWidget):
         )
 
     def _toggle(self, field: PlayerMark, player_ids: tuple[str, ...]) -> None:
-        """Mute or solo a section; or one player, with all the selected where the player is one of them."""
+        """Mute or solo a section; or one player, together with all selected ones if it is selected."""
         session = self._session
         chosen = session.players if len(player_ids) == 1 and player_ids[0] in session.players else player_ids
         on = not all(getattr(session.project.player(player_id), field) for player_id in player_ids)
@@ -338,7 +338,7 @@ class PlayersPanel(Retranslated, QWidget):
         menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
 
     def add(self, instrument_id: str) -> None:
-        """Add a player of this instrument, in front."""
+        """Add a player with an instrument, and make it active."""
         add_player(self._session, instrument_id)
 
     def _reseed(self) -> None:

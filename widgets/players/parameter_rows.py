@@ -1,4 +1,4 @@
-"""Parameters as controls: what each is called, which numbers it takes, and where it stands, as it is declared."""
+"""Controls of parameters as declared: name, range, place."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from widgets.common.layouts import in_row
 from widgets.common.number_slider import NumberSlider
 
 LARGEST = 2**31 - 1
-"""The largest whole number that a control takes."""
+"""Greatest whole number that a control accepts."""
 
 
 def rows_of(section: str, table: Mapping[str, Parameter] = PARAMETERS) -> list[Parameter]:
-    """The parameters that a part of the panel shows, from the top."""
+    """Return the parameters of a section from the top."""
     return sorted((one for one in table.values() if one.section == section), key=lambda one: one.row)
 
 
 class ParameterSlider(Retranslated, NumberSlider):
-    """The slider of a parameter that is a number; whole ones are typed."""
+    """Slider of a numeric parameter; whole numbers are typed."""
 
     def __init__(self, session: Session, parameter: Parameter, prefix: str = "parameter") -> None:
         low, high = parameter.bounds or (0.0, LARGEST)
@@ -44,8 +44,7 @@ class ParameterSlider(Retranslated, NumberSlider):
 
 
 class ParameterChoice(Combo):
-    """The list of a parameter that is one of a few; the ids of its options, which others set, are the values as
-    texts."""
+    """Combo box of a parameter with few values; option ids are the values as texts."""
 
     def __init__(self, parameter: Parameter) -> None:
         super().__init__()
@@ -55,5 +54,5 @@ class ParameterChoice(Combo):
         self.setObjectName(f"parameter_{parameter.name}")
 
     def line(self) -> QHBoxLayout:
-        """The list behind its label."""
+        """Return the row with the label and the combo box."""
         return in_row(self.label, (self, 1), spacing=4)

@@ -1,4 +1,4 @@
-"""The parameters of the selected players, in parts that fold; several players at once."""
+"""Parameters of one or more selected players in foldable sections."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ LABEL_PX = 88
 PORTRAIT_PX = 28
 PORTRAITS_AFTER_MS = 3000
 _SECTIONS = ("motion", "acting", "breath", "face", "player")
-"""Sections from the top; what is changed most stands first."""
+"""Sections from the top; the most used first."""
 _FOLDED = frozenset({"acting"})
 _POSTURE = "posture"
 _TITLES: Final = (
@@ -59,7 +59,7 @@ _LABELS: Final = {
 
 
 class ParameterSections(Retranslated, QWidget):
-    """Properties of the selected players: who they are, and how they move, breathe and play.
+    """Properties of the selected players: instrument and character, motion, breathing and playing.
 
     Signals
     -------
@@ -169,7 +169,7 @@ class ParameterSections(Retranslated, QWidget):
     # Showing
 
     def show_players(self) -> None:
-        """Show the parameters of the players that the session has selected."""
+        """Show the parameters of the session's selected players."""
         project = self._session.project
         players = [project.player(player_id) for player_id in self._session.players]
         self.setEnabled(bool(players))
@@ -198,7 +198,7 @@ class ParameterSections(Retranslated, QWidget):
             slider.show_value(values[0], mixed=len(set(values)) > 1, default=defaults[0], by_hand=values != defaults)
 
     def _show_postures(self, players: list[Player]) -> None:
-        """Offer what all instruments are played in, and say of the others why not."""
+        """Offer the postures possible for all instruments, and explain why others are not."""
         posture, options = self._choices[_POSTURE], []
         reasons = {
             "standing": self.tr("parameter_sections.played_seated_only"),
@@ -307,7 +307,7 @@ class ParameterSections(Retranslated, QWidget):
         self.show_players()
 
     def _show_acting(self, note: str) -> None:
-        """Folded, the section says what the players are."""
+        """Show the style and habits in the header, visible when folded."""
         self._sections["acting"].header.set_texts(self.tr("parameter_sections.acting"), note)
 
     def _show_instruments(self) -> None:
@@ -327,6 +327,6 @@ class ParameterSections(Retranslated, QWidget):
 
 
 def _common(players: list[Player], value: Callable[[Player], str]) -> str | None:
-    """The value that all have in common; None where they differ."""
+    """Return the common value of all players; None if they differ."""
     values = {value(player) for player in players}
     return values.pop() if len(values) == 1 else None

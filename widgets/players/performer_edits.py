@@ -1,4 +1,4 @@
-"""Edits of players and dancers shared by commands and the panel, with the selection afterwards."""
+"""Edits of players and dancers with the following selection, shared by commands and the panel."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from widgets.common.instrument_name import instrument_name
 
 
 def add_player(session: Session, instrument_id: str) -> None:
-    """Add a player of this instrument, in front."""
+    """Add a player with an instrument, and make it active."""
     maps = all_maps()
     instrument = maps[instrument_id]
     name = instrument_name(instrument)
@@ -28,7 +28,7 @@ def add_player(session: Session, instrument_id: str) -> None:
 
 
 def add_dancer(session: Session, choreography: str, name: str) -> None:
-    """Add a dancer of a choreography and select it."""
+    """Add a dancer with a choreography, and select it."""
     made: list[str] = []
 
     def add(project: Project) -> Project:
@@ -58,7 +58,7 @@ def duplicate_dancer(session: Session) -> None:
 
 
 def remove_dancer(session: Session) -> None:
-    """Send the selected dancer away; the next one is selected then, or the one before."""
+    """Remove the selected dancer, and select the next or previous one."""
     dancer = session.dancer
     if dancer is None:
         return
@@ -70,7 +70,7 @@ def remove_dancer(session: Session) -> None:
 
 
 def duplicate_players(session: Session) -> None:
-    """Let others play what the selected players play; they are selected then."""
+    """Duplicate the selected players, and select the new ones."""
     chosen = session.players
     made: list[str] = []
 
@@ -93,7 +93,7 @@ def remove_players(session: Session) -> None:
 
 
 def randomise_players(session: Session) -> None:
-    """Make the selected players differ, or everyone where fewer than two are selected."""
+    """Randomise the parameters of the selected players, or of all players if fewer than two are selected."""
     several = len(session.players) > 1
     chosen = session.players if several else tuple(player.id for player in session.project.players)
     name, spread = edit_of_players(session.project, "edit.randomise_players", chosen), session.variety
@@ -101,7 +101,7 @@ def randomise_players(session: Session) -> None:
 
 
 def reset_players(session: Session) -> None:
-    """Return the parameters of the selected players to what they were cast with."""
+    """Reset the parameters of the selected players to those of the casting."""
     chosen = session.players
     name = edit_of_players(session.project, "edit.reset_parameters", chosen)
     session.attempt(name, lambda project: players.reset_parameters(project, chosen))

@@ -1,4 +1,4 @@
-"""A place on the stage as three numbers: metres to the right and towards the audience, and a turn in degrees."""
+"""A place on the stage as three numbers: metres to the right and towards the audience, and a rotation in degrees."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from widgets.players.stage import FARTHEST_M
 
 
 def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[str, NumberSlider]:
-    """A control for each field of a place, by its name; the holder words them."""
+    """Return a slider for each field of a place by name; the holder sets their texts."""
     sliders = {
         "x_m": NumberSlider(session, -FARTHEST_M, FARTHEST_M, step=0.05, slides=False),
         "z_m": NumberSlider(session, -FARTHEST_M, FARTHEST_M, step=0.05, slides=False),
@@ -29,10 +29,10 @@ def place_sliders(holder: Retranslated, session: Session, prefix: str) -> dict[s
 
 
 def shown_number(place: StagePosition, name: str) -> float:
-    """A field of a place in the unit in which it is displayed."""
+    """Return a field of a place in its displayed unit."""
     return round(math.degrees(place.turn_rad)) + 0.0 if name == "turn_rad" else float(getattr(place, name))
 
 
 def with_number(place: StagePosition, name: str, shown: float) -> StagePosition:
-    """The place with one of its numbers set to a displayed value."""
+    """Return the place with a field set to a displayed value."""
     return msgspec.structs.replace(place, **{name: math.radians(shown) if name == "turn_rad" else shown})

@@ -1,4 +1,4 @@
-"""Drawing of the rows of the list of players: of a player, and of a section's header."""
+"""Drawing of the rows of players and section headers."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ ROW_PX = 40
 HEADER_PX = 28
 BUTTON_PX = 26
 ARROW_PX = 24
-"""Width of the arrow that folds a section."""
+"""Width in pixels of the arrow that folds a section."""
 
 
 class PlayerDelegate(RowDelegate):
-    """Draws a row: colour, name, instrument, leader's crown, problems, record arm, mute and solo; of a section its
-    arrow, name and number of players."""
+    """Draws a row: colour, name, instrument, leader's crown, problems, record arm, mute and solo; for a section arrow,
+    name and number of players.
+    """
 
     def buttons(self, row: QRect) -> tuple[QRect, QRect]:
         """Places of the buttons mute and solo."""
@@ -29,7 +30,7 @@ class PlayerDelegate(RowDelegate):
         return solo.translated(-BUTTON_PX - 2, 0), solo
 
     def arm_button(self, row: QRect) -> QRect:
-        """Rectangle of the record-arm mark; empty while there is no device to record from."""
+        """Return the rectangle of the record-arm mark; empty if there is no device."""
         if not self._session.recording.port:
             return QRect()
         return self.buttons(row)[0].translated(-BUTTON_PX - 2, 0)
@@ -132,7 +133,9 @@ class PlayerDelegate(RowDelegate):
         painter.drawText(lower, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
     def _paint_arm(self, painter: QPainter, box: QRect, player_id: str, in_front: bool) -> None:
-        """Full: always recorded; a red ring: recorded while in front; a dim one: not recorded."""
+        """Draw the record-arm mark: filled if always recorded, a red ring if recorded while active, dim if not
+        recorded.
+        """
         tokens, armed = self._session.tokens, self._session.recording.armed
         is_next = armed == player_id or (not armed and in_front)
         painter.setPen(QPen(QColor(tokens.error if is_next else tokens.line_strong), 1.5))
@@ -140,7 +143,7 @@ class PlayerDelegate(RowDelegate):
         painter.drawEllipse(QRectF(box).center(), 5.5, 5.5)
 
     def _paint_button(self, painter: QPainter, box: QRect, letter: str, on: bool | None, colour: str) -> None:
-        """Paint a mute or solo button: on, off, or (None) on for some players of a section."""
+        """Draw a mute or solo button: on, off, or (None) on for some players of a section."""
         tokens = self._session.tokens
         painter.setBrush(QColor(colour) if on else Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor(tokens.line_strong if on is False else colour), 1.0))

@@ -1,4 +1,4 @@
-"""The list of players: how rows are selected, folded by section and put in another order."""
+"""List of players with selection, folding by section and reordering."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ _FOLDING = {Qt.Key.Key_Left: True, Qt.Key.Key_Right: False}
 
 
 class PlayerList(OrderedList):
-    """The players: click, Ctrl and Shift select; drag or Alt with the arrows reorders; F2 or a double click renames.
+    """List of players: click, Ctrl and Shift select; drag or Alt with the arrows reorders; F2 or a double click
+    renames.
 
-    The header of a section stands for all its players: a click selects them, a drag moves them before another section.
-    Its arrow, a double click, Left and Right fold it; Shift and a click on the arrow fold every section.
+    A section's header represents all its players: a click selects them, a drag moves them before another section. Its
+    arrow, a double click, Left and Right fold it; Shift and a click on the arrow fold every section.
 
     Signals
     -------
@@ -65,7 +66,7 @@ class PlayerList(OrderedList):
         return sum(max(self.sizeHintForRow(number), 0) for number in shown) + 2 * self.frameWidth()
 
     def show_rows(self, rows: Sequence[Row]) -> None:
-        """Show players and sections as rows, and which players are selected."""
+        """Show players and sections as rows, with the selection."""
         section = self.rows.section_at(self.currentIndex().row())
         self._showing = True
         self.rows.show_rows(rows)
@@ -78,13 +79,13 @@ class PlayerList(OrderedList):
         self.show_selection()
 
     def search(self, text: str) -> None:
-        """Show only the players whose name or instrument contains a text, in upper or lower case, folded or not."""
+        """Show only the players whose name or instrument contains a text, ignoring case and folding."""
         self._searched = text.strip().casefold()
         self._hide_rows()
 
     @property
     def found(self) -> tuple[str, ...]:
-        """Ids of the players that the search shows."""
+        """Return the ids of the players that the search shows."""
         return tuple(row.id for row in self.rows.players if row.is_found(self._searched))
 
     def _hide_rows(self) -> None:
@@ -97,7 +98,7 @@ class PlayerList(OrderedList):
                 self.setRowHidden(number, folded or row.id not in found)
 
     def show_selection(self) -> None:
-        """Show whom the session has selected."""
+        """Show the session's selected players."""
         numbers = [self.rows.number(player_id) for player_id in self._session.players]
         requested = [number for number in numbers if number is not None]
         self._showing = True
@@ -124,7 +125,7 @@ class PlayerList(OrderedList):
         super().rename_current()
 
     def _is_on_header_of_selected(self) -> bool:
-        """True while the keyboard is on the header of the section whose player is in front."""
+        """Return whether the keyboard focus is on the header of the active player's section."""
         section = self.rows.section_at(self.currentIndex().row())
         return section is not None and not {*self._session.players[:1]}.isdisjoint(section.player_ids)
 
@@ -140,7 +141,7 @@ class PlayerList(OrderedList):
         self.chosen.emit(tuple(rows[number].id for number in numbers))
 
     def _choose_section(self, section: SectionRow, modifiers: Qt.KeyboardModifier) -> None:
-        """Select all of a section; with Ctrl add it or leave it out, with Shift add it."""
+        """Select all players of a section; with Ctrl toggle it, with Shift add it."""
         before, own = self._session.players, section.player_ids
         others = tuple(id for id in before if id not in own)
         if modifiers & Qt.KeyboardModifier.ControlModifier and {*own} <= {*before}:
@@ -157,7 +158,7 @@ class PlayerList(OrderedList):
     # Order
 
     def _carried(self) -> list[int]:
-        """Rows that are moved: those of the section whose header is taken, or the selected ones beside the taken."""
+        """Return the dragged rows: those of the dragged section, or the dragged row with the other selected ones."""
         header = self.rows.header_of(self._taken_number) if self._taken_number >= 0 else None
         if header is None:
             return self._selected_numbers()
@@ -169,7 +170,7 @@ class PlayerList(OrderedList):
         return next((number for number in range(header + 1, count) if self.rows.section_at(number)), count)
 
     def _places(self) -> list[int]:
-        """Rows before which the carried ones may go; a player stays in the section of the instrument."""
+        """Return the rows before which dragged ones may be dropped; a player stays in its instrument's section."""
         count = self.rows.rowCount()
         header = self.rows.header_of(self._taken_number) if self._taken_number >= 0 else None
         if header is None:
@@ -292,7 +293,9 @@ class PlayerList(OrderedList):
             self._selected()
 
     def _step_sideways(self, header: int, left: bool) -> None:
-        """Fold or unfold the section; from a player go to the header, from an unfolded header to its first player."""
+        """Fold or unfold the section; move from a player to the header, or from an unfolded header to its first
+        player.
+        """
         section, current = self.rows.section_at(header), self.currentIndex().row()
         assert section is not None
         if current == header and section.folded is not left:

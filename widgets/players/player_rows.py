@@ -1,4 +1,4 @@
-"""Rows of the list of players, and the model that has them: players, by section in a large piece."""
+"""Rows of the list of players and their model: players, with section headers in a large piece."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class PlayerRow:
     instrument : str
         In the language of the editor.
     problems : int
-        How many the plan has; 0 while there is no plan.
+        Number of problems in the plan; 0 without a plan.
     leads : bool
-        Whether the player gives the ensemble's entries.
+        Whether the player gives the ensemble's cues.
     unseen : str
-        Why the player cannot be seen or exported; empty: nothing is known against it.
+        Reason why the player cannot be shown or exported; empty for none.
     """
 
     player: Player
@@ -56,12 +56,12 @@ class PlayerRow:
 
 @dataclass(frozen=True)
 class SectionRow:
-    """Contents of the header of a section, above its players.
+    """Contents of a section header.
 
     Attributes
     ----------
     id : str
-        Name under which the session remembers that it is folded.
+        Id under which the session stores that it is folded.
     name : str
         In the language of the editor.
     players : tuple of PlayerRow
@@ -74,11 +74,11 @@ class SectionRow:
 
     @property
     def player_ids(self) -> tuple[str, ...]:
-        """Ids of its players."""
+        """Return the ids of the section's players."""
         return tuple(row.id for row in self.players)
 
     def marked(self, field: str) -> bool | None:
-        """Return whether its players are all ``muted`` or ``soloed``; None: some are."""
+        """Return whether all players of the section are ``muted`` or ``soloed``; None if some are."""
         marks = {getattr(row.player, field) for row in self.players}
         return None if len(marks) > 1 else marks.pop()
 
@@ -87,7 +87,7 @@ Row: TypeAlias = PlayerRow | SectionRow
 
 
 class PlayerModel(QAbstractListModel):
-    """The players as rows, and the sections' headers among them.
+    """Model of players and section headers.
 
     Signals
     -------
@@ -108,7 +108,7 @@ class PlayerModel(QAbstractListModel):
 
     @property
     def players(self) -> tuple[PlayerRow, ...]:
-        """The rows that are players."""
+        """The rows of players."""
         return tuple(row for row in self._rows if isinstance(row, PlayerRow))
 
     def show_rows(self, rows: Sequence[Row]) -> None:
@@ -128,11 +128,11 @@ class PlayerModel(QAbstractListModel):
         return next((number for number, row in enumerate(self._rows) if row.id == id), None)
 
     def header_of(self, number: int) -> int | None:
-        """The row of the header above a player's row; of a header, itself; None: the players are not in sections."""
+        """Return the index of the header above a row (or of the header itself); None without sections."""
         return next((above for above in range(number, -1, -1) if isinstance(self._rows[above], SectionRow)), None)
 
     def section_at(self, number: int) -> SectionRow | None:
-        """The section of which a row is the header."""
+        """Return the section whose header is in a row."""
         row = self._rows[number] if 0 <= number < len(self._rows) else None
         return row if isinstance(row, SectionRow) else None
 

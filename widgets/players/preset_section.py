@@ -1,4 +1,4 @@
-"""Presets: parameters the user keeps under a name, for this and other projects."""
+"""Section of presets: named parameters that the user stores for all projects."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from widgets.common.section import Section
 
 
 class PresetSection(Retranslated, QWidget):
-    """Apply a preset to the selected players, save theirs, delete one."""
+    """Applies a preset to the selected players, saves and deletes presets."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -51,7 +51,7 @@ class PresetSection(Retranslated, QWidget):
             self.show_presets()
 
     def show_presets(self) -> None:
-        """Read the folder again and show its presets."""
+        """Read the folder of presets again, and show it."""
         found = presets.presets(presets.preset_folder())
         self._found = dict(found.items)
         for problem in found.problems:

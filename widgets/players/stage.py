@@ -1,4 +1,4 @@
-"""The stage from above: who stands where and faces whither, moved by hand."""
+"""Top view of the stage with the places and directions of the performers, which can be dragged."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from app.project.performers import Dancer, Player
 
 DISC_M = 0.28
 NOSE_M = 0.62
-"""Distance from a player's middle to the handle that turns them."""
+"""Distance in metres from a player's centre to the handle that turns the player."""
 LEAST_DISC_PX = 7.0
 LEAST_NOSE_PX = 20.0
 REACH_PX = 12.0
-"""A press this near takes hold."""
+"""Distance in pixels within which a press grabs a handle."""
 LEAST_WIDTH_M, LEAST_DEPTH_M = 4.0, 2.6
 MARGIN_M = 0.9
 FARTHEST_M = 50.0
@@ -47,8 +47,8 @@ _ARROWS = {
 
 
 class StageView(QWidget):
-    """Players as discs and dancers as rings, with a nose, the audience below. Drag a player to move (all that are
-    selected), or a dancer, the nose to turn; the arrows move too, with Ctrl they turn.
+    """Players as discs and dancers as rings, with a nose; the audience is below. Drag a player (with all selected ones)
+    or a dancer to move, the nose to turn; arrow keys move, with Ctrl they turn.
 
     Signals
     -------
@@ -85,7 +85,7 @@ class StageView(QWidget):
     # Between metres and pixels
 
     def _frame(self) -> tuple[float, float, float]:
-        """Pixels per metre, and the metres that the middle of the view shows; held still during a drag."""
+        """Return pixels per metre, and the centre of the view in metres; constant during a drag."""
         if self._view is not None:
             return self._view
         places = [one.stage for one in self._session.project.performers]
@@ -116,7 +116,7 @@ class StageView(QWidget):
         return max(self._frame()[0] * DISC_M, LEAST_DISC_PX)
 
     def nose_point(self, player: Player | Dancer) -> QPointF:
-        """The handle that turns a player or dancer."""
+        """Return the point of the handle that turns a performer."""
         length = max(self._frame()[0] * NOSE_M, LEAST_NOSE_PX)
         turn = player.stage.turn_rad
         return self.point(player.stage.x_m, player.stage.z_m) + QPointF(
@@ -130,7 +130,9 @@ class StageView(QWidget):
         return dancer is not None and one.id == dancer.id
 
     def _at(self, position: QPointF) -> tuple[Player | Dancer | None, bool]:
-        """The performer there, and True if by the nose. Only the selected show noses that can be taken."""
+        """Return the performer at a point, and whether the nose was hit. Only selected performers have noses to
+        drag.
+        """
         players = self._session.project.seen
         for player in filter(self._is_selected, players):
             if _distance(self.nose_point(player), position) <= REACH_PX * 0.75:

@@ -1,4 +1,4 @@
-"""Places on the stage: the top view, and the numbers of the player in front."""
+"""Section of places on the stage: the top view, and the numbers of the active player."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from widgets.players.stage import StageView
 
 
 class StageSection(Retranslated, QWidget):
-    """The stage from above with its tools; edits the places of the selected players."""
+    """Top view of the stage with tools for the places of the selected players."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -49,7 +49,7 @@ class StageSection(Retranslated, QWidget):
         self.retranslate()
 
     def show_places(self) -> None:
-        """Show where all stand."""
+        """Show the places of all performers."""
         self.view.update()
         project = self._session.project
         stages = [project.player(player_id).stage for player_id in self._session.players]

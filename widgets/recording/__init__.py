@@ -1,1 +1,1 @@
-"""The recording panel: the device, what comes in from it, and who is recorded."""
+"""The recording panel: device, input, and recorded player."""

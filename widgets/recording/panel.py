@@ -1,4 +1,4 @@
-"""The recording panel: the device and how it stands, what comes in, who is recorded, and how a take begins."""
+"""The recording panel: device and state, input, recorded player, and start of a take."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ STATES: Final[dict[Connection, str]] = {
     "refused": "recording_panel.refused",
 }
 BUTTONS: Final = (("record.toggle", "record.punch"), ("record.arm",), ("record.devices", "record.latency"))
-"""Actions by id, as they stand."""
+"""Action ids of the buttons in rows."""
 COUNT_INS: Final = ("record.count_in_0", "record.count_in_1", "record.count_in_2")
 METER_STEPS: Final = 64
 SIGN_PX: Final = 14
@@ -38,12 +38,12 @@ NOTE_PX: Final = 40
 
 
 class RecordingPanel(Retranslated, QWidget):
-    """Everything that a take begins with, at a glance.
+    """All controls for recording a take.
 
     Parameters
     ----------
     session : Session
-        Its actions are what the buttons do.
+        Session whose actions the buttons trigger.
     """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -108,7 +108,7 @@ class RecordingPanel(Retranslated, QWidget):
     # What is shown
 
     def _recorded(self) -> Player | None:
-        """The player who would be recorded: the armed one, else the one in front."""
+        """Return the player to be recorded: the armed one, else the active one."""
         session, armed = self._session, self._session.recording.armed
         return next((player for player in session.project.players if player.id == armed), session.player)
 
@@ -141,7 +141,7 @@ class RecordingPanel(Retranslated, QWidget):
         self._show_played()
 
     def _show_names(self) -> None:
-        """The device and the player, as much of their names as there is room for."""
+        """Show the names of device and player, shortened to the available space."""
         recording, player = self._session.recording, self._recorded()
         device = recording.port or self.tr(STATES["none"])
         who = self.tr("recording_panel.no_player") if player is None else player.name

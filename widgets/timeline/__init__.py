@@ -1,12 +1,11 @@
 """The timeline: ruler, piano roll and lanes over one time axis.
 
-What is shown, what lies under the mouse and what gestures on it mean are values and functions in
-`widgets.timeline.model`, which knows no Qt; the widgets here draw them and pass events on.
+Displayed values, hit testing and the meaning of gestures are in `widgets.timeline.model`, which is independent of Qt;
+the widgets here draw and pass on events.
 
-Of pyqtgraph nothing is used here. Its plots are scenes of graphics items whose views get changes one after another,
-and each round painted all lanes again (see `widgets.timeline.plot.plot.Plot`). All it did for the timeline was to hand
-Qt thousands of rectangles at once, through a class that it keeps for itself; `widgets.timeline.plot.drawing` does that
-with numpy and the public ``shiboken6.wrapInstance``. pyqtgraph draws the plot in the dialog of cuts
-(`widgets.dialogs.choreography.cut_plot`), where its axes and curves are what is needed. vispy is the viewport's, see
-`widgets.viewport`.
+pyqtgraph is not used here. Its plots are scenes of graphics items whose views change one after another, and each change
+repainted all lanes (see `widgets.timeline.plot.plot.Plot`). Passing thousands of rectangles to Qt at once, which needs
+a private class of it, is done in `widgets.timeline.plot.drawing` with numpy and the public ``shiboken6.wrapInstance``.
+pyqtgraph draws the plot in the dialog of cuts (`widgets.dialogs.choreography.cut_plot`), for its axes and curves. vispy
+is used by `widgets.viewport`.
 """

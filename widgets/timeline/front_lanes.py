@@ -1,4 +1,4 @@
-"""Lanes of the player in front where several players' are stacked: in view, and with the keyboard."""
+"""Visibility and keyboard focus of the active player's lanes when lanes of several players are stacked."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from widgets.timeline.stacked_players import STACKED_IDS, StackedPlayers
 
 
 class KeyboardNote(QObject):
-    """Notes which lane has the keyboard before lanes are shown or hidden, which takes it from them.
+    """Remembers the lane with the keyboard focus before lanes are shown or hidden, which moves the focus.
 
-    It is made before the stack, whose slots follow its own.
+    Created before the stack, so that its slots run first.
     """
 
     def __init__(self, session: Session, lanes: Mapping[str, Lane], parent: QWidget) -> None:
@@ -29,7 +29,7 @@ class KeyboardNote(QObject):
         session.players_changed.connect(self.take)
 
     def take(self) -> None:
-        """Note which lane has it now."""
+        """Store the lane that has the keyboard focus."""
         focus = QApplication.focusWidget()
         own = (lane for lane in self._lanes.values() if focus is not None and lane.isAncestorOf(focus))
         stacked = None if self.players is None else self.players.lane_with(focus)
@@ -38,7 +38,7 @@ class KeyboardNote(QObject):
 
 
 class FrontLanes(QObject):
-    """Keeps the lanes of the player in front in view, and gives them the keys that another player's had."""
+    """Keeps the active player's lanes visible, and moves the focus to them from another player's."""
 
     def __init__(
         self, session: Session, lanes: Mapping[str, Lane], roll: PianoRoll, stack: LaneStack, keyboard: KeyboardNote
@@ -53,7 +53,7 @@ class FrontLanes(QObject):
 
     @property
     def roll(self) -> PianoRoll:
-        """The roll of the player in front that is shown."""
+        """The visible piano roll of the active player."""
         front = self._players.front
         return self._roll if front is None else front.roll
 
@@ -79,7 +79,7 @@ class FrontLanes(QObject):
             lane.plot.setFocus()
 
     def _show_proxy(self) -> None:
-        """The keys that come to the timeline are for these notes."""
+        """Direct keys sent to the timeline to the notes of the active player."""
         timeline = self._keyboard.parent()
         if isinstance(timeline, QWidget):
             timeline.setFocusProxy(self.roll.plot)

@@ -1,7 +1,7 @@
-"""Base of every lane of the timeline: a header, and a plot whose time axis is that of all lanes.
+"""Base class of the timeline's lanes: a header, and a plot with the common time axis.
 
-A lane draws with `LaneItem`s, in pixels of the plot with times from ``axis.x_px``, and answers the mouse by overriding
-the hooks.
+A lane draws with `LaneItem`s in pixels of the plot, with times converted by ``axis.x_px``, and handles the mouse in
+overridden methods.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = ["FOLDED_PX", "GUTTER_PX", "Lane", "LaneItem", "LaneMouse"]
 
 FOLDED_PX = 26
 HEIGHT_A_NOTCH_PX = 8
-"""Change of a lane's height by a notch of the wheel."""
+"""Change of a lane's height in pixels per notch of the wheel."""
 AUTOSCROLL_MS = 30
 AUTOSCROLL_SHARE = 0.02
 """Share of the visible span scrolled at each tick of the timer while a drag is held past the edge."""
@@ -38,30 +38,30 @@ class Lane(Retranslated, QWidget):
     Parameters
     ----------
     axis : TimeAxis
-        Shared by all lanes.
+        Time axis shared by all lanes.
 
     Signals
     -------
     sought(float)
-        The playhead is requested at this time (seconds); the panel passes it on.
+        Request to move the playhead to this time in seconds.
     fold_changed()
     height_asked()
         The lane would have another height now.
     unfolded_by_hand()
-        By its button or header.
+        The user unfolded the lane by its button or header.
     resized_by_hand(int)
-        The user makes the lane taller by so many pixels, or less tall.
+        The user changed the lane's height by this number of pixels.
 
     Attributes
     ----------
     id : str
-        Class attribute: the lane's name in saved layouts, and its object name is ``"lane_" + id``.
+        Class attribute: name in saved layouts; the object name is ``"lane_" + id``.
     preferred_height_px : int
-        Its height in a new window.
+        Height in a new window in pixels.
     least_height_px : int
     folded_at_first, hides_empty, is_essential : bool
-        Class attributes. The second: while there is nothing in it it is not there, unless the user shows it. The third:
-        it is in sight in a new window, if that takes no more than lower lanes.
+        Class attributes: folded in a new window; hidden while empty unless the user shows it; visible in a new window
+        as far as only lower lanes lose space.
     """
 
     id = ""
@@ -122,52 +122,54 @@ class Lane(Retranslated, QWidget):
     # What a lane overrides
 
     def project_changed(self, change: Change) -> None:
-        """The project is another value: compare what is shown by identity."""
+        """Handle a changed project; compare displayed parts by identity."""
 
     def refresh(self) -> None:
-        """Show what is there of the player in front, where that is another."""
+        """Show the active player's data, if they have changed."""
 
     def performance_changed(self) -> None:
-        """Take over the new plans of a performance."""
+        """Show the new plans of a performance."""
         self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
-        """Take another selection; redraw the parts that show a different one."""
+        """Show another selection; redraw only affected parts."""
 
     def players_changed(self) -> None:
         """Another player is in front."""
         self.refresh()
 
     def theme_changed(self) -> None:
-        """Another theme."""
+        """Handle a changed theme."""
 
     def axis_changed(self) -> None:
-        """Another range or zoom; items of the lane are updated without this."""
+        """Handle a changed range or zoom; the lane's items are updated without this."""
 
     def press(self, mouse: LaneMouse) -> None:
         """The left button went down; `drag` and `release` follow."""
 
     def drag(self, mouse: LaneMouse) -> None:
-        """The mouse moved with the left button down, or the plot scrolled under it."""
+        """Handle a drag with the left button, or scrolling under the mouse during a drag."""
 
     def release(self, mouse: LaneMouse) -> None:
         """The left button went up."""
 
     def cancel(self) -> None:
-        """Escape in mid-drag: undo what the drag has done; neither `drag` nor `release` follows."""
+        """Cancel a drag on Escape, undoing its effect; neither `drag` nor `release` follows."""
 
     def double_click(self, mouse: LaneMouse) -> None:
         """Neither `drag` nor `release` follows."""
 
     def hover(self, mouse: LaneMouse | None) -> None:
-        """The mouse moved without a button; None: it left."""
+        """Handle mouse movement without a button; None when the mouse leaves."""
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """The wheel turned (or Alt and the wheel) by notches, away from the hand is positive; whether it was used."""
+        """Handle the wheel (or Alt and the wheel) in notches, positive away from the user; return whether it was
+        used.
+        """
         return False
 
     def zoom_y(self, mouse: LaneMouse, steps: float) -> None:
-        """The wheel turned with Ctrl and Shift, by notches: the lane becomes taller, or its scale larger."""
+        """Handle the wheel with Ctrl and Shift in notches: change the lane's height or vertical scale."""
         self.resized_by_hand.emit(round(steps * HEIGHT_A_NOTCH_PX))
 
     def pan_y(self, by_px: float) -> None:
@@ -178,24 +180,25 @@ class Lane(Retranslated, QWidget):
         return None
 
     def key(self, event: QKeyEvent) -> bool:
-        """A key went down while the plot has the focus; whether it was used."""
+        """Handle a key while the plot has the focus; return whether it was used."""
         return False
 
     def claims(self, event: QKeyEvent) -> bool:
-        """Return whether a key that may be an action's shortcut is the lane's own while the plot has the focus; `key`
-        follows then."""
+        """Return whether a key that may be a shortcut belongs to the lane while the plot has the focus; `key` is called
+        then.
+        """
         return False
 
     @property
     def needed_height_px(self) -> int:
-        """Smallest height of the lane, unless the user has set one."""
+        """Return the smallest height in pixels, unless the user has set one."""
         return self.least_height_px
 
     # What a lane uses
 
     @property
     def plot_rect(self) -> QRectF:
-        """The plot, pixels."""
+        """The plot's rectangle in pixels."""
         return QRectF(0.0, 0.0, float(max(self.plot.width(), 1)), float(max(self.plot.height(), 1)))
 
     @property
@@ -221,7 +224,7 @@ class Lane(Retranslated, QWidget):
 
     @property
     def is_empty(self) -> bool:
-        """True if there is nothing in it, whoever is in front."""
+        """True if the lane has no contents for any player."""
         return False
 
     def lines(self) -> Lines:
@@ -238,7 +241,7 @@ class Lane(Retranslated, QWidget):
         return self._folded
 
     def set_folded(self, folded: bool) -> None:
-        """Fold it up to its title, or unfold it."""
+        """Fold the lane to its title, or unfold it."""
         if folded == self._folded:
             return
         self._folded = folded
@@ -250,7 +253,7 @@ class Lane(Retranslated, QWidget):
         self.fold_changed.emit()
 
     def ask_height(self, preferred_px: int, least_px: int) -> None:
-        """Ask for another height; one that the user set stays."""
+        """Request another height in pixels, unless the user has set one."""
         if (preferred_px, least_px) != (self.preferred_height_px, self.least_height_px):
             self.preferred_height_px, self.least_height_px = preferred_px, least_px
             self.setMinimumHeight(FOLDED_PX if self._folded else least_px)

@@ -1,4 +1,4 @@
-"""The header of a lane: its title, the button that folds it, and its own small controls."""
+"""Header of a lane: title, fold button, and small controls."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ GUTTER_PX = 144
 
 
 class LaneHeader(QWidget):
-    """At the left of a lane.
+    """Header at the left of a lane.
 
     Signals
     -------
@@ -44,13 +44,13 @@ class LaneHeader(QWidget):
         in_column(self.title_row, self.controls, STRETCH, of=self, margins=(2, 1, 4, 0), spacing=0)
 
     def name_fold(self, folded: bool) -> None:
-        """Say what the button does."""
+        """Set the text of the fold button."""
         text = tr("lane.unfold") if folded else tr("lane.fold")
         self.fold_button.setToolTip(text)
         self.fold_button.setAccessibleName(text)
 
     def show_folded(self, folded: bool) -> None:
-        """Show the controls only where there is room."""
+        """Show the controls only if the lane is unfolded."""
         for index in range(self.controls.count()):
             item = self.controls.itemAt(index)
             widget = item.widget() if item else None
@@ -59,7 +59,7 @@ class LaneHeader(QWidget):
         self.fold_button.setArrowType(Qt.ArrowType.RightArrow if folded else Qt.ArrowType.DownArrow)
 
     def paint_surface(self, tokens: Tokens) -> None:
-        """Take the theme's colours."""
+        """Apply the theme's colours."""
         palette = self.palette()
         palette.setColor(QPalette.ColorRole.Window, QColor(tokens.surface))
         palette.setColor(QPalette.ColorRole.WindowText, QColor(tokens.text))

@@ -26,22 +26,22 @@ class LaneState(msgspec.Struct, frozen=True, kw_only=True):
     Attributes
     ----------
     order : tuple of str
-        From the top; lanes that are not named stand below the same lane as in a new window.
+        Ids from the top; missing lanes follow the same lane as in a new window.
     hidden, shown : tuple of str
-        Lanes that the user hid, and those that the user shows although there is nothing in them.
+        Lanes hidden by the user, and empty lanes shown by the user.
     folded : tuple of str
     heights : dict of int
-        Of lanes whose height the user set, pixels.
+        Heights set by the user in pixels.
     ghosts : Ghosts
-        How the players behind the one in front are seen.
+        Display of the other players behind the active one.
     marks : bool
         Whether slurs, articulations and dynamics are seen.
     stacked : bool
-        Whether lanes of several selected players stand one under another.
+        Whether lanes of several selected players are stacked.
     stacked_heights : dict of int
-        Of those lanes, where the user set one, pixels.
+        Heights of stacked lanes set by the user in pixels.
     stacked_folded : dict of tuple of str
-        Those lanes that are folded, by player.
+        Folded stacked lanes by player.
     """
 
     order: tuple[str, ...] = ()
@@ -62,7 +62,7 @@ class LaneLayout(QObject):
     Parameters
     ----------
     lanes : mapping of Lane
-        Every lane by id, in the order of a new window.
+        All lanes by id in the order of a new window.
     stack : LaneStack
     roll : PianoRoll
     players : StackedPlayers
@@ -105,7 +105,7 @@ class LaneLayout(QObject):
 
     @property
     def state(self) -> LaneState:
-        """The layout as it can be stored."""
+        """The layout in storable form."""
         order = tuple(lane.id for lane in self._stack.lanes)
         return LaneState(
             order=order,
@@ -121,7 +121,7 @@ class LaneLayout(QObject):
         )
 
     def set_state(self, state: LaneState) -> None:
-        """Let the lanes stand so; names that are not lanes are passed over."""
+        """Apply a layout, ignoring unknown lanes."""
         self._hidden = set(state.hidden) & self._lanes.keys()
         self._shown = set(state.shown) & self._lanes.keys()
         self._stack.set_order(_completed(state.order, tuple(self._lanes)))
@@ -135,13 +135,13 @@ class LaneLayout(QObject):
     # What the user does
 
     def is_shown(self, lane_id: str) -> bool:
-        """True if a lane is there, folded or not."""
+        """Return whether a lane is visible, folded or not."""
         lane = self._lanes[lane_id]
         idle = lane.hides_empty and lane.is_empty and lane_id not in self._shown
         return lane_id not in self._hidden and not idle
 
     def is_open(self, lane_id: str) -> bool:
-        """True if a lane is there, and not folded."""
+        """Return whether a lane is visible and unfolded."""
         return self.is_shown(lane_id) and not self._lanes[lane_id].folded
 
     def show_lane(self, lane_id: str, shown: bool) -> None:
@@ -154,7 +154,7 @@ class LaneLayout(QObject):
         self.changed.emit()
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
-        """Unfold a lane, shown if it is not, or fold it."""
+        """Show and unfold a lane, or fold it."""
         if is_open and not self.is_shown(lane_id):
             self.show_lane(lane_id, True)
         self._fold(self._lanes[lane_id], not is_open)
@@ -183,14 +183,14 @@ class LaneLayout(QObject):
             self.show_lanes()
 
     def show_lanes(self) -> None:
-        """Show the lanes that are not hidden and, where an empty one hides, have something in them."""
+        """Show the lanes that are not hidden; empty ones only if they do not hide when empty."""
         stacked = STACKED_IDS if self._players.active else ()
         for id, lane in self._lanes.items():
             lane.setVisible(self.is_shown(id) and id not in stacked)
         self._show_kinds()
 
     def _show_kinds(self) -> None:
-        """Show the lanes that are open of several players."""
+        """Show the unfolded lanes of several players."""
         self._players.show_kinds([id for id in STACKED_IDS if self.is_open(id)])
 
     # Menus
@@ -209,7 +209,7 @@ class LaneLayout(QObject):
         on_click(self.menu.addAction(self.tr("timeline_panel.fold_all")), lambda: self.fold_all(True))
 
     def offer(self, lane: Lane, place: QPoint) -> None:
-        """Open the menu of a lane at a place of its header."""
+        """Open the menu of a lane at a point of its header."""
         at, last = self._stack.lanes.index(lane), len(self._stack.lanes) - 1
         menu = passing_menu(self._parent)
         up = menu.addAction(self.tr("timeline_panel.move_up"))
@@ -226,7 +226,7 @@ class LaneLayout(QObject):
 
 
 def _completed(order: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
-    """An order of lanes, in which those that it does not name stand below the same lane as in a new window."""
+    """Return an order of all lanes; missing ones follow the same lane as in a new window."""
     result = [id for id in dict.fromkeys(order) if id in known]
     for place, id in enumerate(known):
         if id not in result:
@@ -235,7 +235,7 @@ def _completed(order: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...
 
 
 def lane_state(text: str) -> LaneState | None:
-    """Decode the text that `lane_text` made; None if it is none."""
+    """Decode a text made by `lane_text`; None if it is invalid."""
     try:
         return decode_json(text.encode("utf-8", "replace"), LaneState, "")
     except FileError:

@@ -1,1 +1,1 @@
-"""The section of the dancers in the panel of the players."""
+"""The section of the dancers in the players' panel."""

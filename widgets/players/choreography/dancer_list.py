@@ -1,4 +1,4 @@
-"""The list of dancers: one selected, in an order that is changed by hand."""
+"""List of dancers with one selected, which the user can reorder."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _COLOUR, _PROBLEMS = ID_ROLE + 1, ID_ROLE + 2
 
 
 class DancerList(OrderedList):
-    """The dancers: a click or the arrows select one; drag or Alt with the arrows reorders; F2 or a double click
+    """List of dancers: a click or the arrows select; drag or Alt with the arrows reorders; F2 or a double click
     renames.
 
     Signals
@@ -43,7 +43,7 @@ class DancerList(OrderedList):
         self.selectionModel().currentChanged.connect(self._selected)
 
     def show_dancers(self, dancers: Sequence[Dancer], selected: Dancer | None) -> None:
-        """Show dancers as rows, one of them selected."""
+        """Show dancers as rows with one selected."""
         self._showing = True
         shown = [str(self.rows.item(row).data(ID_ROLE)) for row in range(self.rows.rowCount())]
         if shown != [dancer.id for dancer in dancers]:

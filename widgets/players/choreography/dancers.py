@@ -1,4 +1,4 @@
-"""The dancers: who they are, what they dance, how and where."""
+"""Section with the dancers: list, choreography, options and place."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ from widgets.players.performer_edits import add_dancer, duplicate_dancer, remove
 from widgets.players.place_numbers import place_sliders, shown_number, with_number
 
 MENU = ("dancers.add", "dancers.rename", "dancers.duplicate", "dancers.remove", "", "dancers.choreography")
-"""The context menu of the list: actions by id, an empty one is a line."""
+"""Action ids of the list's context menu; an empty one is a separator."""
 _FROM_FILE = "\0file"
 _LEARN = "\0learn"
-"""Option that is no choreography's name."""
+"""Value of the option that opens the learning dialog; no choreography has this name."""
 _MOST_ROWS = 5
 _SOURCE = DANCER_PARAMETERS["source"]
 
 
 class DancersSection(Retranslated, QWidget):
-    """The list of dancers, and what the selected one dances, how and where.
+    """List of dancers, and the choreography, options and place of the selected one.
 
     Signals
     -------
@@ -227,7 +227,9 @@ class DancersSection(Retranslated, QWidget):
             slider.show_value(shown_number(dancer.stage, name), by_hand=False)
 
     def _sources(self, dancer: Dancer) -> list[Option]:
-        """The captures that a choreography was learned from; none where it cannot be read, which its problem says."""
+        """Return the captures from which a choreography was learned; empty if it cannot be read, which is reported as a
+        problem.
+        """
         if self._read is None or self._read[0] != dancer.choreography:
             try:
                 model = read_model(choreography_path(dancer.choreography))
@@ -244,7 +246,7 @@ class DancersSection(Retranslated, QWidget):
     # Editing
 
     def offer(self) -> None:
-        """Ask which choreography another dancer is to dance."""
+        """Open the choice of a choreography for a new dancer."""
         menu = passing_menu(self, "choreography_menu")
         for name in bundled_choreographies():
             on_click(menu.addAction(verbatim(name)), self.add, name)
@@ -256,7 +258,7 @@ class DancersSection(Retranslated, QWidget):
         menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
 
     def add(self, choreography: str) -> None:
-        """Add a dancer of a choreography; it is selected then."""
+        """Add a dancer with a choreography, and select it."""
         add_dancer(self._session, choreography, self.tr("dancers_section.dancer"))
 
     def _add_from_file(self) -> None:

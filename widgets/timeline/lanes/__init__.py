@@ -26,4 +26,4 @@ _OWN: tuple[type[Lane], ...] = (
     AdditiveLane,
 )
 LANES: tuple[type[Lane], ...] = tuple(extended(_OWN, "lanes", lambda kind: kind.id))
-"""In the order of a new window, from the top; the piano roll stands before them all but the first."""
+"""Lane classes in the order of a new window from the top; the piano roll comes after the first."""

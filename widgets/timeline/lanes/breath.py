@@ -1,4 +1,4 @@
-"""The lane of breaths: how deep, how long, and what prepares them."""
+"""The breath lane: depth, length and preparation of breaths."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ PREPARATION_SHARE = 0.45
 
 
 NEEDED_PX = 28
-"""Height in which depths are easily distinguished."""
+"""Height in pixels at which depths are easily distinguished."""
 LEAST_SHAPE_PX = 6.0
 """Something narrower is a bar."""
 
 
 class BreathLane(RegionLane):
-    """Breaths as hills as high as they are deep, rising to the onset they serve; preparations as low slopes."""
+    """Breaths as hills with depth as height, rising to the following onset; preparations as low slopes."""
 
     id = "breath"
     preferred_height_px = 40

@@ -1,4 +1,4 @@
-"""The lane of curves: the lips note by note, and the part's controllers."""
+"""The curves lane: lips note by note, and the part's controllers."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ BESIDE_BEATS, PLACE_BEATS = 0.25, 1.0
 
 
 class _Curves(LaneItem["CurvesLane"]):
-    """The chosen curve strong and editable, the others calm behind it."""
+    """Draws the chosen curve strong and editable, the others dim behind it."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane, player = self.lane, self.lane.session.player
@@ -318,7 +318,7 @@ class CurvesLane(Lane):
         self.number.open(box, value, 2, lambda typed: self._change_values(lambda _: typed), name)
 
     def _change_values(self, change: Callable[[EmbouchureEvent], float]) -> None:
-        """Give the chosen curve another value at all selected notes."""
+        """Set the chosen curve's value at all selected notes by a function."""
         if self.lips is None or self._plan is None or self.curve not in LIPS:
             return
         notes, player_id, curve = self.session.selection.notes, self._plan.player_id, self.curve

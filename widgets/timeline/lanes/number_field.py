@@ -1,4 +1,4 @@
-"""A number or a text typed in the lane itself."""
+"""Field in a lane for typing a number or text."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WIDTH_PX = 84
 
 
 class NumberField(QLineEdit):
-    """A field over the plot: Enter takes the number, Escape or a press elsewhere leaves everything as it was."""
+    """A field over the plot: Enter accepts, Escape or a press elsewhere cancels."""
 
     def __init__(self, lane: Lane) -> None:
         super().__init__(lane.plot)
@@ -32,16 +32,16 @@ class NumberField(QLineEdit):
     def open(
         self, box: QRectF, value: float | None, decimals: int, take: Callable[[float], None], name: str, unit: str = ""
     ) -> None:
-        """Ask for a number at a place of the plot.
+        """Open the field for a number at a place of the plot.
 
         Parameters
         ----------
         box : QRectF
-            What it belongs to.
+            Rectangle of the object with the number.
         value : float or None
-            The number there; None: each of several has another, and the field is empty.
+            Present number; None if several objects differ, which leaves the field empty.
         take : callable
-            Gets the number, if another one was typed.
+            Called with the number, if it was changed.
         name : str
             For screen readers.
         """
@@ -104,7 +104,7 @@ class TextField(NumberField):
         self._take_text: Callable[[str], None] | None = None
 
     def ask(self, box: QRectF, text: str, take: Callable[[str], None], name: str) -> None:
-        """Ask for a text at a place of the plot; ``name`` is for screen readers."""
+        """Open the field for a text at a place of the plot; ``name`` is for screen readers."""
         self.open(box, 0.0, 0, lambda _: None, name)
         self._take_text = take
         self.setText(text)

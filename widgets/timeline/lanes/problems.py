@@ -1,4 +1,4 @@
-"""Problems: a thin lane in which all are marked, and the same marks in the lanes where they belong."""
+"""The problem lane with marks of all problems, and the same marks for other lanes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ProblemMarks(LaneItem[Lane]):
     Parameters
     ----------
     rooms : tuple of str
-        First parts of the ids of the messages that belong to the lane.
+        First parts of the message ids that belong to the lane.
     """
 
     def __init__(self, lane: Lane, rooms: tuple[str, ...]) -> None:
@@ -55,7 +55,7 @@ class ProblemMarks(LaneItem[Lane]):
 
 
 def problems_in(problems: tuple[Problem, ...], rooms: tuple[str, ...] = ()) -> tuple[Problem, ...]:
-    """The problems whose messages belong to these rooms; all without rooms."""
+    """Return the problems whose messages belong to areas; all problems if no areas are given."""
     return tuple(problem for problem in problems if not rooms or problem.message.id.split(".")[0] in rooms)
 
 
@@ -68,7 +68,7 @@ def spans_of(problems: tuple[Problem, ...]) -> TimeSpans:
 
 
 class _Marks(LaneItem["ProblemsLane"]):
-    """A triangle at the start of every problem, and how far it reaches."""
+    """Draws a triangle at the start of every problem, and its extent."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -99,7 +99,7 @@ class _Marks(LaneItem["ProblemsLane"]):
 
 
 class ProblemsLane(Lane):
-    """All problems of the player in front. A click on one goes there and says what it is."""
+    """All problems of the active player. A click on one moves there and shows its text."""
 
     id = "problems"
     preferred_height_px = 28

@@ -16,11 +16,11 @@ from widgets.timeline.plot.drawing import draw_columns, draw_path, draw_text, po
 from widgets.timeline.plot.plot import LaneView
 
 LEAST_SHAPE_PX = 6.0
-"""Something narrower is a bar: no one sees its fades."""
+"""Width in pixels below which an event is drawn as a bar, since its fades are invisible."""
 
 
 class ActingView(LaneView, Protocol):
-    """Part of the lane of acting that is drawn; a protocol for the reason of `LaneView`."""
+    """Part of the acting lane needed for drawing; a protocol for the reason given at `LaneView`."""
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]: ...
 
@@ -32,7 +32,7 @@ class ActingPainter:
         self._lane = lane
 
     def paint_sway(self, painter: QPainter, x0: FloatArray, x1: FloatArray, y: FloatArray, colour: QColor) -> None:
-        """A wave from side to side, at rest where it turns."""
+        """Draw sway as a wave that is flat where the direction changes."""
         if not len(x0):
             return
         if len(x0) > self._lane.plot_rect.width() / 3:
@@ -49,7 +49,7 @@ class ActingPainter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
 
     def paint_cue(self, painter: QPainter, region: Region, box: QRectF, colour: str, room_px: float) -> None:
-        """A triangle whose tip is the beat; its name where there is room."""
+        """Draw a cue as a triangle with the tip on the beat, and its name if there is space."""
         tokens = self._lane.session.tokens
         peak = min(max(self._lane.axis.x_px(region.peak_s), box.left()), box.right())
         outline = [(box.left(), box.bottom()), (peak, box.top() + 2.0), (box.right(), box.bottom())]
@@ -63,7 +63,7 @@ class ActingPainter:
         draw_text(painter, QRectF(box.right() + 4.0, box.top(), min(room_px, 130.0), box.height()), region.label)
 
     def paint_varied(self, painter: QPainter, region: Region, box: QRectF, colour: str, selected: bool) -> None:
-        """A frame around the bars."""
+        """Draw an event as a trapezoid with its strength as height and its fades as slopes."""
         painter.setPen(QPen(QColor(colour), 1.6 if selected else 1.0))
         painter.setBrush(shade(colour, 110 if selected else 60))
         painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0)

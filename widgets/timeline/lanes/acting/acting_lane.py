@@ -1,4 +1,4 @@
-"""The lane of acting: cues, expressions, poses and gestures, each kind in rows of its own."""
+"""The acting lane: cues, expressions, poses and gestures, each kind in rows of its own."""
 
 from __future__ import annotations
 
@@ -58,14 +58,14 @@ BASE_PX = 5.0
 NEW_BEATS = 2
 MOST_NAME_PX, NAME_GAP_PX = 130.0, 8.0
 CUE_REACH_PX = 10.0
-"""A cue that is dragged this close to an entry belongs to it."""
+"""Distance in pixels within which a dragged cue is assigned to an entry."""
 
 
 NAMES = Names(expression_name, kind_name, pose_name, gesture_name, style_name)
 
 
 class ActingLane(RegionLane):
-    """Lane of what body and face do besides playing."""
+    """Lane of the motion of body and face besides playing."""
 
     id = "acting"
     preferred_height_px = 154
@@ -94,7 +94,7 @@ class ActingLane(RegionLane):
         return kind_name(kind)
 
     def group_name(self, kind: str) -> str:
-        """Name a group of rows, after its first kind."""
+        """Return the name of a group of rows, that of its first kind."""
         if kind == VARIED:
             return self.tr("acting_lane.anew")
         names = {"pose": "acting_lane.pose", "feet": "acting_lane.feet", "beside": "acting_lane.beside"}
@@ -133,7 +133,7 @@ class ActingLane(RegionLane):
         return result + removed, row
 
     def _gestures(self, plan: PlayerPlan) -> list[Region]:
-        """The gestures, of which there are thousands: those of an unchanged plan keep their regions."""
+        """Return the regions of gestures, of which there are thousands, reusing those of an unchanged plan."""
         before, self._known = self._known, {}
         for event in plan.gestures:
             known = before.get(id(event))
@@ -143,7 +143,7 @@ class ActingLane(RegionLane):
         return [region for _, region in self._known.values()]
 
     def _packed(self, kinds: tuple[str, ...], members: list[Region], clock: TempoMap) -> tuple[list[int], int]:
-        """The row of every member of a group, and how many rows there are; the faces beneath all lie in the last."""
+        """Return the row of every member of a group, and the number of rows; underlying faces are in the last row."""
         known = self._groups_known.get(kinds)
         if (
             known is not None
@@ -167,7 +167,7 @@ class ActingLane(RegionLane):
         return (project.players, said, *(other.cues for other in plans.values() if other is not plan))
 
     def _varied(self, player_id: str) -> list[Region]:
-        """Bars that the user has regenerated."""
+        """Return the regions of bars that the user has varied."""
         clock = self.session.project.score.tempo_map
         return [
             Region(
@@ -184,7 +184,7 @@ class ActingLane(RegionLane):
         return super().tip(region)
 
     def _guests(self, plan: PlayerPlan) -> list[Region]:
-        """The cues that other players give."""
+        """Return the cues that other players give."""
         performance, project = self.session.performance, self.session.project
         known = {player.id: player.name for player in project.players}
         own = next((player for player in project.players if player.id == plan.player_id), None)
@@ -204,7 +204,7 @@ class ActingLane(RegionLane):
         self._names.update()
 
     def row_names(self) -> list[tuple[str, float]]:
-        """The groups' names and where they stand."""
+        """Return the names of the groups and their vertical positions."""
         names = []
         for kind, first, count in self.groups:
             top, height = self.row_box(first)
@@ -280,7 +280,7 @@ class ActingLane(RegionLane):
             draw_mark(painter, tokens, box.left() + 1.0, box.top() + 1.0)
 
     def _name_room_px(self, cue: Region) -> float:
-        """Room for a cue's name, pixels: up to the next cue of its row, so that names do not overlap."""
+        """Return the space in pixels for a cue's name: up to the next cue in the row."""
         later = [one.start_s for one in self.regions if one.kind == "cue" and one.row == cue.row]
         at = bisect_right(later, cue.start_s)
         return MOST_NAME_PX if at == len(later) else self.axis.x_px(later[at]) - self.axis.x_px(cue.end_s) - NAME_GAP_PX
@@ -301,7 +301,7 @@ class ActingLane(RegionLane):
         return self.snap(requested, mouse) - region.end_tick
 
     def group_at(self, y_px: float) -> str:
-        """The kind whose rows are at a height."""
+        """Return the kind whose rows are at a height in pixels."""
         for kind, first, count in self.groups:
             top, height = self.row_box(first)
             if y_px < top + height * count:

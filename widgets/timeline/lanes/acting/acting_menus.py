@@ -1,4 +1,4 @@
-"""The menus of the lane of acting: styles of bars, the giver of an entry, and those who take it."""
+"""Menus of the acting lane: styles of bars, the giver of a cue, and its receivers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from widgets.timeline.model.regions.shown_event import Region
 
 
 def add_givers(menu: QMenu, session: Session, cue: Region, title: str) -> None:
-    """Every player who may give the entry of a cue; who gives it is checked."""
+    """Add an entry for every player that can give a cue, with the present giver checked."""
     givers = menu.addMenu(title)
     givers.setObjectName("givers")
     for player in session.project.players:
@@ -33,7 +33,9 @@ def add_givers(menu: QMenu, session: Session, cue: Region, title: str) -> None:
 
 
 def add_takers(menu: QMenu, session: Session, cue: Region, title: str, automatic: str) -> None:
-    """Every player whom a cue may bring in; those whom it does are checked. ``automatic`` names who comes in there."""
+    """Add an entry for every player that can receive a cue, with present receivers checked. ``automatic`` is the text
+    for the players that enter there.
+    """
     plan = session.plans.get(cue.player_id)
     event = next((one for one in plan.cues if one.id == cue.event_id), None) if plan is not None else None
     if event is None:

@@ -23,7 +23,7 @@ LABEL_PX, SCALE_PX = 90.0, 48.0
 
 
 class AdditiveLaneView(LaneView, Protocol):
-    """Interface of the additive lane for its drawing; a protocol for the reason of `LaneView`."""
+    """Part of the additive lane needed for drawing; a protocol for the reason given at `LaneView`."""
 
     curves: tuple[ShownCurve, ...]
     channel: str
@@ -70,7 +70,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawRect(QRectF(lane.band.left, lane.band.top, lane.band.width, lane.band.height))
 
     def _paint_limits(self, painter: QPainter, exposed: QRectF) -> None:
-        """Shade what lies beyond the body's range."""
+        """Shade values beyond the body's range."""
         low, high = self.lane.limits
         ground = shade(self.lane.session.tokens.line, 90)
         top, bottom = self.lane.y_px(high), self.lane.y_px(low)
@@ -118,7 +118,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             draw_text(painter, QRectF(begins, 1.0, right - begins, 14.0), curve.title)
 
     def _paint_beyond(self, painter: QPainter, shown: ShownCurve, x: FloatArray) -> None:
-        """Mark where a curve asks for more than the body does: in the colour of problems, with a sign at its start."""
+        """Mark spans of a curve beyond the body's range in the colour of problems, with a sign at the start."""
         lane, axis, warning = self.lane, self.lane.axis, QColor(self.lane.session.tokens.warning)
         for start_s, end_s in shown.beyond_s(lane.limits):
             left, right = axis.x_px(start_s), axis.x_px(end_s)
@@ -135,7 +135,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
             painter.drawPolygon([QPointF(left + dx, at + dy) for dx, dy in corners])
 
     def _paint_line(self, painter: QPainter, x: FloatArray, values: FloatArray, pen: QPen) -> None:
-        """Draw one line, so that dots and dashes go on along it."""
+        """Draw a line whose dashes continue along it."""
         painter.setPen(pen)
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolyline(polygon(np.stack((x, self._y(values)), axis=1)))
@@ -184,7 +184,7 @@ class CurvesItem(LaneItem[AdditiveLaneView]):
 
 
 def _paint_key(painter: QPainter, place: QPointF, interpolation: Interpolation) -> None:
-    """A circle, a diamond or a square, by how the curve goes on."""
+    """Draw a key as a circle, a diamond or a square, by its interpolation."""
     if interpolation == "constant":
         painter.drawRect(QRectF(place.x() - 3.8, place.y() - 3.8, 7.6, 7.6))
     elif interpolation == "linear":

@@ -1,4 +1,4 @@
-"""Edits of additive curves, and the keys that are selected."""
+"""Edits of additive curves and of selected keys."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 MIME = "application/x-suisou-curve-keys"
 FIRST_CHANNEL = "head.up"
 STEPS = {"deg": (1.0, 0.1), "m": (0.005, 0.001), "weight": (0.05, 0.01)}
-"""Change of a value by Up and Down, and with Shift, by unit."""
+"""Change of a value by Up and Down, and by these with Shift, by unit."""
 PREFIX = "additive:"
 """Prefix of curves' ids among events."""
 
 
 class CurveEditing(Lane):
-    """The curves of a channel, and edits of them and of the keys that are selected.
+    """Curves of a channel with edits of them and of selected keys.
 
     Attributes
     ----------
     channel : str
     curves : tuple of ShownCurve
-        Of the player in front on that channel.
+        Curves of the active player on the channel.
     selected : frozenset of KeyRef
     generated : (array, array) or None
-        Times and values of what the generator does on the channel.
+        Times and values generated on the channel.
     """
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
@@ -61,7 +61,7 @@ class CurveEditing(Lane):
 
     @property
     def chosen_curves(self) -> frozenset[str]:
-        """Names of the curves that are selected as a whole."""
+        """Names of the curves that are selected completely."""
         return frozenset(
             key.event_id.removeprefix(PREFIX)
             for key in self.session.selection.events
@@ -69,14 +69,14 @@ class CurveEditing(Lane):
         )
 
     def read_curves(self) -> None:
-        """Take the project's curves."""
+        """Read the project's curves."""
         player = self.player_id
         self.curves = () if player is None else model.shown_curves(self.session.project, player, self.channel)
         self.selected = model.still_there(self.curves, self.selected)
         self.fit()
 
     def fit(self) -> None:
-        """Show as much as there is, but not in mid-drag."""
+        """Fit the vertical scale to the contents, except during a drag."""
         if not self.dragging:
             values = None if self.generated is None else self.generated[1]
             most = model.vertical_range(self.channel, self.curves, values)
@@ -84,18 +84,18 @@ class CurveEditing(Lane):
         self.update_items()
 
     def select_keys(self, keys: frozenset[KeyRef]) -> None:
-        """Select keys, and nothing else."""
+        """Select keys and nothing else."""
         self.selected = keys
         self.session.select(Selection())
         self.update_items()
 
     def follow_keys(self, keys: frozenset[KeyRef]) -> None:
-        """The selected keys are called so now."""
+        """Set the selection to keys that were renamed by an edit."""
         self.selected = keys
         self.read_curves()
 
     def add_key(self, tick: int, value: float) -> None:
-        """A key of the curve that is there or next to it, else of a new one; it is selected then."""
+        """Add a key to the nearest curve, or else to a new one, and select it."""
         player, channel = self.player_id, self.channel
         if player is None:
             return
@@ -119,19 +119,19 @@ class CurveEditing(Lane):
     # Edits
 
     def chosen(self) -> tuple[CurveKey, ...]:
-        """The selected keys."""
+        """Return the selected keys."""
         return model.chosen_keys(self.curves, self.selected)
 
     def interpolate(self, interpolation: Interpolation) -> None:
-        """Let curves go on so from the selected keys."""
+        """Set the interpolation after the selected keys."""
         self._edit_keys("edit.set_interpolation", partial(edit.set_interpolation, interpolation=interpolation))
 
     def free(self) -> None:
-        """Let the handles of the selected keys be automatic."""
+        """Make the handles of the selected keys automatic."""
         self._edit_keys("edit.set_curve_tangents", edit.free_tangents)
 
     def flatten(self) -> None:
-        """Let curves be level at the selected keys."""
+        """Make the curves flat at the selected keys."""
         self._edit_keys("edit.set_curve_tangents", edit.flatten_tangents)
 
     def delete(self) -> None:
@@ -161,14 +161,14 @@ class CurveEditing(Lane):
         self.number.open(box, scale * keys[0].value, decimals, take, channel_name(self.channel), units[unit])
 
     def type_weight(self, name: str) -> None:
-        """Type how much of a curve is added."""
+        """Open a field for the weight of a curve."""
         curve = self.shown(name).curve
         take = partial(self._change_curve, name)
         box = QRectF(self.axis.x_px(self.shown(name).start_s), self.y_px(0.0), 1.0, 1.0)
         self.number.open(box, curve.weight, 2, lambda typed: take(weight=typed), self.tr("additive_lane.weight"))
 
     def type_title(self, name: str) -> None:
-        """Type what a curve is called."""
+        """Open a field for the name of a curve."""
         shown = self.shown(name)
         box = QRectF(self.axis.x_px(shown.start_s), self.y_px(0.0), 1.0, 1.0)
         take = partial(self._change_curve, name)
@@ -185,13 +185,13 @@ class CurveEditing(Lane):
             self._attempt(Message("edit.delete_curve"), lambda project: edit.delete_curves(project, player, (name,)))
 
     def copy(self) -> None:
-        """Put the selected keys on the clipboard."""
+        """Copy the selected keys to the clipboard."""
         data = QMimeData()
         data.setData(MIME, model.clip_text(self.channel, self.chosen()))
         QGuiApplication.clipboard().setMimeData(data)
 
     def paste(self, tick: int) -> None:
-        """Put the clipboard's keys at a tick."""
+        """Insert the clipboard's keys at a tick."""
         player, channel, keys = self.player_id, self.channel, self.clipboard()
         if player is None or not keys:
             return
@@ -254,8 +254,9 @@ class CurveEditing(Lane):
         return bool(self.selected) and event.key() in _OF_KEYS
 
     def key(self, event: QKeyEvent) -> bool:
-        """Arrows move the selected keys, with Shift finely; Delete removes them, Enter types their value, Ctrl+C and
-        Ctrl+V copy them and put them at the playhead, Ctrl+A selects all, Escape none."""
+        """Handle keys: arrows move the selected keys (with Shift finely), Delete removes them, Enter edits their value,
+        Ctrl+C and Ctrl+V copy and insert at the playhead, Ctrl+A selects all, Escape none.
+        """
         if not self.claims(event):
             return False
         fine = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
@@ -288,4 +289,4 @@ _OF_KEYS = frozenset(
         Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right,
     }
 )  # fmt: skip
-"""Keys that act on the selected keys of the curves."""
+"""Keys of the keyboard that act on selected curve keys."""

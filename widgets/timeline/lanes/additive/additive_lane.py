@@ -1,4 +1,4 @@
-"""The lane of additive curves: keys of the animator's on a channel of body or face, over what is generated there."""
+"""The lane of additive curves: the animator's keys on a channel of body or face, over the generated values."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ from widgets.timeline.model.lane_mouse import PixelRect
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 REACH_PX = 6.0
-"""Distance to a stretch beyond the body's range within which the mouse shows what is wrong."""
+"""Distance in pixels from a span beyond the body's range within which the tool tip explains it."""
 
 
 class AdditiveLane(CurveEditing):
-    """Curves that are added to what the generator does.
+    """Curves that are added to generated values.
 
-    A double click adds a key; keys, handles and the ends of blends are dragged; the context menu has the rest.
+    A double click adds a key; keys, handles and ends of blends can be dragged; the context menu has more commands.
     """
 
     id = "additive"
@@ -76,7 +76,7 @@ class AdditiveLane(CurveEditing):
         self.update_items()
 
     def empty_text(self) -> str:
-        """Say how to begin, or why one cannot."""
+        """Return the text of an empty lane: how to begin, or why that is not possible."""
         if self.limits == (0.0, 0.0):
             return self.tr("additive_lane.not_here")
         return self.tr("additive_lane.double_click_to_add").format(channel=channel_name(self.channel))
@@ -143,7 +143,7 @@ class AdditiveLane(CurveEditing):
         self.refresh()
 
     def selection_changed(self, before: Selection) -> None:
-        """Keys stay selected until something else is; a curve that is selected elsewhere is shown."""
+        """Keep selected keys until something else is selected; show a curve that is selected elsewhere."""
         now = self.session.selection
         if now.events == before.events and now.notes == before.notes:
             return
@@ -160,7 +160,7 @@ class AdditiveLane(CurveEditing):
     # The mouse
 
     def hit(self, mouse: LaneMouse) -> Hit | None:
-        """Find what lies at a place."""
+        """Return the object at a point."""
         return model.hit(self.curves, self.selected, self, mouse.x_px, mouse.y_px)
 
     def press(self, mouse: LaneMouse) -> None:
@@ -257,7 +257,7 @@ class AdditiveLane(CurveEditing):
         ]
 
     def tip(self, found: Hit) -> str:
-        """Describe what lies at a place."""
+        """Return the description of the object at a point."""
         curve = self.shown(found.name).curve
         lines = [curve.title or channel_name(self.channel)]
         if found.what == "key":

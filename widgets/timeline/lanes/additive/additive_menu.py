@@ -1,4 +1,4 @@
-"""The menus of the lane of additive curves: of channels, and of what is at a place."""
+"""Menus of the lane of additive curves: channels, and commands for a point."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from widgets.common.plain import verbatim
 from widgets.timeline.lanes.additive.additive_edits import CurveEditing
 
 MARKED = "• "
-"""Before the names of channels that have curves."""
+"""Prefix of the names of channels with curves."""
 
 
 def fill_channels(menu: QMenu, channel: str, used: Collection[str], chosen: Callable[[str], None]) -> None:
-    """Fill a menu with all channels by the parts of body and face; those ``used`` are marked."""
+    """Fill a menu with all channels by parts of body and face, with ``used`` ones marked."""
     menu.clear()
     group = QActionGroup(menu)
 
@@ -85,7 +85,7 @@ def add_curve_entries(menu: QMenu, lane: CurveEditing, curve: AdditiveCurve) -> 
 
 
 def add_entry(menu: QMenu, name: str, text: str, run: Callable[[], None]) -> QAction:
-    """An entry that does something, to be found by its name."""
+    """Add a menu entry with an object name and a function, and return it."""
     entry = menu.addAction(text)
     entry.setObjectName(name)
     on_click(entry, run)

@@ -1,4 +1,4 @@
-"""Drawing of dances: each basic motion as a block with its number and a little figure of its accent."""
+"""Drawing of dances: each basic motion as a block with its number and a small figure at its accent."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BAR_PX = 3.0
 
 
 class DancesView(LaneView, Protocol):
-    """Part of a lane of dances that is drawn; a protocol for the reason of `LaneView`."""
+    """Part of a dance lane needed for drawing; a protocol for the reason given at `LaneView`."""
 
     dances: dict[str, DanceSteps]
     moving: MoveStep | None
@@ -98,7 +98,7 @@ class DancesItem(LaneItem[DancesView]):
         self._paint_marks(painter, box, dance, here, selected)
 
     def _paint_move(self, painter: QPainter, box: QRectF, dance: DanceSteps, number: int, tick: int) -> None:
-        """The frame of a step, and its accent, where they are dragged to."""
+        """Draw a dragged step with its accent at the new place."""
         lane, step = self.lane, dance.steps[number]
         accent_s = lane.session.project.score.tempo_map.seconds(float(tick))
         by_s = accent_s - step.accent_s
@@ -110,7 +110,7 @@ class DancesItem(LaneItem[DancesView]):
         painter.drawLine(QPointF(accent, box.top()), QPointF(accent, box.bottom()))
 
     def _paint_accents(self, painter: QPainter, box: QRectF, dance: DanceSteps, here: IntArray, colour: str) -> None:
-        """A line where the accent of each block is."""
+        """Draw a line at the accent of each block."""
         accents = self.lane.axis.x_px(np.array([dance.steps[at].accent_s for at in here.tolist()]))
         bottom = np.full(len(here), box.bottom())
         draw_lines(painter, accents, bottom - 5.0, accents, bottom, QPen(QColor(colour), 2.0))

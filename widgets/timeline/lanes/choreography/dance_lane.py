@@ -1,4 +1,4 @@
-"""The lane of dances: what each dancer dances when, and how that is changed."""
+"""The dance lane: the basic motions of each dancer over time, which can be changed."""
 
 from __future__ import annotations
 
@@ -33,13 +33,14 @@ if TYPE_CHECKING:
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 46, 26, 90
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 4, 2
-"""Rows that the lane prefers to show, and the least; the wheel scrolls to the others."""
+"""Preferred and least number of visible rows; the wheel scrolls to the others."""
 EMPTY_PX = 46
 
 
 class DanceLane(RowLane):
-    """Dancers one under another, each with the basic motions that are danced: a click selects one, a drag moves it to
-    other beats, its context menu and the arrow keys change it. The dance around it is found anew."""
+    """Dancers below one another with their basic motions: a click selects one, a drag moves it to other beats, its
+    context menu and the arrow keys replace it. The surrounding dance is generated anew.
+    """
 
     id = "dance"
     preferred_height_px = EMPTY_PX
@@ -72,11 +73,11 @@ class DanceLane(RowLane):
         return not self.session.project.dancers
 
     def empty_text(self) -> str:
-        """Say how to add a dance; empty where there is a dancer."""
+        """Return the text of an empty lane: how to add a dancer."""
         return "" if self.dancers else self.tr("dance_lane.no_dancers_yet_add_one")
 
     def reason(self, dance: DanceSteps) -> str:
-        """Say why a dancer does not dance; empty for one who does."""
+        """Return why a dancer does not dance; empty otherwise."""
         if dance.error is not None:
             return sentence(dance.error, self.session, dance.dancer.id)
         return "" if dance.steps else self.tr("dance_lane.no_beat_of_music_is")
@@ -115,7 +116,7 @@ class DanceLane(RowLane):
             self._rows_changed()
 
     def performance_changed(self) -> None:
-        """Find out in the background what is danced now."""
+        """Compute the current dances in the background."""
         performance = self.session.performance
         if performance.project.dancers and performance is not self._shown_of:
             self._shown_of = performance
@@ -156,7 +157,7 @@ class DanceLane(RowLane):
     # Selecting
 
     def select_step(self, step: tuple[str, int] | None) -> None:
-        """Select a step: it stays selected where it is when the dance is another."""
+        """Select a step; the position stays selected when the dance changes."""
         self._selected_at = None if step is None else (step[0], self.dances[step[0]].ticks[step[1]])
         if step is not None:
             self.session.set_dancer(step[0])
@@ -198,7 +199,7 @@ class DanceLane(RowLane):
         self.plot.setToolTip(text)
 
     def tip(self, dancer_id: str, number: int) -> str:
-        """Describe a step and its dancer."""
+        """Return the description of a step and its dancer."""
         dance = self.dances[dancer_id]
         step = dance.steps[number]
         segment = dance.model.segments[step.segment]
@@ -237,7 +238,7 @@ class DanceLane(RowLane):
         )
 
     def move_step(self, dancer_id: str, number: int, tick: int) -> None:
-        """Dance the segment of a step so that its accent is at another place."""
+        """Pin the segment of a step with its accent at another place."""
         dance = self.dances[dancer_id]
         if tick == dance.ticks[number]:
             return
@@ -250,7 +251,7 @@ class DanceLane(RowLane):
         self.update_items()
 
     def forbid(self, dancer_id: str, number: int, everywhere: bool = False) -> None:
-        """Do not dance the basic motion of a step there, or anywhere in the piece; a pin on it is removed."""
+        """Forbid the basic motion of a step there, or in the whole piece; a pin on it is removed."""
         dance = self.dances[dancer_id]
         state = dance.steps[number].state
         start, end = (-limits.LAST_TICK, limits.LAST_TICK) if everywhere else dance.spans[number]
@@ -260,7 +261,7 @@ class DanceLane(RowLane):
         )
 
     def take_back(self, dancer_id: str, corrections: Sequence[DanceCorrection]) -> None:
-        """Leave this to the generator again."""
+        """Remove corrections of a dance."""
         self._attempt(
             Message("edit.release_dance", {"dancer": self._name(dancer_id)}),
             lambda project: edit.take_back(project, dancer_id, corrections),
@@ -285,8 +286,9 @@ class DanceLane(RowLane):
     # Keys
 
     def key(self, event: QKeyEvent) -> bool:
-        """Left and Right select the steps beside, with Shift they move the step, Up and Down dance another basic
-        motion, Backspace and Delete return the step to the generator, Escape selects none."""
+        """Handle keys: Left and Right select adjacent steps, with Shift they move the step, Up and Down replace the
+        basic motion, Backspace and Delete remove corrections of the step, Escape deselects.
+        """
         modifiers = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
         selected, key = self.selected_step, event.key()
         if selected is None:

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from app.choreography.performed.dance_steps import DanceSteps
 
 MOST_SEGMENTS = 60
-"""Most segments of a basic motion that are offered: those with figures nearest to the danced one."""
+"""Greatest number of segments of a basic motion in the menu: those with figures most similar to the current one."""
 
 
 class Dances(Protocol):
-    """Part of the lane that the menu asks and changes; a protocol for the reason of `LaneView`."""
+    """Part of the lane that the menu uses; a protocol for the reason given at `LaneView`."""
 
     session: Session
     dances: dict[str, DanceSteps]
@@ -39,7 +39,7 @@ class Dances(Protocol):
 
 
 class DanceMenu(QMenu):
-    """Menu of the segments that can be danced instead of a step.
+    """Menu of the segments that can replace a step.
 
     Parameters
     ----------

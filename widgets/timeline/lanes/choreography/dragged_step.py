@@ -1,4 +1,4 @@
-"""A step of a dance that is being dragged."""
+"""A step of a dance during a drag."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class MoveStep(MouseGesture):
-    """The accent of a step goes as far as the mouse does, to the nearest place where one can be.
+    """Drag of a step's accent to the nearest possible place.
 
     Attributes
     ----------
@@ -23,7 +23,7 @@ class MoveStep(MouseGesture):
     number : int
         Of the step.
     tick : int or None
-        Place of its accent if it is released now; None before the mouse has moved far enough.
+        Tick of the accent if released now; None before the mouse has moved far enough.
     """
 
     def __init__(self, at: LaneMouse, dance: DanceSteps, number: int, scale: Scale, clock: TempoMap) -> None:
@@ -39,6 +39,6 @@ class MoveStep(MouseGesture):
 
 
 def state_beside(dance: DanceSteps, state: int, by: int) -> int:
-    """The next basic motion that has segments."""
+    """Return the next basic motion with segments in a direction."""
     used = sorted({one.state for one in dance.model.segments})
     return used[(used.index(state) + by) % len(used)]

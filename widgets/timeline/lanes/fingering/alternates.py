@@ -1,4 +1,4 @@
-"""All the ways to play a note, as a row of chips beside it."""
+"""Row of chips with all fingerings of a note beside it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from widgets.timeline.lane import Lane
 
 
 class Alternates(QFrame):
-    """A row of chips in the window, without modality: it goes with the next press elsewhere, or Escape."""
+    """A row of chips in the window that is not modal and closes with a press elsewhere or Escape."""
 
     def __init__(self, session: Session, lane: Lane) -> None:
         super().__init__(lane)
@@ -53,7 +53,7 @@ class Alternates(QFrame):
         return self._session.performance.instrument(self._session.project.player(player_id))
 
     def note_text(self, fingering: Fingering) -> str:
-        """Notes beside a fingering's label: how far out of tune it is, and reasons to take it."""
+        """Return the notes beside a fingering's label: deviation in cents, and tags."""
         parts = [f"{fingering.cents:+.0f} ¢".replace("-", "−")] if round(fingering.cents) else []
         return " · ".join([*parts, *words_of_tags(fingering.tags)])
 
@@ -62,7 +62,7 @@ class Alternates(QFrame):
         return bool(corrections_of(self._session.project, player_id, (event.id,)))
 
     def show_for(self, player_id: str, event: FingeringEvent, place: QPoint, why: str = "") -> None:
-        """Show the chips of a note above a place of the window; over them why they are shown, if that is said."""
+        """Show the chips of a note above a point of the window, with an explanation if given."""
         self._why.setText(why)
         self._why.setVisible(bool(why))
         while (item := self._row.takeAt(0)) is not None:
@@ -108,14 +108,14 @@ class Alternates(QFrame):
             application.installEventFilter(self)
 
     def take_focus(self) -> None:
-        """Let the keyboard choose: Tab goes from chip to chip, Space takes one."""
+        """Give the chips the keyboard focus: Tab moves, Space selects."""
         chips = self.findChildren(FingeringChip)
         chosen = next((chip for chip in chips if chip.isChecked() and chip.isVisible()), None)
         if chosen is not None:
             chosen.setFocus(Qt.FocusReason.TabFocusReason)
 
     def choose(self, label: str) -> None:
-        """Pin a fingering for the note shown, and for every other selected note that can be played with it."""
+        """Pin a fingering for the note, and for every other selected note that can be played with it."""
         if self.event_shown is None:
             return
         player_id, shown = self.player_id, self.event_shown.note_id
@@ -134,7 +134,7 @@ class Alternates(QFrame):
         )
 
     def give_back(self) -> None:
-        """Let the search choose again."""
+        """Remove the pin, so that the fingering is generated."""
         if self.event_shown is None:
             return
         event_id, player_id = self.event_shown.id, self.player_id

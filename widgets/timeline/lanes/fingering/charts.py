@@ -1,5 +1,6 @@
-"""Fingerings of keys and holes along their lane: at each note the chart of a method book, where there is room the names
-of its keys; notes too short for a chart have bars for the holes of its column."""
+"""Fingering charts of keys and holes along their lane: a chart at each note, with key names if there is space; bars for
+the holes at notes too short for a chart.
+"""
 
 from __future__ import annotations
 
@@ -21,11 +22,11 @@ from widgets.timeline.plot.drawing import draw_mark, draw_rects, shade, small_fo
 from widgets.timeline.plot.plot import LaneView
 
 LEAST_PX, USUAL_PX, PREFERRED_PX = 52, 80, 116
-"""Height of a lane with charts: at least, what it needs to be read easily, and at first where there is room."""
+"""Heights in pixels of a lane with charts: least, easily readable, and preferred."""
 MOST_HOLE_PX = 18.0
 MARGIN_PX = 3.0
 THUMB_PX = 13.0
-"""Left of the column in every chart, so that columns stand alike: most have a thumb there."""
+"""Width in pixels left of the column in every chart for the thumb's holes, so that columns are aligned."""
 SQUEEZE = 0.6
 MOST_PICTURES = 1024
 BAR_SHARE = 0.55
@@ -33,7 +34,7 @@ BAR_SHARE = 0.55
 
 
 class ShownFingerings(NamedTuple):
-    """Fingerings in sight: events, and arrays (N,) of pixels and of which are selected."""
+    """Visible fingerings: events, and arrays (N,) of pixels and of selection."""
 
     events: list[FingeringEvent]
     left: FloatArray
@@ -42,7 +43,7 @@ class ShownFingerings(NamedTuple):
 
 
 class _Picture(NamedTuple):
-    """A drawn chart, the length to the left of its column's middle, and its width."""
+    """A drawn chart, its extent left of the column's middle, and its width, in pixels."""
 
     pixels: QPixmap
     left_px: float
@@ -63,7 +64,7 @@ class FingeringCharts:
 
     @property
     def hole_px(self) -> float:
-        """Distance from one hole to the next."""
+        """Distance of holes in pixels."""
         room = self._lane.plot_rect.height() - 2 * MARGIN_PX
         return min(max(room, 1.0) / (self.chart.bottom - self.chart.top), MOST_HOLE_PX)
 
@@ -85,7 +86,7 @@ class FingeringCharts:
     def paint(
         self, painter: QPainter, exposed: QRectF, shown: ShownFingerings, pressed: FloatArray, colour: str
     ) -> None:
-        """Draw what is in sight.
+        """Draw the visible fingerings.
 
         Parameters
         ----------
@@ -151,8 +152,7 @@ class FingeringCharts:
         self._paint_names(painter, event, QRectF(right, 0.0, x + room - right, self._lane.plot_rect.height()))
 
     def _paint_names(self, painter: QPainter, event: FingeringEvent, box: QRectF) -> None:
-        """The keys beside the column by their names, else by their signs, from the top; nothing where these do not fit
-        either."""
+        """Draw the names of keys beside the column, else their signs, from the top; nothing if these do not fit."""
         metrics = QFontMetricsF(painter.font())
         line_px = metrics.height()
         for words in self._words_of(event):
@@ -165,7 +165,7 @@ class FingeringCharts:
                 return
 
     def _words_of(self, event: FingeringEvent) -> tuple[list[str], list[str]]:
-        """Names and signs of the pressed keys that the chart does not always show."""
+        """Return the names and signs of pressed keys that the chart does not always show."""
         known = (event.label, language())
         if known not in self._words:
             beside = [key for key in self.chart.keys if event.controls.get(key.control.name, 0.0) > 0.0]

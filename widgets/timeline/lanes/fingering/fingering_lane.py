@@ -1,4 +1,4 @@
-"""The lane of fingerings: what the hands press, pull and slide for every note, and what else would do."""
+"""The fingering lane: pressed keys, valves and slide positions of every note, and alternatives."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ LEAST_LABEL_PX = 9.0
 MOST_BAR_PX = 26.0
 """However high the lane, bars stay thin enough to be read together."""
 SMALL_BAR_PX = 13.0
-"""A trigger beside a slide leaves the slide the room it needs."""
+"""Height of a trigger's bar in pixels, which leaves the slide its space."""
 CHIPS_DELAY_PX = 3.0
 NEAR_PX = 7.0
-"""A press this far beside a note is one on it."""
+"""Distance in pixels within which a press beside a note counts as on it."""
 
 
 class _Bars(LaneItem["FingeringLane"]):
@@ -78,7 +78,7 @@ class _Bars(LaneItem["FingeringLane"]):
         self._paint_mutes(painter, exposed)
 
     def _paint_mutes(self, painter: QPainter, exposed: QRectF) -> None:
-        """A line above the labels of every muted passage, dashed with a mute and whole where the hand stops it."""
+        """Draw a line above the labels of muted passages, dashed for a mute and solid for hand stopping."""
         lane, tokens = self.lane, self.lane.session.tokens
         y = lane.plot_rect.height() - (LABEL_PX if lane.charts is None else 0.0) - 2.0
         for mute in lane.mutes:
@@ -149,7 +149,7 @@ class _Bars(LaneItem["FingeringLane"]):
 
 
 class FingeringLane(Lane):
-    """The fingerings of the player in front. A click on a note shows what else could be played there."""
+    """Fingerings of the active player. A click on a note shows the alternatives."""
 
     id = "fingering"
     is_essential = True
@@ -178,7 +178,7 @@ class FingeringLane(Lane):
     # What is shown
 
     def refresh(self) -> None:
-        """Show the plan of the player in front, if it is another."""
+        """Show the active player's plan, if it has changed."""
         player, plan = self.session.player, self.session.plan
         if plan is self._plan and plan is not None:
             return
@@ -206,7 +206,7 @@ class FingeringLane(Lane):
         self.update_items()
 
     def _show_charts(self, instrument: InstrumentMap | None) -> None:
-        """Draw charts where the instrument has keys or holes; they need a taller lane."""
+        """Use charts if the instrument has keys or holes; they need a taller lane."""
         charted = instrument is not None and says_words(instrument.controls)
         if instrument is not self._charted:
             self._charted = instrument
@@ -222,20 +222,20 @@ class FingeringLane(Lane):
 
     @property
     def column_rows(self) -> list[tuple[int, Control]]:
-        """Rows of the holes of the chart's column among what can be pressed."""
+        """Return the rows of the chart's column holes among the pressed controls."""
         rows = {control.name: row for row, control in enumerate(self._pressable)}
         column = () if self.charts is None else self.charts.chart.column
         return [(rows[key.control.name], key.control) for key in column]
 
     def _instrument(self, player: Player) -> InstrumentMap | None:
-        """The player's instrument; None if it is not installed."""
+        """Return the player's instrument; None if it is not installed."""
         try:
             return self.session.performance.instrument(player)
         except AppError:
             return None
 
     def row_names(self) -> list[tuple[str, float]]:
-        """Signs of the controls and places of the slide, and where they stand."""
+        """Return the signs of controls and slide positions with their vertical positions."""
         if self.data is None:
             return []
         if self.charts is not None:
@@ -249,7 +249,7 @@ class FingeringLane(Lane):
 
     @property
     def _bars_share(self) -> float:
-        """The part of the height above the labels that the bars of pressed controls take."""
+        """Return the share of the height above the labels for the bars of pressed controls."""
         if not self._slides:
             return 1.0
         return len(self._pressable) / (len(self._pressable) + 4.0)
@@ -342,7 +342,7 @@ class FingeringLane(Lane):
             self._show_alternates(event)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Alt and an arrow go to the neighbouring note, Enter shows its alternates."""
+        """Handle keys: Alt and an arrow move to the adjacent note, Enter shows its alternatives."""
         if self.data is None or not self.data.events:
             return False
         notes, events = self.session.selection.notes, self.data.events
@@ -378,7 +378,7 @@ class FingeringLane(Lane):
             self.plot.setToolTip("" if event is None else self._tip(event))
 
     def _tip(self, event: FingeringEvent) -> str:
-        """Describe the fingering under the mouse and the tongue's stroke, each with its reason."""
+        """Return the description of the fingering under the mouse and of the tongue's stroke, each with its reason."""
         lines = [message_text(event.reason, self.session)]
         strokes = () if self._plan is None else self._plan.tongues
         stroke = next((one for one in strokes if one.note_id == event.note_id), None)

@@ -1,4 +1,4 @@
-"""The handles of bar lines and beats in the lane of the recording, and what following was not sure of."""
+"""Handles of bar lines and beats in the recording lane, and marks of uncertain bars."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from widgets.timeline.plot.drawing import shade
 
 _DECIMALS = 3
 _STEP_S, _FINE_STEP_S = 0.01, 0.001
-"""Seconds by which an arrow key moves the chosen beat, without and with Shift."""
+"""Seconds by which an arrow key moves the selected beat, without and with Shift."""
 _HALF_PX = {True: 5.0, False: 3.5}
 """Half the width of a handle: of a bar line, of a beat."""
 _CLAIMED = frozenset(
@@ -38,7 +38,7 @@ _CLAIMED = frozenset(
 
 
 def paint_doubts(lane: Lane, painter: QPainter, exposed: QRectF) -> None:
-    """Shade the bars that are to be checked by ear, and hatch those that the recording does not have."""
+    """Shade the bars that must be checked by ear, and hatch those missing in the recording."""
     audio, clock = lane.session.project.audio, lane.session.project.score.tempo_map
     if audio is None or not audio.doubts:
         return
@@ -64,12 +64,12 @@ def paint_doubts(lane: Lane, painter: QPainter, exposed: QRectF) -> None:
 
 
 class Anchors:
-    """The handles of a lane: they are dragged, chosen and walked through by keys.
+    """Handles of a lane, which are dragged or moved by keys.
 
     Attributes
     ----------
     chosen : int or None
-        The tick whose beat the keys move.
+        Tick of the beat that keys move.
     """
 
     def __init__(self, lane: Lane) -> None:
@@ -85,11 +85,11 @@ class Anchors:
         return anchors(lane.session.project, lane.axis, lane.lines())
 
     def at(self, mouse: LaneMouse) -> Anchor | None:
-        """The one under the mouse."""
+        """Return the handle under the mouse."""
         return anchor_at(self.visible(), mouse, self._lane.plot_rect.height())
 
     def paint(self, painter: QPainter, exposed: QRectF) -> None:
-        """Open triangles at the lower edge; pinned ones are filled, and have a line through the waveform."""
+        """Draw triangles at the lower edge; pinned ones are filled with a line through the waveform."""
         lane, tokens = self._lane, self._lane.session.tokens
         bottom = lane.plot_rect.height()
         painter.save()
@@ -117,7 +117,7 @@ class Anchors:
         painter.restore()
 
     def _paint_away(self, painter: QPainter, anchor: Anchor, x: float, bottom: float) -> None:
-        """Draw a line from a pinned beat to where it was pinned, if tempo or offset have changed since."""
+        """Draw a line from a pinned beat to the place of the pin, if tempo or offset have changed since."""
         audio = self._lane.session.project.audio
         if audio is None or anchor.pin is None:
             return
@@ -127,7 +127,7 @@ class Anchors:
             painter.drawLine(QPointF(x, bottom - HANDLE_PX), QPointF(there, 0.0))
 
     def tip(self, mouse: LaneMouse) -> str:
-        """Describe a place: how to use a handle, and how sure following was of the bar."""
+        """Return a description: use of the handle, and confidence of the bar."""
         lane = self._lane
         project, lines = lane.session.project, list[str]()
         anchor = self.at(mouse)
@@ -146,7 +146,7 @@ class Anchors:
     # The mouse
 
     def press(self, mouse: LaneMouse) -> bool:
-        """Choose the handle under the mouse; whether there is one."""
+        """Select the handle under the mouse, and return whether there is one."""
         anchor = self.at(mouse)
         self.choose(None if anchor is None else anchor.tick)
         if anchor is None:
@@ -155,7 +155,7 @@ class Anchors:
         return True
 
     def drag(self, mouse: LaneMouse) -> bool:
-        """Drag a handle; return False if none is held."""
+        """Drag a handle; return False if none is grabbed."""
         if self._drag is None:
             return False
         self._drag.drag(mouse)
@@ -172,7 +172,7 @@ class Anchors:
             drag.cancel()
 
     def double_click(self, mouse: LaneMouse) -> bool:
-        """Pin the beat under the mouse where it is, or let it go; whether there is one."""
+        """Pin or unpin the beat under the mouse, and return whether there is one."""
         self._drag = None
         anchor = self.at(mouse)
         if anchor is not None:
@@ -180,13 +180,13 @@ class Anchors:
         return anchor is not None
 
     def choose(self, tick: int | None) -> None:
-        """Let the keys move this beat, or none."""
+        """Set the beat that keys move, or none."""
         if tick != self.chosen:
             self.chosen = tick
             self._lane.update_items()
 
     def fill_menu(self, menu: QMenu, mouse: LaneMouse) -> None:
-        """Pin or unpin what is under the mouse, or chosen; unpin all."""
+        """Fill a menu with commands that pin or unpin the selected beat or the one under the mouse, or unpin all."""
         lane, audio = self._lane, self._lane.session.project.audio
         pins = {pin.tick for pin in audio.pins} if audio is not None else set[int]()
         anchor = self.at(mouse)
@@ -214,8 +214,9 @@ class Anchors:
         return self.chosen is not None and event.key() in _CLAIMED
 
     def key(self, event: QKeyEvent) -> bool:
-        """Alt and an arrow choose the next bar line or pin; arrows move the chosen beat (with Shift finely), Enter pins
-        it where it is, Delete lets it go, Escape chooses none."""
+        """Handle keys: Alt and an arrow select the next bar line or pin; arrows move the selected beat (with Shift
+        finely), Enter pins it, Delete unpins it, Escape deselects.
+        """
         if not self.claims(event):
             return False
         session, key = self._lane.session, event.key()

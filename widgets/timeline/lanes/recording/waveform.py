@@ -1,4 +1,4 @@
-"""The lane of the recording: its waveform, and where it lies against the score."""
+"""The recording lane: waveform and position relative to the score."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class _Drag:
 
 
 class _Waveform(LaneItem["WaveformLane"]):
-    """The extremes of every column; the offset as a number; what to do where there is no recording."""
+    """Draws the waveform and the offset, or advice if there is no recording."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane, tokens = self.lane, self.lane.session.tokens
@@ -81,8 +81,9 @@ class _Waveform(LaneItem["WaveformLane"]):
 
 
 class WaveformLane(Lane):
-    """The recording. Dragging it moves it against the score; a double click on it types the offset. The bar lines and
-    beats have handles at the lower edge: one that is dragged is pinned where it sounds."""
+    """The recording. A drag moves it against the score; a double click opens a field for the offset. Bar lines and
+    beats have handles at the lower edge; a dragged handle is pinned.
+    """
 
     id = "audio"
     preferred_height_px, least_height_px = EMPTY_PX, EMPTY_PX
@@ -100,7 +101,7 @@ class WaveformLane(Lane):
         self.retranslate()
 
     def _ask_room(self) -> None:
-        """Thin while there is nothing to see."""
+        """Request a small height while there is no recording."""
         empty = self.session.project.audio is None
         self.ask_height(EMPTY_PX if empty else PREFERRED_PX, EMPTY_PX if empty else LEAST_PX)
 
@@ -112,11 +113,11 @@ class WaveformLane(Lane):
         self.update_items()
 
     def empty_text(self) -> str:
-        """Say what can be done where there is no recording."""
+        """Return the advice for a lane without a recording."""
         return self.tr("waveform_lane.empty")
 
     def offset_text(self) -> str:
-        """The offset, and where it is from."""
+        """Return the offset and its origin as text."""
         audio = self.session.project.audio
         if audio is None:
             return ""
