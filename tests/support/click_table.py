@@ -76,7 +76,7 @@ players.rename, dancers.rename ? typing
 players.next, players.previous, players.select_all ? players + selection
 players.add, players.duplicate, players.remove = project players + selection
 players.select_section ? players + selection
-players.arrange, players.reset, players.hear_everyone ? project
+players.arrange, players.reset, players.hear_everyone, players.dress_everyone ? project
 players.* = project
 dancers.add, dancers.duplicate, dancers.remove = project dancer + lanes
 layer_*, habit_*, seed_dice, dancer_dice, randomise, dancer_mirrored = project
@@ -93,11 +93,9 @@ dancer_choreography ? asked + project
 dancer_character, dancer_source, parameter_* ? project
 player_part, player_instrument, player_character, player_outfit ? project + selection
 dancer_outfit ? project
-player_outfit_*, dancer_outfit_* ? popup
+player_outfit_main, player_outfit_second, player_outfit_accent = popup
 player_outfit_* > Other Colour... = asked
 player_outfit_* > * ? project
-dancer_outfit_* > Other Colour... = asked
-dancer_outfit_* > * ? project
 stage_snap = snap
 stage_arc, reset_parameters ? project
 */SectionHeader = folded

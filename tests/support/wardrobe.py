@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -19,24 +19,30 @@ GARMENTS = ("shirt", "trousers", "shoes")
 TITLE = {"en": "Test suit", "ja": "試験服"}
 
 
-def write_outfit(path: Path, id: str = "test_suit", body: str = "man_adult", **facts: Any) -> None:
+def write_outfit(
+    path: Path, id: str = "test_suit", body: str = "man_adult", meshes: Collection[str] = GARMENTS, **facts: Any
+) -> None:
     """Write the clothes of a finished body as an outfit whose shirt takes the main colour, the trousers the second."""
     data = bundled_characters()[body].read_bytes()
     (length,) = struct.unpack_from("<I", data, 12)
     document, binary = json.loads(data[20 : 20 + length]), data[20 + length :]
     for node in document["nodes"]:
-        if "mesh" in node and document["meshes"][node["mesh"]]["name"] not in GARMENTS:
+        if "mesh" in node and document["meshes"][node["mesh"]]["name"] not in meshes:
             del node["mesh"]
     told = {
         "id": id,
         "title": TITLE,
         "body": body,
-        "parts": {name: name for name in GARMENTS},
-        "hides": list(GARMENTS),
+        "parts": {name: name for name in meshes},
+        "hides": list(meshes),
         "tints": {"shirt": "main", "trousers": "second"},
         **facts,
     }
     document["scenes"][0]["extras"] = {"suisou": {"outfit": told}}
+    used = {document["meshes"][node["mesh"]]["name"] for node in document["nodes"] if "mesh" in node}
+    for material in document["materials"] if used != {*GARMENTS} else ():
+        # A file has the materials of its own garments alone.
+        material["name"] = material["name"] if material["name"] in used else f"{material['name']}_unused"
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     size = 12 + 8 + len(text) + len(binary)

@@ -10,7 +10,9 @@ from PySide6.QtWidgets import QDialog, QListWidget, QListWidgetItem, QWidget
 
 from app.editor.session import Session
 from app.errors import Message, Progress, StopRequested
-from app.rig.characters.character_library import character_library, character_named, character_problems
+from app.project.usual_outfits import common_outfit
+from app.rig.characters.character_library import character_library, character_problems
+from app.rig.characters.dressed_characters import character_in
 from app.rig.characters.read_figure import SUFFIXES
 from widgets.common.character_picture import picture, seen
 from widgets.common.controls import Button, Caption, Retranslated, named, selectable
@@ -100,8 +102,9 @@ class CharactersDialog(Retranslated, QDialog):
             button.setEnabled(bool(self.chosen))
 
     def _draw(self) -> None:
-        """Load every character in the background, and draw it."""
+        """Load every character in the background, and draw it in what most players wear."""
         ids, ratio = tuple(character_library().own), self.devicePixelRatioF()
+        worn = common_outfit(self._session.project)
         if not ids and not character_library().problems:
             self._wrong.hide()
             return
@@ -112,7 +115,7 @@ class CharactersDialog(Retranslated, QDialog):
                 if stop_requested():
                     break
                 if id not in wrong:
-                    shown = seen(character_named(id))
+                    shown = seen(character_in(id, worn))
                     drawn[id] = picture(shown, round(_PICTURE_PX.width() * ratio), round(_PICTURE_PX.height() * ratio))
                 progress((number + 1) / len(ids))
             return drawn, wrong

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 
 from app.editor.session import Session
 from app.errors import Message, Progress, StopRequested
-from app.rig.characters.character_library import character_named
+from app.rig.characters.dressed_characters import character_in
 from app.rig.model import Character
 from widgets.common.character_picture import Seen, picture, seen
 from widgets.common.plain import Label
@@ -55,14 +55,14 @@ class FacePicture(Label):
         if weights is None or not players:
             return
         chosen = next((one for one in players if one.id in session.players), players[0])
-        asked = (chosen.character_id, weights)
+        asked = (chosen.character_id, chosen.outfit, weights)
         if asked == self._drawn:
             return
         ratio = self.devicePixelRatioF()
         size_px = round(SIZE_PX * ratio)
 
         def work(progress: Progress, stop_requested: StopRequested) -> QImage:
-            return picture(_seen(character_named(asked[0])), size_px, size_px, "head", weights)
+            return picture(_seen(character_in(*asked[:2])), size_px, size_px, "head", weights)
 
         def done(image: QImage) -> None:
             self._drawn = asked

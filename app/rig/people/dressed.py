@@ -48,7 +48,7 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     skin = next(mesh for mesh in character.meshes if mesh.name == SKIN)
     finished = character if character.hands_of is None else character.hands_of
     own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]
-    garments = [_coloured(mesh, facts, choice, skin) for mesh in worn]
+    own, garments = ([_coloured(mesh, facts, choice, skin) for mesh in meshes] for meshes in (own, worn))
     landmarks = {
         name: _on(garments, character, mark) if mark.mesh in facts.hides else mark
         for name, mark in character.landmarks.items()
@@ -91,8 +91,9 @@ def _seen_triangles(finished: Character, hidden: tuple[int, ...]) -> BoolArray:
 
 
 def _coloured(mesh: Mesh, facts: OutfitFacts, choice: OutfitChoice, skin: Mesh) -> Mesh:
-    """A garment in the colours of a choice; skin that it shows is the person's."""
-    return replace(mesh, materials=_materials(mesh.materials, facts, choice, skin))
+    """A mesh in the colours of a choice; skin that a garment shows is the person's."""
+    materials = _materials(mesh.materials, facts, choice, skin)
+    return mesh if materials == mesh.materials else replace(mesh, materials=materials)
 
 
 def _materials(

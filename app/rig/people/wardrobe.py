@@ -69,7 +69,7 @@ class OutfitFacts(msgspec.Struct, frozen=True):
     hides_skin : list of int
         Vertices of the base mesh; faces of the skin between them are left out.
     tints : dict of str to str
-        By material: the colour of the choice that it takes.
+        By material, of the file or of the person's own clothes: the colour of the choice that it takes.
     means : dict of str to float
         By material: the mean of its neutral texture, by which a colour is divided; 1 without a texture.
     """
@@ -113,15 +113,19 @@ def wardrobe() -> Mapping[str, Outfit]:
     found: dict[str, dict[str, tuple[Path, OutfitFacts]]] = {}
     colours: dict[str, dict[Tint, str]] = {}
     for path in sorted(_folder().glob("*.glb")):
-        facts, own = _facts(path)
-        colours[facts.id] = {**own, **colours.get(facts.id, {})}
+        facts, factors = _facts(path)
         ending = path.stem.rpartition("_")[2]
         named = [id for id in phenotypes() if id.partition("_")[0] == ending]
         body = facts.body or (named or list(phenotypes()))[0]
         whole = msgspec.structs.replace(facts, body=body)
+        for material, tint in facts.tints.items():
+            factor = factors.get(material) or _factors(_document(_folder().parent / f"{body}.glb")).get(material)
+            if factor is not None:
+                mean = facts.means.get(material, 1.0)
+                colours.setdefault(facts.id, {}).setdefault(tint, _hexadecimal([mean * part for part in factor]))
         for id in named or phenotypes():
             found.setdefault(facts.id, {})[id] = (path, whole)
-    return MappingProxyType({id: _outfit(id, found[id], colours[id]) for id in sorted(found)})
+    return MappingProxyType({id: _outfit(id, found[id], colours.get(id, {})) for id in sorted(found)})
 
 
 def _folder() -> Path:
@@ -134,26 +138,31 @@ def _outfit(id: str, made: Mapping[str, tuple[Path, OutfitFacts]], colours: Mapp
     return Outfit(id, title, MappingProxyType(dict(made)), MappingProxyType(ordered))
 
 
-def _facts(path: Path) -> tuple[OutfitFacts, dict[Tint, str]]:
-    """Facts of a file, of which only the document is read, and its colours. Raises FileError."""
-    with open_file(path) as stream:
-        head = stream.read(_HEADER)
-        document, _ = split(head + stream.read(int.from_bytes(head[12:16], "little")), str(path))
+def _facts(path: Path) -> tuple[OutfitFacts, dict[str, list[float]]]:
+    """Facts of a file, and the colours of its materials. Raises FileError."""
+    document = _document(path)
     scenes: list[Any] = field(document, "scenes") or [None]
     told = field(field(field(scenes[0], "extras"), "suisou"), "outfit")
     try:
-        facts = msgspec.convert(told, OutfitFacts)
-        factors = {
-            field(material, "name"): field(field(material, "pbrMetallicRoughness"), "baseColorFactor")
-            or [1.0, 1.0, 1.0]
-            for material in field(document, "materials") or []
-        }
-        return facts, {
-            tint: _hexadecimal([facts.means.get(name, 1.0) * part for part in factors.get(name, [0.0, 0.0, 0.0])[:3]])
-            for name, tint in facts.tints.items()
-        }
+        return msgspec.convert(told, OutfitFacts), _factors(document)
     except msgspec.ValidationError as error:
         raise FileError("model.invalid", file=str(path), detail=f"damaged: {error}") from error
+
+
+def _document(path: Path) -> dict[str, Any]:
+    """The document of a glTF binary of ours; the rest of the file is not read. Raises FileError."""
+    with open_file(path) as stream:
+        head = stream.read(_HEADER)
+        document, _ = split(head + stream.read(int.from_bytes(head[12:16], "little")), str(path))
+    return document
+
+
+def _factors(document: dict[str, Any]) -> dict[str, list[float]]:
+    """Linear base colours of materials, by name."""
+    return {
+        field(one, "name"): (field(field(one, "pbrMetallicRoughness"), "baseColorFactor") or [1.0, 1.0, 1.0])[:3]
+        for one in field(document, "materials") or []
+    }
 
 
 def linear_colour(colour: str) -> tuple[float, float, float]:

@@ -136,6 +136,12 @@ def _has_several(session: Session) -> bool:
     return len(session.project.players) > 1
 
 
+def _differ_in_dress(session: Session) -> bool:
+    """Return whether someone does not wear what the active player wears."""
+    front = session.player
+    return front is not None and any(one.outfit != front.outfit for one in session.project.performers)
+
+
 def _marking(name: str, mark: PlayerMark, key: str) -> Action:
     return Action(
         f"players.{name}",
@@ -220,7 +226,7 @@ ACTIONS: tuple[Action | EditorAction, ...] = (
     Action("players.previous", partial(step, by=-1), "edit/players", "Ctrl+PgUp", enabled=_has_several),
     Action("players.posture", toggle_posture, "edit/players", enabled=_may_sit_or_stand, icon="seated"),
     Action("players.randomise", performer_edits.randomise_players, "edit/players", enabled=_has_players, icon="dice"),
-    Action("players.dress_everyone", dress_everyone, "edit/players", enabled=_has_several),
+    Action("players.dress_everyone", dress_everyone, "edit/players", enabled=_differ_in_dress),
     Action("players.arrange", arrange, "edit/players", enabled=_has_players, icon="stage"),
     Action("players.select_section", select_section, "edit/players", "Shift+A", "players", enabled=_has_players),
     Action("players.select_all", select_all, "edit/players", "Ctrl+Shift+A", enabled=_has_several),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.errors import FileError
-from app.rig.characters.character_library import character_named
+from app.rig.characters.character_library import bundled_characters, character_named
 from app.rig.characters.dressed_characters import character_in, person_behind
 from app.rig.people.wardrobe import OutfitChoice, linear_colour, wardrobe
 from app.rig.skinning import mesh_named
@@ -22,12 +22,23 @@ def suits(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     write_outfit(folder / "test_suit.glb")
     write_outfit(folder / "test_pair_man.glb", "test_pair", "man_adult", hides_skin=list(range(13380)))
     write_outfit(folder / "test_pair_woman.glb", "test_pair", "woman_adult", means={"shirt": 0.5})
+    write_outfit(folder / "test_tie.glb", "test_tie", hides=["shoes"], meshes=["shoes"], tints={"shirt": "main"})
+    (folder.parent / "man_adult.glb").write_bytes(bundled_characters()["man_adult"].read_bytes())
     with wardrobe_in(folder):
         yield
 
 
+def test_an_outfit_may_colour_clothes_that_people_keep() -> None:
+    assert wardrobe()["test_tie"].colours == {"main": "#e1e1df"}
+    assert character_colors("cast_yumi")["shirt"][:3] == pytest.approx(linear_colour("#e1e1df"), abs=0.01)
+    worn = character_in("cast_yumi", OutfitChoice("test_tie", main="#336699"))
+    (shirt,) = (mesh for mesh in worn.meshes if mesh.name == "shirt")
+    assert shirt.positions_m is mesh_named(character_named("cast_yumi"), "shirt").positions_m
+    assert shirt.materials[0].base_color[:3] == pytest.approx(linear_colour("#336699"))
+
+
 def test_the_wardrobe_lists_outfits_with_their_titles_and_colours() -> None:
-    assert [*wardrobe()] == ["test_pair", "test_suit"]
+    assert [*wardrobe()] == ["test_pair", "test_suit", "test_tie"]
     suit = wardrobe()["test_suit"]
     assert {"en": suit.title.en, "ja": suit.title.ja} == TITLE
     assert suit.tints == ("main", "second")
