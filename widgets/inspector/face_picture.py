@@ -14,6 +14,7 @@ from app.editor.session import Session
 from app.errors import Message, Progress, StopRequested
 from app.rig.characters.dressed_characters import character_in
 from app.rig.model import Character
+from app.rig.people.wardrobe import OutfitChoice
 from widgets.common.character_picture import Seen, picture, seen
 from widgets.common.plain import Label
 
@@ -29,7 +30,7 @@ class FacePicture(Label):
         super().__init__(parent=parent)
         self._session = session
         self._weights: dict[str, float] | None = None
-        self._drawn: tuple[str, dict[str, float]] | None = None
+        self._drawn: tuple[str, OutfitChoice, dict[str, float]] | None = None
         self._wait = QTimer(self, singleShot=True, interval=WAITS_MS)
         self._wait.timeout.connect(self._draw)
         self.setObjectName("expression_picture")
