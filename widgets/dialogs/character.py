@@ -18,7 +18,7 @@ from app.editor.session import Session
 from app.encoding import shown
 from app.errors import AppError, Message, Progress, StopRequested
 from app.rig.characters.character_library import LEAST_M, MOST_M
-from app.rig.characters.figure_build import figure_height
+from app.rig.characters.figure_build import ODD_HEIGHT, figure_height
 from app.rig.figure import Figure
 from app.rig.grip.fitting.fitted_instrument import notes_on_body
 from widgets.common.character_picture import Crop, Seen, picture, seen
@@ -27,7 +27,7 @@ from widgets.common.help import HelpButton
 from widgets.common.icons import icon
 from widgets.common.layouts import STRETCH, Scrolled, begin_with_size, in_column, in_form, in_row, panel
 from widgets.common.plain import Label, verbatim, verbatim_title
-from widgets.common.text import message_text
+from widgets.common.text import message_text, sentence
 from widgets.dialogs.automatic_number import AutomaticNumber
 from widgets.dialogs.body_map import BodyMap, joints
 from widgets.dialogs.bone_tree import BoneTree
@@ -302,9 +302,10 @@ class CharacterDialog(Retranslated, QDialog):
 
     def _show_reported(self) -> None:
         """Show what will not be animated, and the result of holding an instrument."""
-        reported = list(not_played(self._figure, self._made))
+        reported = [sentence(note) for note in self._figure.notes if note.id != ODD_HEIGHT]
+        reported += not_played(self._figure, self._made)
         if self._seen is not None:
-            reported += [message_text(note) for note in notes_beside_joints(self._made, self._seen[2])]
+            reported += [sentence(note) for note in notes_beside_joints(self._made, self._seen[2])]
         self._reported.setText(
             "\n".join(f"• {text}" for text in reported) if reported else self.tr("character_dialog.all_supported")
         )

@@ -220,6 +220,11 @@ def test_a_giant_is_offered_at_the_height_of_a_person(program: Program, tmp_path
     assert max(tops) == pytest.approx(1.55, abs=0.02)
 
 
+def test_a_corrected_unit_is_said_in_the_dialog(program: Program, tmp_path: Path) -> None:
+    dialog = opened(program, of_size(tmp_path / "inches.vrm", TODDLER, 100.0))
+    assert "sizes were multiplied by 0.01" in child(dialog, QLabel, "character_status").text()
+
+
 def test_a_mesh_is_switched_off_and_stays_so(program: Program, tmp_path: Path, qtbot: QtBot) -> None:
     """A mesh that is off is in no picture, no player and no export; at least one stays on."""
     dialog = opened(program, with_a_shield(tmp_path / "knight.vrm", TODDLER))
@@ -264,7 +269,7 @@ def test_a_sword_is_left_out_from_the_start_and_said(program: Program, tmp_path:
 def test_the_size_of_the_instrument_is_said_beside_the_picture(program: Program, qtbot: QtBot) -> None:
     """A toddler's trumpet is smaller than a grown-up's."""
     reported = child(opened(program), QLabel, "character_status")
-    qtbot.waitUntil(lambda: "the instrument is scaled to" in reported.text(), timeout=20_000)
+    qtbot.waitUntil(lambda: "The instrument is scaled to" in reported.text(), timeout=20_000)
 
 
 def test_a_character_of_usual_size_keeps_the_height_of_its_file(program: Program) -> None:
