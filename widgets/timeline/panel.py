@@ -1,4 +1,4 @@
-"""The timeline: a ruler over lanes that share one time axis, a bar of tools above, a scroll bar below."""
+"""The timeline panel: a ruler over lanes with a common time axis, a tool bar above, a scroll bar below."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from widgets.timeline.zoom_and_scroll import TimeAxis, TimeBar
 
 ZOOM_A_CLICK = 1.5
 FIRST_BARS, MOST_FIRST_BARS = 16, 24
-"""Bars that are shown of a newly opened piece, and the longest piece that is shown whole."""
+"""Number of bars shown of a newly opened piece, and of the longest piece that is shown completely."""
 SELECTION_AIR = 0.08
 
 
@@ -46,7 +46,7 @@ _Bounded: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
 
 
 class VisibleRange(NamedTuple):
-    """Seconds and pitches that a timeline shows."""
+    """Range of seconds and pitches that a timeline shows."""
 
     start_s: _Bounded
     end_s: _Bounded
@@ -55,7 +55,7 @@ class VisibleRange(NamedTuple):
 
 
 class TimelinePanel(Retranslated, QWidget):
-    """The timeline panel. It is the session's `TimelineView`.
+    """The timeline panel, which is the session's `TimelineView`.
 
     Signals
     -------
@@ -150,7 +150,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def rolls(self) -> tuple[PianoRoll, ...]:
-        """The rolls that are shown: of the player in front, or of several."""
+        """The visible piano rolls: of the active player, or of several."""
         return tuple(place.roll for place in self.players.shown) if self.players.active else (self.roll,)
 
     @property
@@ -159,7 +159,7 @@ class TimelinePanel(Retranslated, QWidget):
         return self.roll.tool
 
     def set_tool(self, tool: Tool) -> None:
-        """Let the left button do this."""
+        """Set the tool of the left button."""
         for roll in {self.roll, *self.rolls}:
             roll.set_tool(tool)
         self.tool_bar.show_state()
@@ -170,7 +170,7 @@ class TimelinePanel(Retranslated, QWidget):
         return self.roll.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
-        """See the players behind so."""
+        """Set the display of other players' notes."""
         self.roll.set_ghosts(ghosts)
         self.tool_bar.show_state()
         self.arranged.emit()
@@ -189,11 +189,11 @@ class TimelinePanel(Retranslated, QWidget):
         self.arranged.emit()
 
     def zoom_in(self) -> None:
-        """Zoom about the playhead, or the middle where it is out of sight."""
+        """Zoom in around the playhead, or the middle if it is not visible."""
         self.axis.zoom(ZOOM_A_CLICK, self._zoom_centre())
 
     def zoom_out(self) -> None:
-        """Zoom about the playhead, or the middle where it is out of sight."""
+        """Zoom out around the playhead, or the middle if it is not visible."""
         self.axis.zoom(1 / ZOOM_A_CLICK, self._zoom_centre())
 
     def zoom_in_pitch(self) -> None:
@@ -201,7 +201,7 @@ class TimelinePanel(Retranslated, QWidget):
         self._zoom_pitch(ZOOM_A_KEY)
 
     def zoom_out_pitch(self) -> None:
-        """Make the notes lower, so that more pitches are in sight."""
+        """Zoom out vertically, so that more pitches are visible."""
         self._zoom_pitch(1 / ZOOM_A_KEY)
 
     def _zoom_pitch(self, factor: float) -> None:
@@ -215,7 +215,7 @@ class TimelinePanel(Retranslated, QWidget):
             roll.fit_pitch()
 
     def zoom_to_selection(self) -> None:
-        """Show what is selected."""
+        """Zoom to the selection."""
         span = selected_span(self.session)
         if span is not None:
             air = max(span[1] - span[0], 0.2) * SELECTION_AIR
@@ -226,16 +226,16 @@ class TimelinePanel(Retranslated, QWidget):
         self.quantise.open_over(self._front.roll)
 
     def ask_take_name(self) -> None:
-        """Type the selected take's name where it stands."""
+        """Open a field for the selected take's name."""
         self.lane_layout.show_lane(self.takes.id, True)
         self.takes.ask_name()
 
     def step_take(self, by: int) -> None:
-        """Take the selected span from the take above (-1) or below (1)."""
+        """Use the take above (-1) or below (1) for the selected span."""
         self.takes.step(by)
 
     def reveal(self, time_s: float) -> None:
-        """Bring a time into view, and the notes that are selected there."""
+        """Scroll to a time and to the selected notes there."""
         self.axis.reveal(time_s)
         for roll in self.rolls:
             roll.bring_notes_into_view(self.session.selection.notes)
@@ -246,21 +246,21 @@ class TimelinePanel(Retranslated, QWidget):
         return VisibleRange(self.axis.start_s, self.axis.end_s, *self.roll.y_range)
 
     def show_range(self, seen: VisibleRange) -> None:
-        """Show this instead of the beginning of a piece that was opened."""
+        """Show a range instead of the beginning of a newly opened piece."""
         self._fitted = True
         self.axis.show(seen.start_s, seen.end_s)
         self.roll.choose_pitches(*kept_pitches(seen.lowest, seen.highest - seen.lowest))
 
     def is_lane_open(self, lane_id: str) -> bool:
-        """True if a lane is there, and not folded."""
+        """Return whether a lane is visible and unfolded."""
         return self.lane_layout.is_open(lane_id)
 
     def open_lane(self, lane_id: str, is_open: bool) -> None:
-        """Unfold a lane, shown if it is not, or fold it."""
+        """Show and unfold a lane, or fold it."""
         self.lane_layout.open_lane(lane_id, is_open)
 
     def offer_fingerings(self, player_id: str, note_id: str, why: Message) -> None:
-        """Show the fingerings of a note beside it, and why another one is none."""
+        """Show the fingerings of a note beside it, and why a typed one is invalid."""
         lane = self.players.lane_in_front(FingeringLane.id) or self.lanes[FingeringLane.id]
         plan, roll = self.session.plans.get(player_id), self._front.roll
         events = () if plan is None else plan.fingerings
@@ -282,7 +282,7 @@ class TimelinePanel(Retranslated, QWidget):
         return lane_text(self.lane_layout.state)
 
     def restore_state(self, state: str | LaneState) -> None:
-        """Restore what `save_state` returned; values for lanes that do not exist are ignored."""
+        """Restore what `save_state` returned, ignoring lanes that do not exist."""
         saved = lane_state(state) if isinstance(state, str) else state
         if saved is not None:
             self.lane_layout.set_state(saved)
@@ -292,7 +292,7 @@ class TimelinePanel(Retranslated, QWidget):
 
     @property
     def stacked(self) -> bool:
-        """True if the lanes of several selected players stand one under another."""
+        """True if the lanes of several selected players are stacked."""
         return self.players.requested
 
     @property
@@ -301,13 +301,13 @@ class TimelinePanel(Retranslated, QWidget):
         return self.players.active
 
     def set_stacked(self, stacked: bool) -> None:
-        """Stack the lanes of selected players, or show those of the player in front."""
+        """Stack the lanes of selected players, or show those of the active player."""
         if stacked != self.stacked:
             self._front.stack_lanes(stacked)
             self.arranged.emit()
 
     def _stack_made(self, place: PlayerLanes) -> None:
-        """Connect lanes of a player that were not there before."""
+        """Connect the lanes of a newly stacked player."""
         for lane in place.lanes.values():
             lane.sought.connect(self.sought)
         place.roll.set_tool(self.tool)
@@ -329,7 +329,7 @@ class TimelinePanel(Retranslated, QWidget):
         return playhead_s if inside else (axis.start_s + axis.end_s) / 2
 
     def _show_beginning(self) -> None:
-        """Show a short piece whole, else its first bars, so that notes are legible."""
+        """Show a short piece completely, else its first bars, so that notes are legible."""
         score = self.session.project.score
         self.axis.fit()
         if score.metre_map.bar_of_tick(max(score.sounding_end_tick - 1, 0)) > MOST_FIRST_BARS:

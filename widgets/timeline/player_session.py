@@ -1,4 +1,4 @@
-"""A session for the lanes of one stacked player, in which this player is in front."""
+"""A session for the lanes of one stacked player, in which this player is active."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from app.project.performers import Player
 
 
 class _PlayerChoice(QObject):
-    """Signal of the one thing in which a `PlayerSession` differs from its session."""
+    """Signal of the player, the only property in which a `PlayerSession` differs from its session."""
 
     players_changed = Signal()
 
 
 class PlayerSession:
-    """All of a session but the player in front: so the same lanes show and edit any player.
+    """All of a session except the active player, so that the same lanes can show and edit any player.
 
-    What is selected or edited is the session's own. Before a lane is used, its player is put in front there, so that
-    commands are about the lane that has the keyboard.
+    Selections and edits are the session's own. Before a lane is used, its player is made active there, so that commands
+    act on the lane with the keyboard focus.
 
     Parameters
     ----------
     session : Session
-        Everything else is read from and done by it.
+        Session with all other properties.
     """
 
     def __init__(self, session: Session) -> None:
@@ -39,12 +39,12 @@ class PlayerSession:
 
     @property
     def of_lanes(self) -> Session:
-        """Itself, for lanes."""
+        """Return the object itself, typed for lanes."""
         return cast("Session", self)
 
     @property
     def player_id(self) -> str:
-        """Id of the player that is shown; empty: none."""
+        """Id of the displayed player; empty for none."""
         return self._player_id
 
     def show(self, player_id: str) -> None:
@@ -55,7 +55,7 @@ class PlayerSession:
 
     @property
     def player(self) -> Player | None:
-        """The player who is shown, while the project has the player."""
+        """The displayed player, if it is in the project."""
         try:
             return self._session.project.player(self._player_id)
         except KeyError:
@@ -63,13 +63,13 @@ class PlayerSession:
 
     @property
     def players(self) -> tuple[str, ...]:
-        """The player who is shown, and the others that are selected."""
+        """The displayed player, and the other selected ones."""
         others = (id for id in self._session.players if id != self._player_id)
         return (self._player_id, *others) if self._player_id else ()
 
     @property
     def plan(self) -> PlayerPlan | None:
-        """The newest plan of the player, if there is one."""
+        """The latest plan of the player, if there is one."""
         return self._session.plans.get(self._player_id)
 
     @property
@@ -78,6 +78,6 @@ class PlayerSession:
         return self._session.players[:1] == (self._player_id,)
 
     def bring_forward(self) -> None:
-        """Put the player in front of the others that are selected."""
+        """Make the player the active one among the selected players."""
         if self.player is not None and not self.is_in_front:
             self._session.set_players(self.players)

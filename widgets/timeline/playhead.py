@@ -1,4 +1,4 @@
-"""The playhead of the timeline: its line over all lanes, and the page that turns under it while it plays."""
+"""The playhead of the timeline: its line over all lanes, and turning of the page during playback."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from widgets.timeline.lane_header import GUTTER_PX
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 PAGE_AT = 0.94
-"""Share of the width at which the playhead turns the page while playing; see `PAGE_TO`."""
+"""Position of the playhead as a share of the width at which the page is turned; see `PAGE_TO`."""
 PAGE_TO = 0.06
-"""Share of the width at which the playhead stands after the page was turned."""
+"""Position of the playhead as a share of the width after the page was turned."""
 
 
 class Playhead(QWidget):
-    """A thin line over all lanes: it moves, they are not drawn again but where it was.
+    """A thin line over all lanes; its movement redraws only the uncovered strip.
 
     Parameters
     ----------
     lanes : QWidget
-        The lanes, which it is as tall as.
+        Widget with the lanes, which has the same height.
     """
 
     def __init__(self, session: Session, axis: TimeAxis, lanes: QWidget, parent: QWidget) -> None:
@@ -33,7 +33,7 @@ class Playhead(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
     def place(self) -> None:
-        """Stand where the session's playhead is, if that is in sight."""
+        """Move to the session's playhead, if that is visible."""
         x = self._axis.x_px(self._session.playhead_s)
         inside = 0 <= x <= self._axis.width_px
         self.setVisible(inside)
@@ -42,7 +42,7 @@ class Playhead(QWidget):
             self.raise_()
 
     def turn_page(self, playhead_s: float) -> bool:
-        """Scroll on if the playhead is near the right edge or out of sight; return whether it was."""
+        """Scroll on if the playhead is near the right edge or not visible, and return whether it was."""
         axis = self._axis
         if 0 <= (playhead_s - axis.start_s) / axis.span_s <= PAGE_AT:
             return False

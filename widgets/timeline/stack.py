@@ -1,4 +1,4 @@
-"""Lanes one under another, each as tall as the user sets it; what does not fit is scrolled to."""
+"""Stack of lanes with adjustable heights, which scrolls if it does not fit."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from widgets.timeline.lane import FOLDED_PX, Lane
 from widgets.timeline.stacked_players import CAPTION_PX, StackedPlayers
 
 LINE_PX = 1
-"""Below a lane that has only one height."""
+"""Height in pixels of the line below a lane of fixed height."""
 HANDLE_PX = 4
-"""Below a lane that can be made taller; there are several, and lanes that fit are worth more than broad lines."""
+"""Height in pixels of the handle below an adjustable lane."""
 MOST_PX = 2000
 ELASTIC_SHARE = 0.66
-"""Most of the height in sight that the elastic lane takes where the lanes do not fit and little is in sight."""
+"""Greatest share of the visible height for the elastic lane if the lanes do not fit."""
 BESIDE_ELASTIC_PX = 90
-"""Height in sight that the elastic lane leaves to others."""
+"""Visible height in pixels that the elastic lane leaves for others."""
 
 
 class LaneResizeHandle(QWidget):
@@ -37,7 +37,7 @@ class LaneResizeHandle(QWidget):
         self._grip: tuple[float, int] | None = None
 
     def show_use(self, resizes: bool) -> None:
-        """Broad, with a grip, where the lane can be made taller; else a line."""
+        """Show a grip if the lane is adjustable, else a line."""
         self.setFixedHeight(HANDLE_PX if resizes else LINE_PX)
         self.setCursor(Qt.CursorShape.SizeVerCursor if resizes else Qt.CursorShape.ArrowCursor)
 
@@ -71,16 +71,16 @@ class LaneResizeHandle(QWidget):
 class LaneStack(QScrollArea):
     """Lanes from top to bottom.
 
-    A lane whose height no one set is between the height that it needs and the one it prefers, as there is room; what is
-    left over is the elastic lane's. Where the lanes do not fit, they are scrolled.
+    A lane without a height set by the user is between its needed and preferred height, depending on the space; the
+    elastic lane takes the rest. Lanes that do not fit are scrolled.
 
     Parameters
     ----------
     lanes : sequence of Lane
     elastic : Lane
-        One of them.
+        One of the lanes.
     players : StackedPlayers
-        Lanes of several players, below the place of the elastic lane; what is left over is theirs while they are shown.
+        Lanes of several players, below the elastic lane; they take the remaining height while shown.
 
     Signals
     -------
@@ -122,16 +122,16 @@ class LaneStack(QScrollArea):
 
     @property
     def lanes(self) -> tuple[Lane, ...]:
-        """All lanes from the top, hidden ones too."""
+        """All lanes from the top, including hidden ones."""
         return tuple(self._order)
 
     @property
     def heights_px(self) -> dict[str, int]:
-        """The heights that the user set, by lane id."""
+        """Return the heights set by the user in pixels by lane id."""
         return dict(self._set_px)
 
     def set_order(self, lane_ids: Sequence[str]) -> None:
-        """Put lanes in this order; those that are not named follow."""
+        """Set the order of the lanes; missing ones follow."""
         places = {lane_id: index for index, lane_id in enumerate(lane_ids)}
         self._order.sort(key=lambda lane: places.get(lane.id, len(places)))
         self._fill()
@@ -145,7 +145,7 @@ class LaneStack(QScrollArea):
         self.changed.emit()
 
     def set_height(self, lane: Lane, height_px: int | None) -> None:
-        """Make a lane so tall; None: as it likes."""
+        """Set the height of a lane in pixels; None for automatic."""
         if height_px is None:
             self._set_px.pop(lane.id, None)
         else:
@@ -154,7 +154,7 @@ class LaneStack(QScrollArea):
         self.changed.emit()
 
     def set_heights(self, heights_px: Mapping[str, int]) -> None:
-        """Make lanes as tall as `heights_px` said; the others are as they like."""
+        """Set the heights of lanes as returned by `heights_px`; others become automatic."""
         known = {lane.id: lane for lane in self._order}
         self._set_px = {
             lane_id: min(max(int(height), known[lane_id].least_height_px), MOST_PX)
@@ -164,7 +164,7 @@ class LaneStack(QScrollArea):
         self.arrange()
 
     def arrange(self) -> None:
-        """Give every lane its height."""
+        """Set the height of every lane."""
         shown = [lane for lane in self._order if not lane.isHidden()]
         for lane in self._order:
             handle = self._handles[lane.id]
@@ -198,7 +198,7 @@ class LaneStack(QScrollArea):
             self.arrange()
 
     def _needed_px(self, lane: Lane) -> int:
-        """Height of a lane at least, while the user set none; the elastic lane leaves some of what is in sight."""
+        """Return the least automatic height of a lane in pixels; the elastic lane leaves some of the visible height."""
         if lane is not self._elastic:
             return lane.needed_height_px
         in_sight = self.viewport().height()
@@ -206,7 +206,7 @@ class LaneStack(QScrollArea):
         return min(lane.needed_height_px, most)
 
     def _fit_essential(self, shown: Sequence[Lane], free: Sequence[Lane], heights: dict[str, int]) -> None:
-        """Make lanes lower than they prefer, as far as they allow, where that brings all essential ones into sight."""
+        """Reduce the preferred heights as far as possible, if that makes all essential lanes visible."""
         essential = [lane for lane in shown if lane.is_essential]
         if self._players.active or not essential:
             return
@@ -223,13 +223,13 @@ class LaneStack(QScrollArea):
             over -= cut
 
     def bring_into_view(self, lane: Lane, at_top: bool = False) -> None:
-        """Scroll to a lane; one that is taller than what is in sight shows its beginning.
+        """Scroll to a lane; for one taller than the visible height, to its top.
 
         Parameters
         ----------
         at_top : bool
-            Bring it to the top, under its player's name where there is one, as far as there are lanes below; lanes of
-            several players that fit are all brought into sight.
+            Whether to scroll it to the top, below its player's name if any, as far as possible; lanes of several
+            players that fit are all made visible.
         """
         # The lane may have been shown or unfolded just now.
         self.arrange()

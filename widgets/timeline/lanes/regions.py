@@ -1,4 +1,4 @@
-"""Lanes of regions: events with a place and an amount, to be selected, moved, resized, raised and lowered by hand."""
+"""Lanes of regions: events with a place and an amount, which can be selected, moved, resized, raised and lowered."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from widgets.timeline.plot.drawing import MARK_PX, draw_mark, rect, shade, small
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 STEP, FINE_STEP = 0.05, 0.01
-"""Change of an amount by Up and Down, and with Shift."""
+"""Change of an amount by Up and Down, without and with Shift."""
 
 
 class _Regions(LaneItem["RegionLane"]):
@@ -69,7 +69,7 @@ class _Regions(LaneItem["RegionLane"]):
             painter.drawRect(lane.lasso)
 
     def _paint_thumb(self, painter: QPainter) -> None:
-        """At the right edge: which of the rows are in sight, where they are not all."""
+        """Draw a mark of the visible rows at the right edge, if not all are visible."""
         lane, room = self.lane, self.lane.plot_rect
         first, height = lane.row_box(0)
         content = height * lane.rows
@@ -80,7 +80,9 @@ class _Regions(LaneItem["RegionLane"]):
 
 
 class RegionLane(Lane):
-    """A lane of regions. What a kind of event looks like, and where it is added, its sub-classes say."""
+    """Base class of lanes of regions. Sub-classes define the drawing of each kind of event and the place of added
+    ones.
+    """
 
     least_row_px = 0.0
 
@@ -101,44 +103,44 @@ class RegionLane(Lane):
     # What sub-classes say
 
     def make_regions(self, plan: PlayerPlan) -> tuple[list[Region], int]:
-        """The regions of the player in front, in any order, and how many rows there are."""
+        """Return the active player's regions in any order, and the number of rows."""
         raise NotImplementedError
 
     def shown_beside(self, plan: PlayerPlan | None) -> tuple[object, ...]:
-        """Inputs besides the plan that the regions are made from, compared by identity."""
+        """Return inputs of the regions other than the plan, compared by identity."""
         return ()
 
     def paint_region(self, painter: QPainter, region: Region, box: QRectF, selected: bool) -> None:
-        """Draw one region in its box."""
+        """Draw one region in its rectangle."""
         raise NotImplementedError
 
     def paint_rows(self, painter: QPainter, exposed: QRectF) -> None:
-        """Draw what lies behind the regions."""
+        """Draw the background of the regions."""
 
     def is_calm(self, region: Region) -> bool:
-        """True if `paint_rows` has drawn it already."""
+        """Return whether `paint_rows` has drawn a region already."""
         return False
 
     def add_at(self, mouse: LaneMouse) -> None:
         """A double click on an empty place."""
 
     def menu_entries(self, menu: QMenu, region: Region | None, mouse: LaneMouse) -> None:
-        """Entries of the lane's own for the context menu."""
+        """Add the lane's own entries to the context menu."""
 
     def snapped_move(self, region: Region, ticks: float, mouse: LaneMouse) -> int:
-        """Ticks that a region dragged by some ticks moves: its start falls on the grid."""
+        """Return the ticks by which a region moves when dragged by some ticks, so that its start is on the grid."""
         return self.snap(region.start_tick + ticks, mouse) - region.start_tick
 
     # The regions
 
     @property
     def regions(self) -> list[Region]:
-        """The shown regions, by start."""
+        """The displayed regions by start."""
         return self._table.regions
 
     @property
     def rows(self) -> int:
-        """Number of rows."""
+        """The number of rows."""
         return self._row_count
 
     @property
@@ -151,11 +153,11 @@ class RegionLane(Lane):
         return max(self.least_height_px, ceil(self._row_count * self.least_row_px))
 
     def row_box(self, row: int) -> tuple[float, float]:
-        """Top and height of a row, pixels: as high as there is room, at least `least_row_px`."""
+        """Return the top and height of a row in pixels: as high as possible, at least `least_row_px`."""
         return row_box(row, self._row_count, self.plot_rect.height(), self.least_row_px, self._scrolled_px)
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """The rows scroll, where they are more than fit."""
+        """Scroll the rows if they do not fit."""
         height = self.row_box(0)[1]
         if most_scrolled(self._row_count, height, self.plot_rect.height()) <= 0.5:
             return False
@@ -175,7 +177,7 @@ class RegionLane(Lane):
             self.update_items()
 
     def rows_scrolled(self) -> None:
-        """The rows are in other places."""
+        """Update after the rows were scrolled."""
 
     def place(self, region: Region) -> PixelRect:
         """Box of a region, pixels."""
@@ -186,23 +188,23 @@ class RegionLane(Lane):
         return rect(self.place(region))
 
     def visible(self, left_px: float, right_px: float) -> Iterable[Region]:
-        """The regions to draw one by one, the selected last."""
+        """Return the regions to draw singly, with selected ones last."""
         selected = self.session.selection.events
         return self._table.visible(self.axis, left_px, right_px, selected, self._preview, self._hidden)
 
     def region_at(self, mouse: LaneMouse) -> tuple[Region | None, str]:
-        """The region at a place, and its zone, see `RegionTable.at`."""
+        """Return the region at a point and the part of it, see `RegionTable.at`."""
         return self._table.at(mouse, self.axis, self.place, self.session.selection.events)
 
     def fade_handles(self, region: Region, box: QRectF) -> tuple[tuple[str, QPointF], ...]:
-        """Places where the fades are taken hold of, by zone."""
+        """Return the points at which the fades can be dragged, by part."""
         return tuple(
             (zone, QPointF(*at))
             for zone, at in fade_handles(region, PixelRect(box.left(), box.top(), box.right(), box.bottom()), self.axis)
         )
 
     def refresh(self) -> None:
-        """Make the regions again if anything they show has changed."""
+        """Make the regions anew if any of their inputs has changed."""
         player = self.session.player
         plan = self.session.plan
         project = self.session.project
@@ -263,7 +265,7 @@ class RegionLane(Lane):
             self.update_items()
 
     def is_preview(self, region: Region) -> bool:
-        """True for a region in mid-drag, drawn before the plan shows it."""
+        """Return whether a region is dragged and not yet in the plan."""
         return self._preview.get(region.key) is region
 
     def _end_preview(self) -> None:
@@ -298,7 +300,7 @@ class RegionLane(Lane):
             self.type_amount(region)
 
     def type_amount(self, region: Region) -> None:
-        """Ask for the amount of a region; it becomes that of all selected ones."""
+        """Open a field for the amount of a region, which is set for all selected ones."""
         chosen = (self._table.by_key.get(key) for key in self.session.selection.events)
         amounts = {round(one.amount, 2) for one in chosen if one is not None and not (one.removed or one.steady)}
         amount = region.amount if len(amounts) < 2 else None
@@ -306,7 +308,7 @@ class RegionLane(Lane):
         self.number.open(self.box(region), amount, 2, lambda to: self._change_amounts(lambda _: to), name)
 
     def _change_amounts(self, change: Callable[[Region], float]) -> None:
-        """Give all selected regions of the lane another amount."""
+        """Change the amounts of all selected regions of the lane by a function."""
         requested: dict[str, dict[str, float]] = defaultdict(dict)
         for key in self.session.selection.events:
             region = self._table.by_key.get(key)
@@ -324,7 +326,9 @@ class RegionLane(Lane):
             self.session.attempt(edit_of_events(self.session, "edit.set_event_amounts", keys), edit)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Up and Down change the amount (with Shift finely), Enter types it, Alt and an arrow go to a neighbour."""
+        """Handle keys: Up and Down change the amount (with Shift finely), Enter opens a field for it, Alt and an arrow
+        select an adjacent region.
+        """
         modifiers, key = event.modifiers(), event.key()
         alt = bool(modifiers & Qt.KeyboardModifier.AltModifier)
         chosen = [self._table.by_key[item] for item in self.session.selection.events if item in self._table.by_key]
@@ -347,7 +351,7 @@ class RegionLane(Lane):
         return False
 
     def _go_on(self, chosen: Sequence[Region], step: int) -> None:
-        """Select the neighbour of what is selected, else what is nearest to the playhead."""
+        """Select the region next to the selected ones, else the one nearest to the playhead."""
         region = self._table.beside(chosen, step, self.session.playhead_s)
         if region is None:
             return

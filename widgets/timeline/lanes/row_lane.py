@@ -1,4 +1,4 @@
-"""Lanes of rows of the same height, which are scrolled where there is not enough room."""
+"""Base class of lanes with rows of equal height that scroll."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 class RowLane(Lane):
-    """A lane of rows; the wheel, or a drag with the middle button, scrolls to those out of sight.
+    """A lane of rows; the wheel or a drag with the middle button scrolls.
 
     Attributes
     ----------
     row_limits_px : (int, int)
-        Class attribute: how low and how high a row may be.
+        Class attribute: least and greatest height of a row.
     strip_px : float
-        Class attribute: what is above the rows, and stays there.
+        Class attribute: height of the fixed strip above the rows.
     """
 
     row_limits_px = (24, 72)
@@ -29,11 +29,11 @@ class RowLane(Lane):
         self._scrolled_px = 0.0
 
     def count_rows(self) -> int:
-        """Number of rows."""
+        """Return the number of rows."""
         raise NotImplementedError
 
     def rows_scrolled(self) -> None:
-        """The rows are in other places."""
+        """Update after the rows were scrolled."""
 
     @property
     def rows_rect(self) -> QRectF:
@@ -65,7 +65,7 @@ class RowLane(Lane):
             self.update_items()
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Scroll the rows; False if all of them are in view."""
+        """Scroll the rows; return False if all of them are visible."""
         if self.count_rows() * self.row_px <= self.rows_rect.height() + 0.5:
             return False
         self._scroll_to(self._scrolled_px - steps * self.row_px)

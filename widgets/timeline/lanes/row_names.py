@@ -1,4 +1,4 @@
-"""The names of a lane's rows, at the right of its header."""
+"""Names of a lane's rows at the right of its header."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from widgets.timeline.lane import Lane
 from widgets.timeline.plot.drawing import small_font
 
 TITLE_PX = 26.0
-"""Height of the title, beside which there is little room."""
+"""Height in pixels of the title, beside which there is little space."""
 
 
 class RowNames(QWidget):
-    """Words beside rows; those that would lie over another are left out.
+    """Texts beside rows, without those that would overlap others.
 
     Parameters
     ----------
     names : callable
-        Gives words and the heights of their middles, pixels of the plot, from the top.
+        Returns the texts and the vertical positions of their centres in pixels of the plot, from the top.
     """
 
     def __init__(self, lane: Lane, names: Callable[[], Sequence[tuple[str, float]]]) -> None:

@@ -1,1 +1,1 @@
-"""Marks of the composer on the timeline, drawn."""
+"""Drawing of the composer's marks in the timeline."""

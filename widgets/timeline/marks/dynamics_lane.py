@@ -1,4 +1,4 @@
-"""The lane of dynamics: letters and hairpins of the player in front, below the piano roll as below a staff."""
+"""The dynamics lane: letters and hairpins of the active player, below the piano roll as below a staff."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ class DynamicsLane(Lane):
         return min(max((self.plot_rect.height() - 8.0) / LINES_OF_LETTER, LEAST_LETTER_PX), MOST_LETTER_PX)
 
     def placed(self, span_s: tuple[float, float] | None = None) -> tuple[PlacedDynamic, ...]:
-        """The marks of a span of time, else the visible ones."""
+        """Return the marks within a time span, or the visible ones."""
         of_player, tempo, player = self.marks.of_player, self.session.project.score.tempo_map, self.session.player
         if not len(of_player.at_ticks) or player is None:
             return ()
@@ -159,7 +159,7 @@ class DynamicsLane(Lane):
         )
 
     def set_shown(self, shown: bool) -> None:
-        """Show the marks or hide them."""
+        """Show or hide the marks."""
         if shown != self.marks.shown:
             self.marks.shown = shown
             self.update_items()
@@ -185,7 +185,7 @@ class DynamicsLane(Lane):
     # The mouse
 
     def at(self, mouse: LaneMouse) -> tuple[Mark, Zone] | None:
-        """The mark under the mouse, and which part of it."""
+        """Return the mark under the mouse, and the part of it."""
         for placed in reversed(self.placed()):
             zone = placed.zone_at(mouse.x_px, mouse.y_px)
             if zone is not None:
@@ -218,7 +218,7 @@ class DynamicsLane(Lane):
             drag.cancel()
 
     def double_click(self, mouse: LaneMouse) -> None:
-        """Offer the dynamics for the one under the mouse, or for a new one."""
+        """Open the menu of dynamics for the mark under the mouse, or for a new one."""
         self._drag = None
         found = self.at(mouse)
         if found is None or found[0].kind == "dynamic":
@@ -235,7 +235,7 @@ class DynamicsLane(Lane):
             self.plot.setToolTip(tip)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Enter offers the dynamics for the selected one."""
+        """Open the menu of dynamics for the selected one on Enter."""
         marks = self.marks.of_player.marks
         chosen = [marks[number] for number in sorted(self.marks.selected) if marks[number].kind == "dynamic"]
         if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter) or not chosen:
@@ -274,7 +274,7 @@ class DynamicsLane(Lane):
             on_click(entry, self._write, text, mark, tick)
 
     def _write(self, text: str, mark: Mark | None, tick: int) -> None:
-        """Give a dynamic another text, or write one at a tick."""
+        """Change the text of a dynamic, or add one at a tick."""
         player = self.session.player
         if player is None or (mark is not None and mark.text == text):
             return

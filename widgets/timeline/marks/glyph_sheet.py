@@ -1,4 +1,4 @@
-"""Drawing of placed marks: glyphs as small pictures, made once for each look, and slurs as outlines."""
+"""Drawing of placed marks: glyphs as cached small pictures, slurs as outlines."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from widgets.timeline.model.marks.placed_marks import STEEPNESS, PlacedMarks
 from widgets.timeline.plot.drawing import shade
 
 HAND_PX: Final = 4.0
-"""Side of the square at what the user wrote."""
+"""Side in pixels of the square that indicates the user's marks."""
 END_DOT_PX = 3.0
 SLUR_PX = (0.8, 2.4)
-"""Thickness of a slur at its ends and in its middle."""
+"""Thickness in pixels of a slur at its ends and in its middle."""
 CALM = 205
-"""Opacity of what the score has."""
+"""Opacity of marks from the score."""
 
 Pictured: TypeAlias = tuple[QImage, int, int]
-"""A picture, and the place of its upper left corner."""
+"""A picture, and the position of its upper left corner."""
 
 
 class MarkColours(NamedTuple):
-    """Colours of marks: those that are selected or held have another than the rest.
+    """Colours of marks, with another one for selected or dragged ones.
 
     Attributes
     ----------
     selected : frozenset of int
         Numbers of marks.
     held : int or None
-        Number of the slur of which an end can be taken hold of.
+        Index of the slur whose end can be dragged.
     """
 
     tokens: Tokens
@@ -49,7 +49,7 @@ class MarkColours(NamedTuple):
 
 
 def paint_marks(painter: QPainter, placed: PlacedMarks, colours: MarkColours, font: QFont) -> None:
-    """Draw marks where they are placed."""
+    """Draw marks at their positions."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(Qt.PenStyle.NoPen)
     _paint_arcs(painter, placed, colours)
@@ -87,7 +87,7 @@ def _glyph(kind: str, unit_px: float, text: str, rgba: int, ratio: float) -> Pic
 
 
 def pictured(path: QPainterPath, rgba: int, ratio: float) -> Pictured:
-    """A filled outline as a picture, which is drawn faster, and its upper left corner."""
+    """Return a filled outline as a picture, which is drawn faster, with its upper left corner."""
     box = path.boundingRect()
     left, top = floor(box.left()) - 1, floor(box.top()) - 1
     width, height = ceil(box.right()) + 1 - left, ceil(box.bottom()) + 1 - top
@@ -126,7 +126,7 @@ def _paint_texts(painter: QPainter, placed: PlacedMarks, colours: MarkColours, f
 
 
 def _paint_hands(painter: QPainter, placed: PlacedMarks, colour: QColor) -> None:
-    """The small squares at what the user wrote."""
+    """Draw the small squares at the user's marks."""
     by_hand, arcs = placed.table.of_player.by_hand, placed.arcs
     if not by_hand.any():
         return
@@ -147,7 +147,7 @@ def _path() -> QPainterPath:
 
 
 def _slur(x0: float, y0: float, x1: float, y1: float, lift: float) -> QPainterPath:
-    """Outline of a slur: thin at its ends, thicker in the middle."""
+    """Return the outline of a slur: thin at its ends, thicker in the middle."""
     path = _path()
     width, rise = x1 - x0, (y1 - y0) * STEEPNESS
     thin, thick = SLUR_PX
@@ -179,7 +179,7 @@ def _thick(points: list[tuple[float, float]], half: float = 0.7) -> QPainterPath
 
 
 def _bracket(x0: float, y0: float, x1: float, y1: float, lift: float) -> QPainterPath:
-    """A broken line over notes that are tongued one by one, with a hook at each end."""
+    """Return a dashed line over notes that are tongued one by one, with a hook at each end."""
     hook = 4.0 if lift >= 0 else -4.0
     path = _thick([(x0, y0 - lift + hook), (x0, y0 - lift)])
     count = max(int((x1 - x0) // 7), 1)

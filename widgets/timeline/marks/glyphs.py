@@ -1,4 +1,4 @@
-"""Outlines of the marks at notes, in units as `widgets.timeline.model.marks.mark_looks` gives them room."""
+"""Outlines of the marks at notes, in the units of `widgets.timeline.model.marks.mark_looks`."""
 
 from __future__ import annotations
 
@@ -14,8 +14,7 @@ from widgets.timeline.model.marks.mark_looks import LOOKS
 LINE = 0.32
 """Width of a pen."""
 FINE = 24.0
-"""Factor by which glyphs are enlarged before Qt turns their curves into lines, which it does a quarter of a pixel
-exactly."""
+"""Factor by which glyphs are enlarged before Qt flattens their curves, which is exact to a quarter of a pixel."""
 Point = tuple[float, float]
 
 
@@ -64,7 +63,7 @@ def _scaled(path: QPainterPath, factor: float) -> QPainterPath:
 
 
 def _breath() -> QPainterPath:
-    """A comma: a head and its tail to the left below."""
+    """Return a comma: a head with a tail to the lower left."""
     path = QPainterPath(QPointF(-0.45, -1.5))
     path.cubicTo(QPointF(-0.45, -2.05), QPointF(0.5, -2.1), QPointF(0.5, -1.3))
     path.cubicTo(QPointF(0.5, -0.7), QPointF(0.15, -0.3), QPointF(-0.35, 0.0))
@@ -82,7 +81,7 @@ def _fermata() -> QPainterPath:
 
 
 def _mordent() -> QPainterPath:
-    """A zigzag with a line through it."""
+    """Return a zigzag with a vertical line."""
     zigzag = _lines(((-1.5, -0.4), (-0.9, -1.0), (-0.3, -0.4), (0.3, -1.0), (0.9, -0.4), (1.5, -1.0)), width=0.42)
     zigzag.addPath(_lines(((0.0, -1.4), (0.0, 0.0)), width=0.26))
     return zigzag
@@ -105,7 +104,7 @@ def _strokes(count: int) -> QPainterPath:
 
 
 def _trill() -> QPainterPath:
-    """The letters tr."""
+    """Return the letters tr."""
     t = _curve((-0.75, -2.1), (-1.05, -1.2), (-1.35, 0.05), (-0.75, 0.0), (-0.5, -0.02), (-0.3, -0.25), (-0.25, -0.4))
     t.addPath(_lines(((-1.25, -1.35), (-0.2, -1.45)), width=0.28))
     t.addPath(_lines(((0.15, -1.4), (0.05, -0.05))))
@@ -114,7 +113,7 @@ def _trill() -> QPainterPath:
 
 
 def _grace() -> QPainterPath:
-    """A small eighth note that is struck through."""
+    """Return a small eighth note with a slash."""
     note = QPainterPath()
     note.addEllipse(QPointF(-0.35, -0.4), 0.5, 0.38)
     note.addPath(_lines(((0.1, -0.45), (0.1, -2.6)), width=0.22))
@@ -157,7 +156,7 @@ _OUTLINES: Final[Mapping[str, Callable[[], QPainterPath]]] = {
 
 @lru_cache(maxsize=64)
 def glyph_path(kind: str, unit_px: float, text: str = "") -> QPainterPath:
-    """Outline of a mark about the place where it stands; empty where its own text is written, or a line to a note."""
+    """Return the outline of a mark around its position; empty if the mark is drawn as text or as a line to a note."""
     if kind == "tremolo" and text.isdecimal():
         path = _strokes(min(max(int(text), 1), 4))
     elif LOOKS[kind].is_text or LOOKS[kind].place == "next":
@@ -169,7 +168,7 @@ def glyph_path(kind: str, unit_px: float, text: str = "") -> QPainterPath:
 
 
 def wave_path(left: float, right: float, y: float, unit_px: float) -> QPainterPath:
-    """The wavy line behind a trill, its middle at a height."""
+    """Return the wavy line of a trill, centred at a height."""
     path = QPainterPath(QPointF(left, y))
     x, up, step = left, True, 0.9 * unit_px
     while x + step <= right:

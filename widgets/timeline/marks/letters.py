@@ -1,6 +1,6 @@
-"""Letters of dynamics as engravers write them, bold and italic: drawn with a broad pen along a few curves each.
+"""Letters of dynamics in the engravers' bold italic, drawn with a broad pen along curves.
 
-No font of music is needed, and they look the same on every system.
+No music font is needed, and letters look the same on every system.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QPainterPath, QPolygonF
 
 Curve = tuple[tuple[float, float], ...]
-"""A start, and three points for each cubic curve from there on: in heights of a small letter, y upwards."""
+"""A start point, and three points for each following cubic curve: in heights of a small letter, y upwards."""
 
 PEN_ANGLE: Final = radians(24.0)
 BROAD, THIN = 0.29, 0.085
@@ -80,19 +80,19 @@ LETTERS: Final[dict[str, tuple[float, tuple[Curve, ...]]]] = {
         ),
     ),
 }  # fmt: skip
-"""By letter the advance and the curves."""
+"""Advance and curves of each letter."""
 ASCENT, DESCENT = 1.6, 0.6
 """Extent of the highest and the lowest letter, in heights of a small letter."""
 
 
 def are_letters(text: str) -> bool:
-    """Return whether a text can be written in these letters."""
+    """Return whether a text consists of these letters."""
     return bool(text) and all(letter in LETTERS for letter in text)
 
 
 @lru_cache(maxsize=256)
 def letters_path(text: str, height_px: float) -> tuple[QPainterPath, float]:
-    """Outline of a text from its left end on the base line, and its width.
+    """Return the outline of a text from its left end on the base line, and its width.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def letters_path(text: str, height_px: float) -> tuple[QPainterPath, float]:
 
 
 def _sweep(path: QPainterPath, curve: Curve, left: float, scale: float) -> None:
-    """Add what a broad pen covers along curves."""
+    """Add the area that a broad pen covers along curves."""
     points = _sampled(curve)
     long_x, long_y = BROAD / 2 * cos(PEN_ANGLE), BROAD / 2 * sin(PEN_ANGLE)
     wide_x, wide_y = -THIN / 2 * sin(PEN_ANGLE), THIN / 2 * cos(PEN_ANGLE)
@@ -137,7 +137,7 @@ def _sampled(curve: Curve) -> list[tuple[float, float]]:
 
 
 def _hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Convex hull, all in one sense of rotation so that windings add up."""
+    """Return the convex hull in a fixed sense of rotation, so that windings add up."""
     points = sorted(set(points))
     result: list[tuple[float, float]] = []
     for ordered in (points, points[::-1]):

@@ -1,1 +1,1 @@
-"""Contents of the timeline and the meaning of gestures on it, as values and functions: nothing here knows Qt."""
+"""Contents of the timeline and the meaning of gestures, as values and functions independent of Qt."""

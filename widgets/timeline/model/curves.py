@@ -1,4 +1,4 @@
-"""The curves of lips and controllers, and what a drag of the lips does."""
+"""The curves of lips and controllers, and drags of the lips' curves."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from widgets.timeline.model.lane_mouse import LaneMouse
 
 LIPS = ("tension", "effort", "air")
 FINE = 0.2
-"""Factor with Shift from the mouse's way to that of a value."""
+"""Factor of the mouse's distance with Shift."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class EmbouchureCurves:
 
 
 def lips(plan: PlayerPlan) -> EmbouchureCurves:
-    """Embouchures for drawing: between notes the lips rest, which a curve shows as a gap."""
+    """Return the embouchures for drawing, with gaps between notes."""
     events = plan.embouchures
     start_s = np.array([event.start_s for event in events], np.float64)
     end_s = np.array([event.end_s for event in events], np.float64)
@@ -61,7 +61,7 @@ def _traces(plan: PlayerPlan, start_s: FloatArray, end_s: FloatArray) -> dict[st
 
 
 def controller_steps(part: Part, project: Project) -> dict[str, StepCurve]:
-    """The part's controllers over time, by kind; values are shares 0..1 of the range that is shown of them."""
+    """Return the part's controllers over time by kind, as shares 0..1 of the displayed range."""
     clock = project.score.tempo_map
     result: dict[str, StepCurve] = {}
     for curve in part.curves:
@@ -72,23 +72,23 @@ def controller_steps(part: Part, project: Project) -> dict[str, StepCurve]:
 
 
 def with_values(project: Project, player_id: str, curve: str, values: Mapping[str, float]) -> Project:
-    """The project with a curve of the lips at other values, by note."""
+    """Return the project with changed values of a lips curve, by note."""
     for note_id, value in values.items():
         project = set_embouchure(project, player_id, (note_id,), **{curve: value})
     return project
 
 
 class DragController(EditGesture):
-    """A controller goes up and down in some spans of ticks, and blends back beside them.
+    """Drag of a controller up and down in spans of ticks, with blends beside them.
 
     Parameters
     ----------
     step : LiveEdit
-        The edit that the drag makes.
+        Undo step of the drag.
     blend_beats : float
-        Over which it blends back.
+        Length of the blends in felt beats.
     height_px : float
-        Of a change by 1.
+        Distance in pixels of a change by 1.
     """
 
     def __init__(
@@ -115,12 +115,12 @@ class DragController(EditGesture):
 
 
 class DragCurve(EditGesture):
-    """A curve of the lips goes up and down at all chosen notes together.
+    """Drag of a lips curve up and down at all selected notes.
 
     Parameters
     ----------
     starts : mapping of str to float
-        The values at the press, by note.
+        Values at the press, by note.
     height_px : float
         Of the range 0..1.
     """
@@ -150,7 +150,7 @@ class DragCurve(EditGesture):
 
 
 class DrawCurve(EditGesture):
-    """The pencil: every note that the mouse passes over gets the value at the mouse's height.
+    """The pencil: every note that the mouse passes gets the value at the mouse's height.
 
     Parameters
     ----------

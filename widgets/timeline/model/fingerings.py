@@ -1,4 +1,4 @@
-"""Fingerings of a plan as the timeline draws them: what is pressed, and where slides are, as arrays."""
+"""A plan's fingerings for drawing: pressed controls and slide positions, as arrays."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from widgets.timeline.model.geometry import TimeSpans
 
 @dataclass(frozen=True)
 class Fingerings:
-    """A plan's fingerings as arrays (N,): what is pressed (by control) and where slides are.
+    """A plan's fingerings as arrays (N,): pressed controls and slide positions.
 
-    ``pressed`` has a row for every pressable control, ``slides`` for every slide, both with values 0..1.
+    ``pressed`` has a row for every pressable control, ``slides`` for every slide, with values 0..1.
     """
 
     events: tuple[FingeringEvent, ...]
@@ -41,7 +41,7 @@ def fingerings(plan: PlayerPlan, pressable: tuple[Control, ...], slides: tuple[C
 
 
 def slide_places(instrument: InstrumentMap, slide: Control) -> tuple[tuple[float, str], ...]:
-    """Mean position of each named place of a slide, over the fingerings that the slide alone makes."""
+    """Return the mean position of each named place of a slide, over the fingerings that only use the slide."""
     found: dict[str, list[float]] = {}
     for fingering in instrument.fingerings:
         if set(fingering.controls) <= {slide.name}:

@@ -1,4 +1,4 @@
-"""Layout of lanes: rows for spans that overlap, what is visible, curves by column. Nothing here draws."""
+"""Layout of lanes: rows for overlapping spans, visible spans, curves by column; without drawing."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.arrays import FloatArray, IntArray
 
 
 def packed_rows(start: FloatArray, end: FloatArray) -> IntArray:
-    """The lowest free row for every span, so that none lies over another; spans may touch.
+    """Return the lowest free row for every span, without overlaps; spans may touch.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def packed_rows(start: FloatArray, end: FloatArray) -> IntArray:
 
 
 class TimeSpans:
-    """Spans of time, searchable by visible range.
+    """Time spans, searchable by visible range.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class TimeSpans:
         self._furthest_s = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
     def between(self, start_s: float, end_s: float) -> IntArray:
-        """Indices of the spans that meet a range, ascending."""
+        """Return the ascending indices of the spans that meet a range."""
         first = int(np.searchsorted(self._furthest_s, start_s, side="left"))
         last = int(np.searchsorted(self.start_s, end_s, side="right"))
         return first + np.flatnonzero(self.end_s[first:last] >= start_s)
@@ -67,9 +67,9 @@ class StepCurve:
         self.time_s, self.value = time_s, value
 
     def columns(self, start_s: float, end_s: float, width_px: int) -> tuple[FloatArray, FloatArray]:
-        """Least and greatest value of every column of pixels; NaN where there is none.
+        """Return the least and greatest value in every column of pixels; NaN if there is none.
 
-        However many values there are, no more than two a column are left to draw.
+        At most two values per column remain to be drawn.
         """
         low = np.full(width_px, np.nan)
         high = np.full(width_px, np.nan)
@@ -93,14 +93,15 @@ class StepCurve:
         return low, high
 
     def at(self, time_s: float) -> float | None:
-        """The value that holds at a time."""
+        """Return the value in effect at a time."""
         index = int(np.searchsorted(self.time_s, time_s, side="right")) - 1
         return float(self.value[index]) if index >= 0 else None
 
 
 def step_path(low: FloatArray, high: FloatArray) -> FloatArray:
-    """The outline of columns as points to join, shape (M, 2) of column and value: from column to column it goes on
-    from the nearer end of the one before. Columns without values break it with NaN."""
+    """Return the outline of columns as points (M, 2) of column and value to connect: each column continues from the
+    nearer end of the previous one. Columns without values interrupt it with NaN.
+    """
     count = len(low)
     points = np.empty((2 * count, 2))
     points[0::2, 0] = points[1::2, 0] = np.arange(count)

@@ -1,5 +1,6 @@
-"""Common part of every press on ruler, roll and lanes: a gesture begins once the mouse has gone far enough, follows it,
-and ends in one step of undo, or leaves nothing behind."""
+"""Common part of gestures on ruler, roll and lanes: a drag begins after a distance, follows the mouse, and ends as a
+single undo step or without effect.
+"""
 
 from __future__ import annotations
 
@@ -17,15 +18,17 @@ from widgets.timeline.model.lane_mouse import LaneMouse, PixelRect, spanned
 from widgets.timeline.model.visible_time import Scale
 
 DRAG_PX = 3.0
-"""The mouse moves this far before a press in a lane becomes a drag."""
+"""Distance in pixels from which a press in a lane is a drag."""
 
 Edit = Callable[[Project], Project]
 Far = Callable[[LaneMouse, LaneMouse], bool]
-"""Test of the distance from the press at which it becomes a drag."""
+"""Function of the press and the present position that returns whether it is a drag."""
 
 
 class Editing(Protocol):
-    """Part of the session that gestures use; a protocol, since the session is a QObject and the model knows no Qt."""
+    """Part of the session used by gestures; a protocol, since the session is a QObject and this package is independent
+    of Qt.
+    """
 
     document: Document
 
@@ -47,7 +50,7 @@ class Editing(Protocol):
 
 
 class Plane(Protocol):
-    """Scales of times and values; a protocol, since lanes are widgets and the model knows no Qt."""
+    """Scales of times and values; a protocol, since lanes are widgets and this package is independent of Qt."""
 
     @property
     def axis(self) -> Scale: ...
@@ -60,22 +63,22 @@ def snapped(grid: Grid, score: Score, tick: float, free: bool) -> int:
 
 
 def moved_edge(start: int, end: int, at_start: bool, tick: int, least: int = 1) -> tuple[int, int]:
-    """A span with one of its edges at a place, no nearer to the other than ``least``."""
+    """Return a span with an edge moved, keeping a length of at least ``least``."""
     return (min(tick, end - least), end) if at_start else (start, max(tick, start + least))
 
 
 def along(least_px: float) -> Far:
-    """Return a test for drags that have gone at least so many pixels to the left or right."""
+    """Return a test for drags of at least a number of pixels to the left or right."""
     return lambda at, mouse: abs(mouse.x_px - at.x_px) >= least_px
 
 
 def across(least_px: float) -> Far:
-    """Return a test for drags that have gone at least so many pixels up or down."""
+    """Return a test for drags of at least a number of pixels up or down."""
     return lambda at, mouse: abs(mouse.y_px - at.y_px) >= least_px
 
 
 def either(least_px: float) -> Far:
-    """Far in one of both directions."""
+    """Return a test for drags of at least a number of pixels in either direction."""
     return lambda at, mouse: max(abs(mouse.x_px - at.x_px), abs(mouse.y_px - at.y_px)) >= least_px
 
 
@@ -85,12 +88,12 @@ def together(least_px: float) -> Far:
 
 
 class LiveEdit:
-    """One step of undo, repeated during a drag, each time from the project at its start.
+    """An undo step that is replaced during a drag, each time based on the project at its start.
 
     Parameters
     ----------
     origin : object
-        Who edits; it skips its own echo.
+        Origin of the edit, which ignores the resulting change signal.
     """
 
     def __init__(self, session: Editing, origin: object) -> None:
@@ -101,10 +104,10 @@ class LiveEdit:
         self._name: Message | None = None
 
     def edit(self, name: Message, edit: Edit) -> bool:
-        """Show what an edit makes of the project as it was at the press; whether it could be done.
+        """Replace the undo step by an edit of the project at the press, and return whether the edit succeeded.
 
-        A place that cannot be is passed over: the last one that could stays. Where the step was taken back in the
-        middle of the drag, what it began with is gone.
+        After a failed edit, the last successful one remains. If the step was undone during the drag, the drag has no
+        further effect.
         """
         if self._session.project is not self._ours:
             return False
@@ -118,7 +121,7 @@ class LiveEdit:
         return True
 
     def attempt(self, name: Message, edit: Edit) -> bool:
-        """Edit as `edit` does, and show the user why if it could not be done."""
+        """Edit as in `edit`, and show a failure to the user."""
         if not self._session.attempt(name, lambda _: edit(self.base), self._token, self._origin):
             return False
         self._name, self._ours = name, self._session.project
@@ -136,19 +139,19 @@ class LiveEdit:
 
 
 class MouseGesture:
-    """A mouse press and the drag that follows it.
+    """A mouse press and the following drag.
 
     Parameters
     ----------
     at : LaneMouse
         The press.
     far : Far, optional
-        Without it the first move is a drag already.
+        Test for the start of the drag; by default the first move starts it.
 
     Attributes
     ----------
     began : bool
-        Whether the press is a drag by now.
+        Whether the press has become a drag.
     """
 
     def __init__(self, at: LaneMouse, far: Far | None = None) -> None:
@@ -170,10 +173,10 @@ class MouseGesture:
             self.click(mouse)
 
     def follow(self, mouse: LaneMouse) -> None:
-        """Do what the drag means here."""
+        """Handle a drag to a position."""
 
     def finish(self, mouse: LaneMouse) -> None:
-        """The drag ended here."""
+        """Handle the end of the drag at a position."""
 
     def click(self, mouse: LaneMouse) -> None:
         """Handle a press and release without a drag."""
@@ -183,7 +186,7 @@ class MouseGesture:
 
 
 class EditGesture(MouseGesture):
-    """A drag that edits, in one step of undo.
+    """A drag that edits in a single undo step.
 
     Parameters
     ----------
@@ -205,17 +208,17 @@ class EditGesture(MouseGesture):
 
 
 class Band(MouseGesture):
-    """A rubber band: the box from the press to the mouse, which stays with the picture when that scrolls.
+    """A rubber band from the press to the mouse, which scrolls with the contents.
 
     Parameters
     ----------
     take : callable
-        Selects what is in a box between the press and a place.
+        Selects the contents of a rectangle between the press and a position.
 
     Attributes
     ----------
     box : PixelRect or None
-        While it is drawn.
+        Rectangle while it is drawn.
     """
 
     def __init__(self, plane: Plane, at: LaneMouse, far: Far, take: Callable[[PixelRect, LaneMouse], None]) -> None:

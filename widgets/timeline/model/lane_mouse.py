@@ -1,4 +1,4 @@
-"""The mouse over a plot, and boxes in the plot's pixels, without Qt."""
+"""Mouse position over a plot, and rectangles in the plot's pixels, independent of Qt."""
 
 from __future__ import annotations
 
@@ -35,26 +35,26 @@ class PixelRect(NamedTuple):
 
 
 def spanned(x0: float, y0: float, x1: float, y1: float) -> PixelRect:
-    """The box with these two places as opposite corners."""
+    """Return the rectangle with two opposite corners."""
     return PixelRect(min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
 
 
 @dataclass(frozen=True)
 class LaneMouse:
-    """The mouse over a plot.
+    """Mouse position over a plot.
 
     Attributes
     ----------
     x_px, y_px : float
         From the upper left corner of the plot.
     value : float
-        On the lane's own vertical scale.
+        Value on the lane's vertical scale.
     tick : float
-        Where ``time_s`` is in the score.
+        Tick of ``time_s``.
     snapped_tick : int
         The nearest line of the session's grid; the nearest tick while Alt is held.
     shift, ctrl, alt : bool
-        The keys that are held.
+        Modifier keys that are held.
     screen_px : (int, int)
         On the screen, for menus.
     """

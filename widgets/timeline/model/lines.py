@@ -1,4 +1,4 @@
-"""Lines of bars, beats and the grid in the visible range, no denser than the eye can use."""
+"""Lines of bars, beats and the grid in the visible range, with a limited density."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Lines(msgspec.Struct, frozen=True):
     Attributes
     ----------
     bars : tuple of int
-        Numbers of the bars that get a line and a label.
+        Numbers of bars with a line and a label.
     bar_s, beat_s, step_s : float64 array
-        Times of the lines of bars, of beats between them, and of the grid's steps between those.
+        Times of bar lines, beats between them, and grid steps between these.
     """
 
     bars: tuple[int, ...]
@@ -43,7 +43,7 @@ class LineCache:
         self._lines: Lines | None = None
 
     def get(self, score: Score, grid: Grid, start_s: float, end_s: float, px_per_s: float) -> Lines:
-        """Return `visible_lines`, kept while the inputs are the same."""
+        """Return `visible_lines`, cached while the inputs are the same."""
         rest = (grid, start_s, end_s, px_per_s)
         if self._lines is None or self._score is not score or self._rest != rest:
             self._score, self._rest = score, rest
@@ -52,12 +52,12 @@ class LineCache:
 
 
 def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per_s: float) -> Lines:
-    """The lines between two times at a zoom.
+    """Return the lines between two times at a zoom.
 
     Parameters
     ----------
     grid : Grid
-        Its steps show where there is room for them and it is on.
+        Grid, shown if it is on and there is space for its steps.
     """
     tempo, metre_map = score.tempo_map, score.metre_map
     first = metre_map.bar_of_tick(int(np.floor(tempo.ticks(start_s))))
@@ -90,7 +90,7 @@ def visible_lines(score: Score, grid: Grid, start_s: float, end_s: float, px_per
 
 
 def _bar_step(score: Score, first: int, last: int, px_per_s: float) -> int:
-    """Every which bar is labelled: 1, 2, 4 ... by the usual length of the visible bars."""
+    """Return the interval of labelled bars: 1, 2, 4 and so on, by the usual length of visible bars."""
     start_s, end_s = (score.tempo_map.seconds(float(score.metre_map.tick_of_bar(bar))) for bar in (first, last))
     px = (end_s - start_s) / max(last - first, 1) * px_per_s
     every = 1

@@ -1,4 +1,4 @@
-"""Visible range of the performance in seconds, as a value, and its scale in pixels."""
+"""Visible range of the performance in seconds as a value, with its scale in pixels."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple, Protocol, overload
 from app.arrays import FloatArray
 
 LEAST_SPAN_S = 0.05
-"""The closest zoom shows this much: a few frames."""
+"""Visible range in seconds at the greatest zoom: a few frames."""
 PADDING = 0.02
 """Share of the visible width left free at either side when something is revealed."""
 
@@ -25,7 +25,7 @@ class Scale(Protocol):
 
 
 class VisibleSpan(Scale, Protocol):
-    """Scale with the span that is visible."""
+    """Scale with the visible time span."""
 
     @property
     def start_s(self) -> float: ...
@@ -41,12 +41,12 @@ class Limited(Scale, Protocol):
 
 
 class TimeView(NamedTuple):
-    """The visible range; every change gives another one, as near to it as the limits allow.
+    """The visible range; each change returns a new one within the limits.
 
     Attributes
     ----------
     limits_s : (float, float)
-        What can be scrolled to.
+        Range that can be scrolled to.
     start_s, end_s : float
         Half-open.
     width_px : int
@@ -65,7 +65,7 @@ class TimeView(NamedTuple):
 
     @property
     def px_per_s(self) -> float:
-        """The zoom."""
+        """Pixels per second."""
         return self.width_px / self.span_s
 
     @overload
@@ -81,25 +81,25 @@ class TimeView(NamedTuple):
         return self.start_s + x_px / self.px_per_s
 
     def within(self, start_s: float, end_s: float) -> TimeView:
-        """Return the view with other limits; the visible range moves only where it must."""
+        """Return the view with other limits; the visible range moves only if necessary."""
         return self._replace(limits_s=(start_s, max(end_s, start_s + LEAST_SPAN_S))).showing(self.start_s, self.end_s)
 
     def widened(self, width_px: int) -> TimeView:
-        """Return the view at another width; the zoom stays, so that more is visible in a wider window."""
+        """Return the view at another width with the same zoom, so that a wider window shows more."""
         width_px = max(width_px, 1)
         if width_px == self.width_px:
             return self
         return self._replace(width_px=width_px).showing(self.start_s, self.start_s + width_px / self.px_per_s)
 
     def showing(self, start_s: float, end_s: float) -> TimeView:
-        """Return the view that shows this range."""
+        """Return the view of a range."""
         low, high = self.limits_s
         span = min(max(end_s - start_s, LEAST_SPAN_S), high - low)
         start_s = min(max(start_s, low), high - span)
         return self._replace(start_s=start_s, end_s=start_s + span)
 
     def zoomed(self, factor: float, at_s: float) -> TimeView:
-        """Return the view with ``factor`` times less visible; the time ``at_s`` stays at its pixel."""
+        """Return the view with ``factor`` times less visible; the time ``at_s`` keeps its pixel."""
         low, high = self.limits_s
         span = min(max(self.span_s / factor, LEAST_SPAN_S), high - low)
         start_s = at_s - (at_s - self.start_s) / self.span_s * span
@@ -110,7 +110,7 @@ class TimeView(NamedTuple):
         return self.showing(self.start_s + by_s, self.end_s + by_s)
 
     def revealing(self, time_s: float, end_s: float | None = None) -> TimeView:
-        """Scrolled only if a time (or a span from it on) is not comfortably in view."""
+        """Return the view scrolled to a time (or a span from it on), unchanged if that is visible with some margin."""
         until_s = time_s if end_s is None else min(end_s, time_s + self.span_s * (1 - 2 * PADDING))
         margin = self.span_s * PADDING
         if self.start_s + margin <= time_s and until_s <= self.end_s - margin:

@@ -1,1 +1,1 @@
-"""The drawing area that ruler, roll and lanes share: time axis, drawing, mouse."""
+"""The drawing area shared by ruler, roll and lanes: time axis, drawing, mouse."""

@@ -1,4 +1,4 @@
-"""A widget that is drawn once and shown often."""
+"""A widget with a cached picture."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QWidget
 
 
 class Pictured(QWidget):
-    """Widget kept as a picture, so that the playhead passing by draws nothing again.
+    """Widget with a cached picture, so that the passing playhead does not redraw it.
 
-    Override `draw`, and call `redraw` when something that it draws is another.
+    Override `draw`, and call `redraw` when its inputs have changed.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -23,15 +23,15 @@ class Pictured(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
 
     def ground(self) -> QColor:
-        """Colour it is drawn upon."""
+        """Return the background colour."""
         raise NotImplementedError
 
     def draw(self, painter: QPainter, room: QRectF) -> None:
-        """Draw all of it but the ground."""
+        """Draw everything except the background."""
         raise NotImplementedError
 
     def redraw(self, *_changes: object) -> None:
-        """Discard the cached picture: something drawn on it has changed."""
+        """Discard the cached picture, since its inputs have changed."""
         self._picture = None
         self.update()
 

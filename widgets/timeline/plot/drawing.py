@@ -1,4 +1,4 @@
-"""Brushes, pens and many rectangles or lines at once, in the theme's colours."""
+"""Drawing of texts, marks and many rectangles or lines at once, in the theme's colours."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from widgets.timeline.model.lane_mouse import PixelRect
 # As numbers: joining flags of Qt takes Python as long as drawing a word.
 _ONE_LINE = int(Qt.TextFlag.TextDontClip) | int(Qt.TextFlag.TextSingleLine)
 MARK_PX = 6.0
-"""Side of the square that marks what the user made."""
+"""Side in pixels of the square that marks the user's changes."""
 
 
 def rect(box: PixelRect) -> QRectF:
-    """A box as Qt has it."""
+    """Return a rectangle of Qt."""
     return QRectF(box.left, box.top, box.width, box.height)
 
 
@@ -34,7 +34,7 @@ def shade(colour: str, alpha: int = 255) -> QColor:
 
 
 def small_font(base: QFont) -> QFont:
-    """The smallest text that is allowed."""
+    """Return a font of the smallest allowed size."""
     font = QFont(base)
     font.setPointSizeF(float(LEAST_TEXT_PT))
     return font
@@ -46,7 +46,7 @@ def draw_text(
     text: str,
     align: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter,
 ) -> None:
-    """A line of text, shortened where it does not fit; nothing where not even two letters would."""
+    """Draw a line of text, shortened if it does not fit; nothing if less than two letters fit."""
     metrics = QFontMetricsF(painter.font())
     if box.width() < 14.0 or box.height() < metrics.height() - 3.0:
         return
@@ -56,7 +56,7 @@ def draw_text(
 
 
 def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bool = False) -> None:
-    """The small solid square of what the user made, or the cross of what the user took out; its upper left corner."""
+    """Draw the square mark of a user's change, or the cross of a removed event, by its upper left corner."""
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, removed)
     if removed:
@@ -71,7 +71,7 @@ def draw_mark(painter: QPainter, tokens: Tokens, x: float, y: float, removed: bo
 def draw_rects(
     painter: QPainter, left: FloatArray, top: FloatArray, width: FloatArray, height: FloatArray, colour: QColor
 ) -> None:
-    """Many rectangles of one colour; arrays (N,) of pixels."""
+    """Draw many rectangles in one colour; arrays (N,) of pixels."""
     if len(left):
         painter.setPen(Qt.PenStyle.NoPen)
         fill_rects(painter, left, top, width, height, colour)
@@ -96,7 +96,7 @@ def _side_by_side(*columns: FloatArray) -> FloatArray:
 
 
 def _first(table: FloatArray, kind: type[QRectF] | type[QLineF], row: int = 0) -> Any:
-    """A row of a table as Qt's object, and with it all that follow: ``table`` is their memory and must outlive them."""
+    """Return a row of a table as Qt's object, followed in memory by the next rows: ``table`` must outlive it."""
     return wrapInstance(table.ctypes.data + row * table.strides[0], kind)
 
 
@@ -106,14 +106,14 @@ def draw_groups(
     group: AnyIntArray,
     colours: Sequence[QColor],
 ) -> None:
-    """Many rectangles in the colours of their groups.
+    """Draw many rectangles in the colours of their groups.
 
     Parameters
     ----------
     boxes : four arrays (N,)
         Left, top, width and height, pixels.
     group : array (N,)
-        Ascending; what colour each has.
+        Index of the colour of each, ascending.
     """
     if not len(group):
         return
@@ -126,7 +126,7 @@ def draw_groups(
 
 
 def draw_lines(painter: QPainter, x0: FloatArray, y0: FloatArray, x1: FloatArray, y1: FloatArray, pen: QPen) -> None:
-    """Many lines with one pen; arrays (N,) of pixels."""
+    """Draw many lines with one pen; arrays (N,) of pixels."""
     if len(x0):
         table = _side_by_side(x0, y0, x1, y1)
         painter.setPen(pen)
@@ -150,7 +150,7 @@ def draw_columns(
     base: float | None,
     colour: QColor,
 ) -> None:
-    """Many narrow steps as one line a column of pixels, from the least to the greatest ``y`` there (and ``base``)."""
+    """Draw many narrow steps as one line per column of pixels, from the least to the greatest ``y`` (and ``base``)."""
     first = int(np.floor(room.left()))
     count = int(np.ceil(room.right())) - first
     column = np.clip(np.floor((left + right) / 2.0).astype(np.int64) - first, 0, count - 1)
@@ -163,5 +163,5 @@ def draw_columns(
 
 
 def polygon(points: FloatArray) -> QPolygonF:
-    """Points (N, 2) as Qt has them."""
+    """Return points (N, 2) as a polygon of Qt."""
     return QPolygonF([QPointF(x, y) for x, y in points.tolist()])

@@ -1,4 +1,4 @@
-"""Conversion of Qt's mouse to the `LaneMouse` of the timeline's models."""
+"""Conversion of Qt's mouse events to the `LaneMouse` of the timeline's models."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 def mouse_at(
     session: Session, axis: TimeAxis, place: QPointF, value: float, modifiers: Qt.KeyboardModifier, screen: QPoint
 ) -> LaneMouse:
-    """Convert a place of a plot to time and value; ``value`` is on the plot's own vertical scale."""
+    """Return a point of a plot with its time and value; ``value`` is on the plot's vertical scale."""
     score = session.project.score
     time_s = axis.seconds(place.x())
     tick = score.tempo_map.ticks(time_s)

@@ -1,4 +1,4 @@
-"""The drawing area of a lane, what is drawn on it, and the mouse over it."""
+"""The drawing area of a lane, its items, and its mouse events."""
 
 from __future__ import annotations
 
@@ -28,7 +28,9 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 
 
 class LaneView(Protocol):
-    """Part of a lane that its items draw; a protocol, here and in the drawings, since lanes import their items."""
+    """Part of a lane needed by its items; a protocol here and in the drawing modules, since lanes import their
+    items.
+    """
 
     id: str
     session: Session
@@ -64,14 +66,14 @@ AnyLane = TypeVar("AnyLane", bound=LaneView)
 
 
 class LaneItem(Generic[AnyLane]):
-    """Something drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``.
+    """An item drawn over the whole plot in pixels. Override `paint_px`, and draw only what meets ``exposed``.
 
     Parameters
     ----------
     lane : LaneView
-        Or what more the item draws of its lane, where it says so.
+        Lane, or a more specific protocol if the item requires it.
     z : float
-        What has more lies above.
+        Stacking order; higher values are above.
     """
 
     def __init__(self, lane: AnyLane, z: float = 0.0) -> None:
@@ -80,7 +82,7 @@ class LaneItem(Generic[AnyLane]):
         lane.plot.add(self)
 
     def update(self) -> None:
-        """Redraw soon."""
+        """Request a redraw."""
         self.lane.plot.redraw()
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
@@ -126,10 +128,9 @@ class Background(LaneItem[LaneView]):
 
 
 class Plot(Pictured):
-    """The drawing area of a lane, and its mouse and keys.
+    """The drawing area of a lane with its mouse and keys.
 
-    A plain widget: views of graphics scenes get changes one after another, and each round of theirs painted all
-    lanes again.
+    A plain widget, since views of graphics scenes receive changes one after another and repainted all lanes each time.
     """
 
     def __init__(self, lane: PlotOwner, parent: QWidget) -> None:

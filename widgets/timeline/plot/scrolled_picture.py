@@ -1,4 +1,4 @@
-"""A picture of more than is visible, so that scrolling in time draws nothing again for a while."""
+"""A cached picture larger than the visible range, so that short scrolling in time needs no redraw."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from PySide6.QtGui import QImage, QPainter
 from widgets.timeline.plot.plot import LaneView
 
 BESIDE = 0.5
-"""Share of the visible width that is drawn in addition at either side."""
+"""Share of the visible width drawn in addition at either side."""
 
 
 class ScrolledPicture:
@@ -24,14 +24,14 @@ class ScrolledPicture:
         self._image: QImage | None = None
 
     def draw(self, painter: QPainter, look: object, paint: Callable[[QPainter, float, float], None]) -> None:
-        """Draw what is visible.
+        """Draw the visible range.
 
         Parameters
         ----------
         look : object
-            All that is drawn depends on it, on the zoom and on the size of the plot.
+            All inputs of the drawing other than the zoom and the plot's size.
         paint : callable
-            Draws what lies between two times, in pixels of the plot.
+            Draws a range of times in pixels of the plot.
         """
         lane, axis = self._lane, self._lane.axis
         ratio, room = lane.plot.devicePixelRatioF(), lane.plot_rect

@@ -1,4 +1,4 @@
-"""Drawing of the piano roll: rows, notes by the hundred thousand, the lasso, and advice where nothing is."""
+"""Drawing of the piano roll: rows, up to hundreds of thousands of notes, the lasso, and advice if it is empty."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ from widgets.timeline.plot.drawing import draw_groups, fill_rects
 from widgets.timeline.plot.plot import LaneItem, LaneView
 
 LEVELS = 4
-"""Shades of velocity."""
+"""Number of shades for velocity."""
 GHOST_ALPHA = 70
 MOST_RECTANGLES = 6000
-"""Number of other players' notes above which the narrow ones are drawn as points of a picture, two to four times as
-fast as rectangles."""
+"""Number of other players' notes above which narrow ones are drawn as points of a picture, two to four times as fast as
+rectangles.
+"""
 NARROW_PX = 5.0
 OUT_OF_SIGHT_PX = 3.0
 
 
 class RollView(LaneView, Protocol):
-    """Part of the roll that its items draw; a protocol for the reason of `LaneView`."""
+    """Part of the roll needed by its items; a protocol for the reason given at `LaneView`."""
 
     model: RollModel
 
@@ -51,7 +52,7 @@ def mixed(colour: str, other: str, share: float) -> QColor:
 
 
 class Rows(LaneItem[RollView]):
-    """Rows of black keys, lines at every C, and where the instrument in front cannot go."""
+    """Draws rows of black keys, lines at every C, and the range outside the active player's instrument."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -143,7 +144,7 @@ class Notes(LaneItem[RollView]):
 
 
 class OutOfSight(LaneItem[RollView]):
-    """Bars at the upper and lower edge: there are notes of the player in front above or below what is seen."""
+    """Draws bars at the upper and lower edge if the active player has notes beyond it."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -168,16 +169,16 @@ def _shade(colour: str, alpha: int) -> QColor:
 
 
 def picture_behind(lane: RollView, behind: Behind, ghost: QColor | None, ratio: float) -> QImage:
-    """The other players' notes: as rectangles, or where there are very many, the narrow ones as points.
+    """Return a picture of the other players' notes: rectangles, or points for narrow ones if there are very many.
 
     Parameters
     ----------
     behind : Behind
-        Later players lie over those before.
+        Notes; later players are drawn over earlier ones.
     ghost : QColor or None
-        Colour of all of them; None: each player's own.
+        Colour of all notes; None for each player's own.
     ratio : float
-        Pixels of the screen in one of the plot's.
+        Screen pixels per pixel of the plot.
     """
     room = lane.plot_rect
     image = QImage(
@@ -232,14 +233,14 @@ def _draw_points(
 
 
 def _premultiplied(shade: QColor) -> int:
-    """Premultiply a colour as Qt stores it, so that it draws without a conversion."""
+    """Return a colour with premultiplied alpha as Qt stores it, which is drawn without conversion."""
     alpha = shade.alpha()
     red, green, blue = (round(part * alpha / 255) for part in (shade.red(), shade.green(), shade.blue()))
     return (alpha << 24) | (red << 16) | (green << 8) | blue
 
 
 class Lasso(LaneItem[RollView]):
-    """The rectangle that is drawn over what shall be selected, and the line where a note would be cut."""
+    """Draws the selection rectangle, and the line at which a note would be split."""
 
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 20.0)

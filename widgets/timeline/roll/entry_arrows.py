@@ -1,4 +1,4 @@
-"""Arrows in the piano roll: who gives an entry to whom."""
+"""Arrows in the piano roll for cues between players."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from widgets.timeline.roll.drawn_notes import RollView
 HEAD_PX = 7.0
 DOT_PX = 2.5
 BEND = 0.5
-"""Share of the way that the arrow goes level before it turns to the other's note."""
+"""Share of the way after which the arrow bends towards the other note."""
 HELD = 1.6
-"""An end under the mouse is larger by this factor."""
+"""Factor by which an end under the mouse is enlarged."""
 
 
 class EntryArrows(LaneItem[RollView]):
-    """The entries that the player in front gives or takes, in the giver's colour."""
+    """Cues that the active player gives or receives, in the giver's colour."""
 
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 12.0)
@@ -42,11 +42,11 @@ class EntryArrows(LaneItem[RollView]):
         return self._known[1]
 
     def end_at(self, mouse: LaneMouse) -> tuple[EntryArrow, End] | None:
-        """The arrow of which an end lies at a place, and which end."""
+        """Return the arrow with an end at a point, and which end."""
         return end_at(self.lane, self.arrows, mouse)
 
     def hover(self, mouse: LaneMouse | None) -> bool:
-        """Show that an end can be taken hold of; whether one lies under the mouse."""
+        """Highlight an end under the mouse, and return whether there is one."""
         found = None if mouse is None else self.end_at(mouse)
         if found != self._hovered:
             self._hovered = found
@@ -54,18 +54,18 @@ class EntryArrows(LaneItem[RollView]):
         return found is not None
 
     def show(self, drag: EntryDrag | None) -> None:
-        """Draw an arrow as the drag has it."""
+        """Draw an arrow as dragged."""
         self._drag = drag
         self._hovered = None
         self.update()
 
     @property
     def dragged(self) -> EntryArrow | None:
-        """The arrow of which an end is dragged, as it would be."""
+        """Return the dragged arrow at its new place."""
         return self._drag.shown if self._drag is not None and self._drag.began else None
 
     def drag_text(self, drag: EntryDrag) -> str:
-        """Say who would give the entry to whom, and where."""
+        """Return the giver, receiver and place of a dragged cue as text."""
         project = self.lane.session.project
         if not drag.meant:
             return tr("piano_roll.entry_unchanged")

@@ -1,4 +1,4 @@
-"""Fingerings on the notes of a roll, with marks of what was decided by hand and of problems."""
+"""Fingerings on the notes of a roll, with marks of pinned fingerings and of problems."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from widgets.timeline.roll.drawn_notes import RollView, mixed
 
 LABEL_GAP_PX = 5.0
 INSIDE_PX = 15.0
-"""Height of a row from which a label stands inside its note."""
+"""Height in pixels of a row from which a label is inside its note."""
 
 
 class Labels(LaneItem[RollView]):
-    """Fingerings on the notes of the player in front, marks of what was pinned by hand, and of problems."""
+    """Draws fingerings on the active player's notes, marks of pinned ones, and of problems."""
 
     def __init__(self, lane: RollView) -> None:
         super().__init__(lane, 10.0)
@@ -39,11 +39,11 @@ class Labels(LaneItem[RollView]):
         """Numbers of the events, as the notes are ordered that they finger."""
 
     def forget_fonts(self) -> None:
-        """Forget sizes that were measured in the former font."""
+        """Discard sizes measured in the former font."""
         self._texts.clear()
 
     def _know(self, table: NoteTable, plan: PlayerPlan | None) -> None:
-        """Sort a plan's fingerings to the notes they belong to, once for each pair."""
+        """Assign a plan's fingerings to notes, cached for each pair."""
         if table is self._table and plan is self._plan:
             return
         if plan is not self._plan:
@@ -126,7 +126,7 @@ class Labels(LaneItem[RollView]):
                 painter.drawStaticText(QPointF(x + 1.0, below - 1.0), text)
 
     def _mark(self, painter: QPainter, x: float, y: float, row_px: float) -> None:
-        """The solid mark of what the user decided: a bar at the note's beginning."""
+        """Draw the mark of a pinned fingering: a bar at the note's start."""
         painter.fillRect(QRectF(x, y - 1.0, 3.0, row_px + 1.0), QColor(self.lane.session.tokens.by_hand))
 
     def _in_signs(self, event: FingeringEvent) -> str:

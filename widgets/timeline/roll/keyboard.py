@@ -15,7 +15,7 @@ KEYBOARD_PX = 50
 
 
 class Keyed(Protocol):
-    """Owner of the rows of pitches beside the keyboard; a protocol for the reason of `LaneView`."""
+    """Part of the roll beside the keyboard; a protocol for the reason given at `LaneView`."""
 
     session: Session
 
@@ -45,7 +45,7 @@ class Keyboard(QWidget):
         self.setMouseTracking(True)
 
     def show_pitch(self, pitch: int | None) -> None:
-        """Light the key of a row that the mouse is over."""
+        """Highlight the key of the row under the mouse."""
         if pitch != self._hovered:
             self._hovered = pitch
             self.update()

@@ -1,4 +1,4 @@
-"""Marks in the piano roll: drawn on the notes of the player in front, selected and dragged by the mouse."""
+"""Marks in the piano roll on the active player's notes, which can be selected and dragged."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MENU = ("events.give_back", "edit.delete")
 
 
 def mark_tip(of_player: MarkList, mark: Mark) -> str:
-    """Name of a mark, its text, and where it is from."""
+    """Return the name, text and origin of a mark."""
     number = of_player.by_id.get(mark.id)
     by_hand = number is not None and bool(of_player.by_hand[number])
     lines = [f"{mark_name(mark.kind)} {mark.text}".rstrip()]
@@ -58,22 +58,22 @@ class RollMarks(LaneItem[RollView]):
 
     @property
     def air_rows(self) -> float:
-        """Rows that marks take above the highest note."""
+        """Return the number of rows that marks take above the highest note."""
         return AIR_ROWS if self._table() is not None else 0.0
 
     def show_marks(self) -> None:
-        """Draw the marks again: one is dragged, or they are shown or hidden."""
+        """Redraw the marks after a drag or a change of visibility."""
         self.update()
 
     def set_shown(self, shown: bool) -> None:
-        """Show the marks or hide them."""
+        """Show or hide the marks."""
         if shown != self.marks.shown:
             self.marks.shown = shown
             self.update()
 
     @property
     def placed(self) -> PlacedMarks | None:
-        """The visible marks in the plot's pixels, for the mouse; found again only where something is elsewhere."""
+        """Return the visible marks in the plot's pixels for the mouse, cached while positions are unchanged."""
         axis = self.lane.axis
         key = (self._look(), axis.start_s, axis.end_s)
         if self._known[0] != key:
@@ -85,7 +85,7 @@ class RollMarks(LaneItem[RollView]):
         return self.marks.table(front[0]) if front is not None else None
 
     def _look(self) -> tuple[object, ...]:
-        """All that the marks of a span of time are placed by, but the scroll of time."""
+        """Return all inputs of the marks' positions except horizontal scrolling."""
         lane, table, room = self.lane, self._table(), self.lane.plot_rect
         warned = lane.model.warned(table.notes) if table is not None else None
         return table, warned, lane.axis.px_per_s, lane.y_range, room.width(), room.height(), lane.font()
@@ -119,7 +119,9 @@ class RollMarks(LaneItem[RollView]):
     # The mouse
 
     def at(self, mouse: LaneMouse, over_note: bool) -> tuple[Mark, Zone] | None:
-        """The mark at a place, and what of it; a note lies over slurs, except for the ends of a selected one."""
+        """Return the mark at a point and the part of it; a note is above slurs, except for the ends of a selected
+        one.
+        """
         placed = self.placed
         if placed is None:
             return None
@@ -134,7 +136,7 @@ class RollMarks(LaneItem[RollView]):
         return (marks[number], "whole") if number is not None else None
 
     def press(self, mouse: LaneMouse, over_note: bool) -> MouseGesture | None:
-        """Select the mark at a place, and take hold of it; None: there is none."""
+        """Select and grab the mark at a point; return None if there is none."""
         found = self.at(mouse, over_note)
         front = self.lane.model.front()
         if found is None or front is None:
@@ -148,7 +150,7 @@ class RollMarks(LaneItem[RollView]):
         return MarkDrag(self, mouse, mark, zone, front[0])
 
     def hover(self, mouse: LaneMouse | None, over_note: bool) -> Mark | None:
-        """Show that an end can be taken hold of; the mark under the mouse."""
+        """Highlight an end that can be dragged, and return the mark under the mouse."""
         found = None if mouse is None else self.at(mouse, over_note)
         held = self.marks.of_player.by_id.get(found[0].id) if found is not None and found[1] != "whole" else None
         if held != self._held:
@@ -162,7 +164,7 @@ class RollMarks(LaneItem[RollView]):
         return self._held is not None
 
     def tip(self, mark: Mark) -> str:
-        """Name of a mark, its text, and where it is from."""
+        """Return the name, text and origin of a mark."""
         return mark_tip(self.marks.of_player, mark)
 
     def context_menu(self, mouse: LaneMouse, over_note: bool) -> QMenu | None:

@@ -1,4 +1,4 @@
-"""The piano roll: every player's notes, the one in front in colour and open to the mouse."""
+"""The piano roll: every player's notes, with the active player's in colour and editable."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ from widgets.timeline.roll.marks_on_notes import RollMarks
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 NEEDED_PX = 221
-"""Two octaves of notes that are 8 pixels high."""
+"""Height in pixels for two octaves with notes 8 pixels high."""
 ROWS_A_NOTCH = 3.0
 ZOOM_A_NOTCH = 1.18
 ZOOM_A_KEY = 1.4
@@ -76,7 +76,7 @@ class PianoRoll(Lane):
     """The piano roll."""
 
     reported = Signal(str)
-    """Description of what is under the mouse, for the tool bar."""
+    """Signal: description of the object under the mouse, for the tool bar."""
 
     id = "roll"
     preferred_height_px = 240
@@ -119,7 +119,7 @@ class PianoRoll(Lane):
         return NEEDED_PX
 
     def set_tool(self, tool: Tool) -> None:
-        """Let the left button do this."""
+        """Set the tool of the left button."""
         self._tool = tool
         self.lasso.show(None)
         shapes = {Tool.SELECT: Qt.CursorShape.ArrowCursor, Tool.DRAW: Qt.CursorShape.CrossCursor}
@@ -136,7 +136,7 @@ class PianoRoll(Lane):
         return self.model.ghosts_mode
 
     def set_ghosts(self, ghosts: Ghosts) -> None:
-        """See the players behind so."""
+        """Set the display of other players' notes."""
         self.model.ghosts_mode = ghosts
         self.update_items()
 
@@ -145,7 +145,7 @@ class PianoRoll(Lane):
         return self.model.ghosts()
 
     def hint(self) -> str:
-        """Advice for an empty roll; empty where there are notes."""
+        """Return advice for an empty roll; empty if there are notes."""
         front = self.model.front()
         if front is None:
             return self.tr("piano_roll.no_players_yet_open_midi")
@@ -160,7 +160,7 @@ class PianoRoll(Lane):
         return (instrument.range.low, instrument.range.high) if instrument is not None else None
 
     def _instrument(self) -> InstrumentMap | None:
-        """The instrument of the player in front; None if there is no player, or its map is gone."""
+        """Return the active player's instrument; None if there is no player or map."""
         player = self.session.player
         if player is None:
             return None
@@ -181,18 +181,18 @@ class PianoRoll(Lane):
         return self.plot_rect.height() / (top - bottom)
 
     def visible(self, table: TimedNotes, exposed: QRectF) -> IntArray:
-        """Places of the notes that may show in a part of the plot."""
+        """Return the indices of notes that may be visible in a part of the plot."""
         times = self.axis.seconds(exposed.left()), self.axis.seconds(exposed.right())
         return visible(table, *times, self.y_range)
 
     def boxes(self, table: TimedNotes, rows: IntArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
+        """Return left, top, width and height of notes in whole pixels, for sharp edges."""
         return boxes(table, rows, self.axis, self.y_range[1], self.row_px)
 
     # Pitch
 
     def show_legibly(self) -> None:
-        """Show the notes of the player in front that are in sight, or all of them, so that they can be read."""
+        """Show the active player's notes in the visible time range, or all of them, at a legible size."""
         self._pitches_chosen = False
         front = self.model.front()
         if front is None or not len(front[0]):
@@ -207,7 +207,7 @@ class PianoRoll(Lane):
         self._show_pitches(*legible_pitches(pitches, self.marks.air_rows, room_px))
 
     def bring_notes_into_view(self, note_ids: Iterable[str]) -> None:
-        """Scroll to the pitches of notes of the player in front, if most of them are out of view."""
+        """Scroll to the pitches of the active player's notes, if most of them are not visible."""
         front = self.model.front()
         places = [front[0].index[id] for id in note_ids if id in front[0].index] if front is not None else []
         if front is None or not places:
@@ -217,14 +217,14 @@ class PianoRoll(Lane):
         self._bring_into_view(front[0].pitch[here or places])
 
     def _bring_into_view(self, pitches: FloatArray) -> None:
-        """Scroll to the middle of pitches, if most of them are out of view."""
+        """Scroll to the middle of pitches, if most of them are not visible."""
         bottom, top = self.y_range
         if len(pitches) and np.mean((pitches >= bottom) & (pitches + 1 <= top)) < 0.5:
             middle = float(np.median(pitches)) + 0.5
             self._show_pitches(*kept_pitches(middle - (top - bottom) / 2, top - bottom))
 
     def follow(self) -> None:
-        """Scroll to the pitches of the page that is played, if most of its notes are out of sight."""
+        """Scroll to the pitches of the page during playback, if most of its notes are not visible."""
         front = self.model.front()
         if front is None:
             return
@@ -248,7 +248,7 @@ class PianoRoll(Lane):
         self.choose_pitches(*kept_pitches(bottom + notches * ROWS_A_NOTCH, top - bottom))
 
     def zoom_pitch(self, factor: float, at: float | None = None) -> None:
-        """Show ``factor`` times fewer pitches; the one ``at`` stays, or that of the selected notes, or the middle."""
+        """Show ``factor`` times fewer pitches around the pitch ``at``, that of the selected notes, or the middle."""
         if at is None:
             bottom, top = self.y_range
             selected = self.session.selection.notes
@@ -271,7 +271,7 @@ class PianoRoll(Lane):
             self.keyboard.update()
 
     def pitch_text(self, pitch: int) -> str:
-        """A pitch named by the user's settings."""
+        """Return the name of a pitch by the user's settings."""
         instrument = self._instrument()
         return pitch_text(
             self.session.pitch_display, pitch, instrument.transposition_semitones if instrument is not None else 0
@@ -292,7 +292,7 @@ class PianoRoll(Lane):
 
     @property
     def drag_px(self) -> float:
-        """The mouse moves this far before a press becomes a drag."""
+        """Return the distance in pixels from which a press is a drag."""
         return QApplication.startDragDistance() / 2
 
     def press(self, mouse: LaneMouse) -> None:
@@ -353,7 +353,7 @@ class PianoRoll(Lane):
         self.keyboard.show_pitch(int(mouse.value // 1))
 
     def _show_gesture(self, gesture: MouseGesture) -> None:
-        """Draw what it encloses, or say what it has made of a note."""
+        """Draw a gesture's rectangle, or show the new pitch or velocity of a note."""
         if isinstance(gesture, LassoNotes):
             self.lasso.show(rect(gesture.box) if gesture.box is not None else None)
         elif isinstance(gesture, EntryDrag):
@@ -415,14 +415,14 @@ class PianoRoll(Lane):
                 self.set_tool(self._tool)
 
     def key(self, event: QKeyEvent) -> bool:
-        """Clear the selection by Escape."""
+        """Deselect on Escape."""
         if event.key() == Qt.Key.Key_Escape and self.session.selection:
             self.session.select(Selection())
             return True
         return False
 
     def wheel(self, mouse: LaneMouse, steps: float) -> bool:
-        """Scroll the pitches; with Alt zoom them about the one under the mouse."""
+        """Scroll the pitches; with Alt zoom around the pitch under the mouse."""
         if not mouse.alt:
             self.scroll_pitch(steps)
             return True
@@ -447,20 +447,22 @@ class PianoRoll(Lane):
         return menu
 
     def _tell_pitch(self, note_id: str) -> None:
-        """Say which pitch a dragged note has."""
+        """Show the pitch of a dragged note."""
         note = self.model.note(note_id)
         if note is not None:
             QToolTip.showText(QCursor.pos(), self.pitch_text(note.pitch), self.plot)
 
     def _tell_velocity(self, note_id: str) -> None:
-        """Say how loud a dragged note is."""
+        """Show the velocity of a dragged note."""
         note = self.model.note(note_id)
         if note is not None:
             self._velocity = note.velocity
             QToolTip.showText(QCursor.pos(), self.tr("piano_roll.velocity").format(velocity=note.velocity), self.plot)
 
     def _report(self, mouse: LaneMouse, note: Note | None, mark: Mark | None) -> None:
-        """Say what is under the mouse: place and pitch, or the note; problems of a note, or a mark, as a tool tip."""
+        """Show what is under the mouse: position and pitch, or the note; problems of a note, or a mark, as a tool
+        tip.
+        """
         score = self.session.project.score
         tick = mouse.tick if note is None else note.onset_tick
         pitch = self.pitch_text(int(mouse.value // 1))
@@ -541,6 +543,5 @@ class PianoRoll(Lane):
 
 
 def _copies(mouse: LaneMouse) -> bool:
-    """Return whether a drag leaves the notes and takes copies along: Ctrl, on macOS Option, as in the file manager
-    there."""
+    """Return whether a drag copies notes: with Ctrl, on macOS with Option, as in file managers."""
     return mouse.alt and not mouse.ctrl if sys.platform == "darwin" else mouse.ctrl and not mouse.alt

@@ -1,4 +1,4 @@
-"""A small window beside the notes: which grid, how strongly, onsets or ends; shown as it is set."""
+"""Small window for quantising notes: grid, strength, onsets or ends; applied as a preview."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ GRIDS: tuple[tuple[str, Fraction], ...] = (
 
 
 class QuantisePopover(Retranslated, QFrame):
-    """Quantise the selected notes, seen at once; Enter keeps it, Escape takes it back. One step of the history."""
+    """Quantises the selected notes with preview; Enter accepts, Escape cancels. A single undo step."""
 
     def __init__(self, session: Session, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup)
@@ -73,7 +73,7 @@ class QuantisePopover(Retranslated, QFrame):
         self.texted(self.ends, text="quantise_popover.ends")
 
     def open_over(self, widget: QWidget) -> None:
-        """Open in the middle of a widget, with the grid that edits snap to."""
+        """Open in the middle of a widget with the grid of edits."""
         if not self._session.selection.notes:
             return
         self._token, self._base = object(), self._session.project

@@ -1,1 +1,1 @@
-"""The ruler, and the flags over it."""
+"""The ruler, and the flags above it."""

@@ -1,4 +1,4 @@
-"""The markers of the piece as flags over the ruler: rehearsal letters, sections, cues. Only where there are any."""
+"""The markers of the piece as flags above the ruler: rehearsal letters, sections, cues. Hidden if there are none."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ AIR_PX = 5.0
 
 @dataclass(frozen=True)
 class Flag:
-    """The markers of one tick, where they are drawn; ``shown`` is what there is room for."""
+    """The markers of one tick with their place; ``shown`` is the text that fits."""
 
     tick: int
     text: str
@@ -36,14 +36,14 @@ class Flag:
 
 
 def lay_flags(score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: float, right_px: float) -> list[Flag]:
-    """Lay out the flags, none over another. The flag in force at the left edge stays in view.
+    """Return the flags without overlaps. The flag in effect at the left edge stays visible.
 
     Parameters
     ----------
     axis : TimeAxis
-        Its pixels count from ``left_px``.
+        Time axis whose pixels count from ``left_px``.
     left_px, right_px : float
-        Between these there is room.
+        Available range.
     """
     named = [
         (tick, ", ".join(marker.text for marker in here))
@@ -68,7 +68,7 @@ def lay_flags(score: Score, axis: TimeAxis, metrics: QFontMetricsF, left_px: flo
 
 
 class Flags(Strip):
-    """The row of flags; a click on one or between them seeks."""
+    """The row of flags; a click on a flag or between flags moves the playhead."""
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget | None = None) -> None:
         super().__init__(session, axis, FLAGS_PX, parent)
@@ -118,7 +118,7 @@ class Flags(Strip):
         self.setCursor(Qt.CursorShape.PointingHandCursor if over else Qt.CursorShape.ArrowCursor)
 
     def tip(self, flag: Flag) -> str:
-        """All of a flag's text, and its bar."""
+        """Return the complete text of a flag, and its bar."""
         bar = self.session.project.score.metre_map.bar_of_tick(flag.tick)
         where = self.tr("flags.bar").format(bar=bar)
         return f"{flag.text}\n{where}"

@@ -1,4 +1,4 @@
-"""Field in which a tempo or a metre of the ruler is typed."""
+"""Field for typing a tempo or metre in the ruler."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ FIELD_PX = 80
 
 
 class MarkEditor(QLineEdit):
-    """A tempo or a metre typed in place.
+    """Field for a tempo or metre in the ruler.
 
     Signals
     -------
@@ -44,7 +44,7 @@ class MarkEditor(QLineEdit):
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def leave(self, meant: bool) -> None:
-        """Done; whether what stands there is meant."""
+        """Close the field, accepting or discarding its text."""
         if self._mark is None:
             return
         (kind, tick), self._mark = self._mark, None
@@ -54,7 +54,7 @@ class MarkEditor(QLineEdit):
             self.typed.emit(kind, tick, self.text().strip())
 
     def _editing_finished(self) -> None:
-        """Accept the typed text when the focus goes elsewhere."""
+        """Accept the typed text when the focus is lost."""
         if self.isVisible() and not self.hasFocus():
             self.leave(True)
 

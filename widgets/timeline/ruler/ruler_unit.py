@@ -1,4 +1,4 @@
-"""The button at the left of the ruler: what it counts."""
+"""The button at the left of the ruler for its unit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Common part of the rows above the lanes: the ruler and the flags."""
+"""Base class of the rows above the lanes: the ruler and the flags."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from widgets.timeline.zoom_and_scroll import TimeAxis, wheel_turn
 
 
 class Strip(Pictured):
-    """A row above the lanes, along their time axis.
+    """A row above the lanes on their time axis.
 
     Signals
     -------

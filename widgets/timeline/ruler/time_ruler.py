@@ -1,4 +1,4 @@
-"""The ruler: bars, seconds or frames, tempo and metre marks, the loop, the selected span, and what is recorded."""
+"""The ruler: bars, seconds or frames, marks of tempo and metre, loop, selected span, and recorded range."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ LOOP_PX, PUNCH_PX = 4.0, 4.0
 HEAD_PX = 6.0
 HEAD_HEIGHT_PX = 9.0
 GRIP_PX = 5.0
-"""Distance within which a press takes hold of an edge of the loop, or of the playhead."""
+"""Distance in pixels within which an edge of the loop or the playhead is grabbed."""
 
 
 class Ruler(Retranslated, Strip):
@@ -175,14 +175,14 @@ class Ruler(Retranslated, Strip):
             self._band(painter, *punch, tokens.error, PUNCH_PX, LOOP_PX + 1.0)
 
     def _punch_s(self) -> tuple[float, float] | None:
-        """The range that the part takes from a take; None: all of it."""
+        """Return the punch range in seconds; None for an unlimited one."""
         recording = self.session.recording
         if not recording.punch or recording.punch_ticks is None:
             return None
         return self.seconds_of(recording.punch_ticks[0]), self.seconds_of(recording.punch_ticks[1])
 
     def _paint_take(self, painter: QPainter) -> None:
-        """Paint the part of the running take, or of its pass, that is recorded already."""
+        """Paint the already recorded range of the running take or pass."""
         recording, loop_s, head_s = self.session.recording, self.session.loop_s, self.session.playhead_s
         start_s = loop_s[0] if recording.passes > 1 and loop_s is not None else recording.start_s
         if recording.running and head_s > start_s:
@@ -233,7 +233,7 @@ class Ruler(Retranslated, Strip):
     # Editing tempo and metre
 
     def edit_mark(self, kind: str, tick: int) -> None:
-        """Type the tempo or the metre at a tick; where there is none, add one."""
+        """Open a field for the tempo or metre at a tick, adding one if necessary."""
         mark = next((mark for mark in self._marks if (mark.kind, mark.tick) == (kind, tick)), None)
         # The start of a bar may lie to the left of what is shown.
         left = mark.box.left if mark is not None else max(self.x_px(tick), GUTTER_PX)
@@ -285,7 +285,7 @@ class Ruler(Retranslated, Strip):
     # The mouse
 
     def _held_at(self, place: QPointF) -> str:
-        """Name the part that a press takes hold of."""
+        """Return the name of the part that a press grabs."""
         if place.x() < GUTTER_PX:
             return ""
         if self._mark_at(place) is not None:
@@ -304,7 +304,7 @@ class Ruler(Retranslated, Strip):
         return "seek"
 
     def _take_hold(self, held: str, mouse: LaneMouse, mark: RulerMark | None) -> MouseGesture | None:
-        """The gesture that a press begins."""
+        """Return the gesture that a press starts."""
         session, far, at_start = self.session, along(QApplication.startDragDistance() / 2), held.endswith("_start")
         if mark is not None:
             stays = partial(session.notice, Message("tempo.first_stays"), Severity.WARNING)
@@ -438,7 +438,7 @@ class Ruler(Retranslated, Strip):
             super().keyPressEvent(event)
 
     def event(self, event: QEvent) -> bool:
-        """Keys that mean the chosen mark come here first, before the window's actions."""
+        """Handle keys of the selected mark before the window's shortcuts."""
         if event.type() == QEvent.Type.ShortcutOverride and self._chosen is not None:
             assert isinstance(event, QKeyEvent)
             if event.key() in (*_REMOVING, *_EDITING, Qt.Key.Key_Escape):

@@ -1,4 +1,4 @@
-"""Drawing of the lane of takes: the comp in a strip above, then a row for each take."""
+"""Drawing of the takes lane: the comp in a strip above, and a row for each take."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ STRIP_PX: Final = 26.0
 MARGIN_PX: Final = 3.0
 LEAST_NOTE_PX: Final = 2.0
 PALE: Final = 95
-"""Opacity of what the part does not have."""
+"""Opacity of spans that are not used in the part."""
 
 
 class TakesView(LaneView, Protocol):
-    """Part of a lane of takes that is drawn; a protocol for the reason of `LaneView`."""
+    """Part of a takes lane needed for drawing; a protocol for the reason given at `LaneView`."""
 
     model: TakesModel
 
@@ -35,7 +35,7 @@ class TakesView(LaneView, Protocol):
 
 
 class TakesItem(LaneItem[TakesView]):
-    """All rows, drawn by arrays."""
+    """Draws all rows."""
 
     def paint_px(self, painter: QPainter, exposed: QRectF) -> None:
         lane = self.lane
@@ -60,7 +60,7 @@ class TakesItem(LaneItem[TakesView]):
         painter.drawText(box, Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap, lane.empty_text())
 
     def _boxes(self, spans: tuple[CompSpan, ...], top: float, height: float) -> list[tuple[CompSpan, QRectF]]:
-        """Boxes of the spans that are in view."""
+        """Return the rectangles of visible spans."""
         axis, clock = self.lane.axis, self.lane.session.project.score.tempo_map
         found = []
         for span in spans:
@@ -155,7 +155,7 @@ class TakesItem(LaneItem[TakesView]):
             draw_lines(painter, x0, y0, x1, y1, pen)
 
     def _pitch_px(self, pitches: FloatArray, box: QRectF) -> tuple[FloatArray, float]:
-        """Tops of notes, and how high they are."""
+        """Return the tops and the height of notes in pixels."""
         low, high = self.lane.model.pitches
         step = (box.height() - 2 * MARGIN_PX) / (high - low + 1)
         height = max(step, LEAST_NOTE_PX)
@@ -163,7 +163,7 @@ class TakesItem(LaneItem[TakesView]):
         return tops, height
 
     def _paint_selected(self, painter: QPainter) -> None:
-        """The selected span, in the row that the part has it from; during a swipe, what is swiped over."""
+        """Draw the selected span in the row of its take, or the swiped range."""
         lane = self.lane
         outlined = lane.model.outlined()
         number = lane.model.number_of(outlined.take_id) if outlined is not None else None

@@ -1,5 +1,6 @@
-"""The heads of the takes: colour, name and when it was played; a click selects, a double click takes the whole, a drag
-puts the lane elsewhere."""
+"""Headings of the takes with colour, name and time: a click selects, a double click uses the whole take, a drag
+reorders.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +36,7 @@ DRAG_PX: Final = 6.0
 
 
 class Headed(TakesView, Protocol):
-    """Lane whose takes have heads, and what heads do with it; a protocol for the reason of `LaneView`."""
+    """Part of the lane needed by the headings; a protocol for the reason given at `LaneView`."""
 
     @property
     def header(self) -> QWidget: ...
@@ -51,12 +52,12 @@ class Headed(TakesView, Protocol):
 
 
 class TakeHeads(Retranslated, QWidget):
-    """Names of the rows, in the lane's header.
+    """Names of the rows in the lane's header.
 
     Attributes
     ----------
     dropped_before : int or None
-        While a head is dragged: the number of the row before which its lane would lie.
+        During a drag, the index of the row before which the take would be placed.
     """
 
     def __init__(self, lane: Headed) -> None:
@@ -81,7 +82,7 @@ class TakeHeads(Retranslated, QWidget):
         return self.tr("take_heads.before") if row.take is None else row.take.name
 
     def tip(self, row: TakeRow) -> str:
-        """Say when and with what a take was played, and what can be done with it."""
+        """Return the time and device of a take, and the possible actions."""
         if row.take is None:
             return self.tr("take_heads.original_part_tip")
         take = row.take
@@ -94,7 +95,7 @@ class TakeHeads(Retranslated, QWidget):
     # Renaming
 
     def type_name(self, take_id: str) -> None:
-        """Type a take's name where it stands."""
+        """Open a field for a take's name."""
         number, take = self._lane.model.number_of(take_id), self._lane.model.take_of(take_id)
         if number is None or take is None:
             return

@@ -1,4 +1,4 @@
-"""The lane of takes: what was recorded of the player in front, a row for each take, and which of them the part has."""
+"""The takes lane: a row for each take of the active player, and the takes used in the part."""
 
 from __future__ import annotations
 
@@ -28,13 +28,14 @@ from widgets.timeline.zoom_and_scroll import TimeAxis
 
 ROW_PX, LEAST_ROW_PX, MOST_ROW_PX = 38, 24, 72
 SHOWN_ROWS, LEAST_SHOWN_ROWS = 6, 3
-"""The most rows of a lane, and the least; what does not fit is scrolled to."""
+"""Greatest and least number of visible rows; others are reached by scrolling."""
 EMPTY_PX = 62
 
 
 class TakesLane(RowLane):
-    """Takes one under another. Swiping over a row takes that span from that take; where two takes meet, the edge can be
-    dragged."""
+    """Takes below one another. Swiping over a row uses that span of the take; the boundary of two takes can be
+    dragged.
+    """
 
     id = "takes"
     preferred_height_px = EMPTY_PX
@@ -63,7 +64,7 @@ class TakesLane(RowLane):
         self.title.setText(self.tr("takes_lane.takes").format(count=count) if count else self.tr("takes_lane.takes_2"))
 
     def empty_text(self) -> str:
-        """Say how a take is made."""
+        """Return the text of an empty lane: how to record a take."""
         player = self.session.player
         if player is None:
             return self.tr("takes_lane.no_active_player")
@@ -77,7 +78,7 @@ class TakesLane(RowLane):
     # What is shown
 
     def refresh(self) -> None:
-        """Show the recordings of the player in front, if they have changed."""
+        """Show the active player's recordings, if they have changed."""
         if not self.model.refresh():
             if not self.rows:
                 self.update_items()
@@ -125,24 +126,24 @@ class TakesLane(RowLane):
 
     @property
     def rows(self) -> tuple[TakeRow, ...]:
-        """Row of what was there before, then the takes."""
+        """The row of the notes before the first take, then the takes."""
         return self.model.rows
 
     @property
     def comp(self) -> tuple[CompSpan, ...]:
-        """Spans of the comp, each with its take."""
+        """The spans of the comp, each with its take."""
         return self.model.comp
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
-        """The comp as it would be if the swipe ended here."""
+        """The comp as it would be if the swipe ended now."""
         return self.model.shown_comp()
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
-        """Spans that the part has of a take; of what was there before, the gaps of the comp."""
+        """Return the spans in which the part uses a take; for the notes before the first take, the gaps of the comp."""
         return self.model.shown_spans(take_id)
 
     def number_of(self, take_id: str) -> int | None:
-        """Row number of a take."""
+        """Return the row index of a take."""
         return self.model.number_of(take_id)
 
     # Where rows lie
@@ -174,7 +175,7 @@ class TakesLane(RowLane):
         self.show_row(take_id)
 
     def ask_name(self) -> None:
-        """Type the selected take's name where it stands."""
+        """Open a field for the selected take's name."""
         take_id = self.session.selection.take
         if take_id and self.model.take_of(take_id) is not None:
             self.set_folded(False)
@@ -182,7 +183,7 @@ class TakesLane(RowLane):
             self.heads.type_name(take_id)
 
     def take_span(self, take_id: str, start_tick: int, end_tick: int) -> None:
-        """Let the part have a span of a take, and select it."""
+        """Use a span of a take in the part, and select it."""
         if self.model.take_span(take_id, start_tick, end_tick):
             self.show_row(take_id)
 
@@ -282,7 +283,7 @@ class TakesLane(RowLane):
         return 0 if instrument is None else instrument.transposition_semitones
 
     def why(self, fault: Fault) -> str:
-        """Say why cleaning leaves a note out."""
+        """Return why cleaning omits a note."""
         return {
             "": "",
             "ghost": self.tr("takes_lane.short_and_soft_ghost_note"),
@@ -304,7 +305,7 @@ class TakesLane(RowLane):
         return self.menu()
 
     def menu(self) -> QMenu:
-        """Menu of the selected take."""
+        """Return the menu of the selected take."""
         menu = named(QMenu(self), "takes_menu")
         for group in (
             ("takes.listen", "takes.listen_alone"),
@@ -320,8 +321,9 @@ class TakesLane(RowLane):
     # Keys
 
     def key(self, event: QKeyEvent) -> bool:
-        """Up and Down choose another take for the selected span, else another take; Left and Right go to the spans
-        beside it."""
+        """Handle keys: Up and Down select another take for the selected span, or another take; Left and Right select
+        adjacent spans.
+        """
         key, modifiers = event.key(), event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
         if modifiers != Qt.KeyboardModifier.NoModifier or not self.rows:
             return False
@@ -340,7 +342,7 @@ class TakesLane(RowLane):
         return True
 
     def step(self, by: int) -> None:
-        """Take the selected span from the take above (-1) or below (1); without a span, select that take."""
+        """Use the take above (-1) or below (1) for the selected span; without a span, select that take."""
         selection, requested = self.session.selection, self.model.beside(by)
         if selection.span is None:
             self.choose(requested)

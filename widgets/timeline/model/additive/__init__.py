@@ -1,1 +1,1 @@
-"""Additive curves as the timeline shows them."""
+"""Additive curves as displayed in the timeline."""

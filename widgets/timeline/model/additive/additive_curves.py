@@ -1,4 +1,4 @@
-"""The lane of additive curves as values: the curves of a channel, where their keys and handles lie, what is hit."""
+"""Contents of the lane of additive curves: curves of a channel, positions of keys and handles, hit testing."""
 
 from __future__ import annotations
 
@@ -22,27 +22,27 @@ from app.score.tempo import TempoMap
 from widgets.timeline.model.gestures import Plane
 
 REACH_PX: Final = 7.0
-"""Distance within which a key, a handle or a blend is hit."""
+"""Distance in pixels within which a key, a handle or a blend is hit."""
 LINE_REACH_PX: Final = 5.0
-"""Distance within which a curve is hit."""
+"""Distance in pixels within which a curve is hit."""
 JOINS_BARS: Final = 1
-"""Bars from a curve's end within which a new key becomes one of the curve's."""
+"""Distance in bars from a curve's end within which a new key is added to that curve."""
 LEAST_RANGE: Final = {"deg": 12.0, "m": 0.03, "weight": 1.0}
-"""Least distance from 0 that a lane shows, by unit."""
+"""Least displayed distance from 0, by unit."""
 AIR: Final = 1.25
 DECIMALS: Final = {"deg": 1, "m": 3, "weight": 2}
-"""Decimals of values at the mouse, by unit."""
+"""Number of decimals of displayed values, by unit."""
 
 
 class KeyRef(NamedTuple):
-    """A key, by its curve's name and its tick."""
+    """A key, identified by its curve's name and its tick."""
 
     name: str
     tick: int
 
 
 class Hit(NamedTuple):
-    """Part of a curve that lies at a place.
+    """Part of a curve that is hit.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Hit(NamedTuple):
     name : str
         Of the curve.
     tick : int
-        Of the key; of a curve that of its first one.
+        Tick of the key; for a curve, that of its first key.
     """
 
     what: Literal["key", "arrive", "leave", "blend_in", "blend_out", "curve"]
@@ -64,21 +64,22 @@ class Hit(NamedTuple):
 
 BEYOND_STEP_S, BEYOND_SHARE = 0.01, 0.01
 """Step in seconds at which a curve is examined for values out of range, and the share of the range below which an
-excess is not marked."""
+excess is not marked.
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class ShownCurve:
-    """A curve as it is drawn, with all of its weight.
+    """A curve as displayed, with its full weight.
 
     Attributes
     ----------
     key_s : (K,) array
         Times of the keys.
     shape : tuple of CurveSegment
-        From when it begins to come in to when it is gone.
+        Segments from the start of the fade-in to the end of the fade-out.
     table : (S, 9) array
-        The same.
+        The segments as an array.
     """
 
     curve: AdditiveCurve
@@ -95,12 +96,12 @@ class ShownCurve:
 
     @property
     def start_s(self) -> float:
-        """Time at which it begins to come in."""
+        """Start time of the fade-in in seconds."""
         return self.shape[0].start_s
 
     @property
     def end_s(self) -> float:
-        """Time at which it is gone."""
+        """End time of the fade-out in seconds."""
         return self.shape[-1].end_s
 
     def values(self, times_s: FloatArray) -> FloatArray:
@@ -108,7 +109,7 @@ class ShownCurve:
         return sampled_rows(self.table, times_s)
 
     def beyond_s(self, limits: tuple[float, float]) -> list[tuple[float, float]]:
-        """Stretches (seconds, in order) where what is added goes further than the body, by more than rounding."""
+        """Return the spans (seconds, in order) in which added values exceed the body's range by more than rounding."""
         if not self.curve.enabled or not self.shape:
             return []
         times_s = np.arange(self.start_s, self.end_s + BEYOND_STEP_S, BEYOND_STEP_S)
@@ -119,7 +120,7 @@ class ShownCurve:
         return [(float(times_s[first]), float(times_s[last - 1]) + BEYOND_STEP_S) for first, last in turns.tolist()]
 
     def handles(self, at: int) -> Iterable[tuple[Side, float, float]]:
-        """Side, time and value of the handles that a key has: where its curve is a Bézier there."""
+        """Yield side, time and value of a key's handles, which it has next to Bézier segments."""
         start_s = float(self.key_s[at])
         for segment in self.shape:
             if segment.eased:
@@ -139,7 +140,7 @@ def shown_curves(project: Project, player_id: str, channel: str) -> tuple[ShownC
 
 
 def vertical_range(channel: str, curves: Sequence[ShownCurve], generated: FloatArray | None) -> float:
-    """Distance from 0 that a lane shows: all keys and handles, and what is generated."""
+    """Return the displayed distance from 0, which includes all keys, handles and generated values."""
     unit = CHANNELS[channel].unit
     most = LEAST_RANGE[unit]
     for shown in curves:
@@ -152,15 +153,16 @@ def vertical_range(channel: str, curves: Sequence[ShownCurve], generated: FloatA
 
 
 def rounded(channel: str, value: float) -> float:
-    """A value as a hand gives it."""
+    """Return a value rounded to the decimals of its unit."""
     return round(value, DECIMALS[CHANNELS[channel].unit])
 
 
 def hit(
     curves: Sequence[ShownCurve], selected: Collection[KeyRef], plane: Plane, x_px: float, y_px: float
 ) -> Hit | None:
-    """Find what lies at a place: handles of selected keys before keys, keys before blends and curves; the nearest of
-    several."""
+    """Return the object at a point: handles of selected keys before keys, keys before blends and curves; the nearest of
+    several.
+    """
     found: list[tuple[int, float, Hit]] = []
 
     def near(rank: int, time_s: float, value: float, what: Hit) -> None:
@@ -194,8 +196,9 @@ def hit(
 
 
 def joined(curves: Sequence[ShownCurve], project: Project, tick: int, active: str | None) -> str | None:
-    """The curve that a key at a tick becomes part of: the active one or else the nearest, where it is there or hardly
-    beside it."""
+    """Return the name of the curve that a new key at a tick is added to: the active one, else the nearest that covers
+    or nearly reaches the tick.
+    """
     metres = project.score.metre_map
     bar = metres.bar_of_tick(max(tick, 0))
     reach = JOINS_BARS * (metres.tick_of_bar(bar + 1) - metres.tick_of_bar(bar))
@@ -221,7 +224,7 @@ def keys_in(
 
 
 def by_curve(keys: Iterable[KeyRef]) -> dict[str, frozenset[int]]:
-    """Ticks of keys by their curves, as edits have them."""
+    """Return the ticks of keys by curve, in the form for edits."""
     result: dict[str, set[int]] = {}
     for key in keys:
         result.setdefault(key.name, set()).add(key.tick)
@@ -235,7 +238,7 @@ def chosen_keys(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> t
 
 
 def still_there(curves: Sequence[ShownCurve], selected: Collection[KeyRef]) -> frozenset[KeyRef]:
-    """The selected keys that still exist."""
+    """Return the selected keys that still exist."""
     known = {KeyRef(shown.curve.name, key.tick) for shown in curves for key in shown.curve.keys}
     return frozenset(selected) & known
 
@@ -246,7 +249,7 @@ def clip_text(channel: str, keys: Sequence[CurveKey]) -> bytes:
 
 
 def clip_keys(content: bytes, channel: str) -> tuple[CurveKey, ...]:
-    """Keys of the clipboard for a channel; none where they are of another unit, or no keys at all."""
+    """Return the clipboard's keys for a channel; empty if they have another unit or are invalid."""
     try:
         clip = decode_json(content, _Clip, "")
     except FileError:

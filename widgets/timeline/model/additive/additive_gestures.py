@@ -1,4 +1,4 @@
-"""Drags of additive curves: keys move, handles turn, blends become longer."""
+"""Drags of keys, handles and blends of additive curves."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from widgets.timeline.model.gestures import DRAG_PX, EditGesture, Editing, LiveE
 from widgets.timeline.model.lane_mouse import LaneMouse
 
 FINE: Final = 0.2
-"""Factor with Shift from the mouse's way to that of keys, which are then free of the grid."""
+"""Factor of the mouse's distance with Shift, which also disables the grid."""
 ALIGNED: Final = 1e-3
-"""Handles whose slopes differ by no more than this share turn together."""
+"""Greatest difference of slopes at which both handles of a key turn together."""
 
 
 class DragKeys(EditGesture):
-    """The selected keys go with the mouse: in time to the grid, Alt free of it, Ctrl in one direction only.
+    """Drag of selected keys: snapped to the grid in time, with Alt freely, with Ctrl in one direction only.
 
     Parameters
     ----------
     grabbed : KeyRef
-        The key under the mouse: it is the one that goes to the grid.
+        Key under the mouse, which is snapped to the grid.
     keys : frozenset of KeyRef
-        All that move.
+        All moving keys.
     moved : callable
-        Gets the keys as they are called after each move.
+        Called with the new names of the keys after each move.
     """
 
     def __init__(
@@ -77,12 +77,12 @@ class DragKeys(EditGesture):
 
 
 class DragHandle(EditGesture):
-    """A handle goes with the mouse; the other one turns with it while both are in line, unless Ctrl is held.
+    """Drag of a handle; the other one turns with it if both are aligned, unless Ctrl is held.
 
     Parameters
     ----------
     shown : ShownCurve
-        As it is at the press.
+        Curve at the press.
     at_key : int
         Number of the key.
     """
@@ -122,7 +122,7 @@ class DragHandle(EditGesture):
 
 
 def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tangent]:
-    """The handles that a key has, as they lie, also those that are automatic."""
+    """Return the handles of a key including automatic ones."""
     key = shown.curve.keys[at_key]
     return {
         side: Tangent(max(abs(round(clock.ticks(time_s)) - key.tick), 1), value - key.value)
@@ -131,7 +131,7 @@ def _tangents(shown: ShownCurve, at_key: int, clock: TempoMap) -> dict[Side, Tan
 
 
 def in_line(tangents: dict[Side, Tangent]) -> bool:
-    """True if both handles lie in one line through their key."""
+    """Return whether both handles are aligned with their key."""
     if len(tangents) < 2:
         return False
     one, other = (handle.value / handle.ticks for handle in (tangents["leave"], tangents["arrive"]))
@@ -139,7 +139,7 @@ def in_line(tangents: dict[Side, Tangent]) -> bool:
 
 
 class DragBlend(EditGesture):
-    """A drag that lets a curve fade in or out earlier or later, snapped to the grid unless Alt is held."""
+    """Drag of the end of a fade of a curve, snapped to the grid unless Alt is held."""
 
     def __init__(
         self, session: Editing, origin: object, at: LaneMouse, player_id: str, name: str, key_tick: int, at_start: bool

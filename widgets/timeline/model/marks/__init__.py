@@ -1,1 +1,1 @@
-"""Marks of the composer on the timeline: where they lie, and the hand that moves them."""
+"""Positions and drags of the composer's marks in the timeline."""

@@ -1,4 +1,4 @@
-"""The hand that moves a mark: to another note, to another tick, or an end of it."""
+"""Drag of a mark, or of one of its ends, to another note or tick."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from widgets.timeline.model.marks.shown_marks import MarkSession, ShownMarks
 from widgets.timeline.model.roll.note_table import NoteTable
 
 Zone: TypeAlias = Literal["first", "last", "whole"]
-"""The beginning of a mark, its end, or all of it."""
+"""Dragged part of a mark: its beginning, its end, or all of it."""
 FAR_PX = 3.0
 
 
@@ -32,14 +32,15 @@ class MarkPlane(Protocol):
 
 
 class MarkDrag(MouseGesture):
-    """Drag a mark. Nothing of the piece changes before the button goes up: `ShownMarks.preview` has it as it would be.
+    """Drag of a mark. The piece changes only when the button is released; before that, `ShownMarks.preview` has the
+    result.
 
     Parameters
     ----------
     zone : str
-        What is dragged of it.
+        Dragged part.
     notes : NoteTable, optional
-        Those of the player in front, for a mark that is anchored to notes.
+        Notes of the active player, for a mark anchored to notes.
     """
 
     def __init__(
@@ -52,7 +53,7 @@ class MarkDrag(MouseGesture):
 
     @property
     def shown(self) -> Mark:
-        """The mark as it would be."""
+        """The mark at its new place."""
         preview = self._plane.marks.preview
         return preview[1] if preview is not None else self.mark
 
@@ -66,7 +67,7 @@ class MarkDrag(MouseGesture):
         self._plane.show_marks()
 
     def _to_ticks(self, mouse: LaneMouse) -> Mark:
-        """Move a mark that is anchored to ticks, on the grid."""
+        """Return a mark anchored to ticks, moved on the grid."""
         mark, grid, score = self.mark, self._session.grid, self._base.score
         by_tick = mouse.tick - self.at.tick
         if self._zone == "whole":
@@ -79,7 +80,7 @@ class MarkDrag(MouseGesture):
         return replace(mark, tick=max(start, 0), end_tick=end)
 
     def _to_note(self, mouse: LaneMouse, notes: NoteTable) -> Mark:
-        """Move a mark that is anchored to notes, or an end of it, to the nearest note."""
+        """Return a mark anchored to notes, with it or an end of it moved to the nearest note."""
         mark = self.mark
         place = notes.nearest(mouse.time_s)
         if place is None:

@@ -1,4 +1,4 @@
-"""Room and place of every kind of mark at its note, as engravers set them: a row for each."""
+"""Size and position of every kind of mark relative to its note, as in engraving."""
 
 from __future__ import annotations
 
@@ -9,21 +9,20 @@ Place = Literal["stack", "end", "after", "before", "next"]
 
 
 class MarkLook(NamedTuple):
-    """Place of a kind of mark.
+    """Size and position of a kind of mark.
 
     Attributes
     ----------
     order : int
-        From the note outwards: those of a note that stand above one another.
+        Order from the note outwards among stacked marks.
     width, height : float
         In units (`PlacedMarks.unit_px`); of text the height of a line counts instead.
     place : {"stack", "end", "after", "before", "next"}
-        Above the note's beginning, above its end, a line from its end on, a line to its beginning, a line to the next
-        note.
+        Above the note's start, above its end, a line from its end, a line to its start, a line to the next note.
     under_slur : bool
-        Whether a slur goes over it.
+        Whether a slur passes above it.
     is_text : bool
-        Whether the mark's own text is written.
+        Whether the mark's own text is drawn.
     """
 
     order: int
@@ -61,4 +60,4 @@ LOOKS: Final[Mapping[str, MarkLook]] = {
     "plop": MarkLook(0, 2.4, 2.4, "before"),
     "glissando": MarkLook(0, 0.0, 0.0, "next"),
 }
-"""Looks of the kinds that are anchored to one note, or to those that an ornament was written out in."""
+"""Looks of the kinds anchored to one note, or to the notes of a written-out ornament."""

@@ -1,4 +1,4 @@
-"""A player's marks as arrays, sorted to the notes that they belong to."""
+"""A player's marks as arrays, assigned to their notes."""
 
 from __future__ import annotations
 
@@ -16,30 +16,30 @@ from widgets.timeline.model.marks.mark_looks import LOOKS
 from widgets.timeline.model.roll.note_table import NoteTable
 
 GAP_UNITS = 0.55
-"""Between a mark and what it stands on."""
+"""Gap between a mark and the note or mark below it."""
 
 
 class MarkList:
-    """The marks of one player, whatever its notes are.
+    """The marks of one player, independent of its notes.
 
     Parameters
     ----------
     origins : mapping of Mark to str
-        Each with where it is from, as `app.project.edit.marks.player_marks` has them.
+        Marks with their origins, as in `app.project.edit.marks.player_marks`.
 
     Attributes
     ----------
     marks : list of Mark
     by_hand : array (N,)
-        Which of them the user wrote.
+        Which marks the user wrote.
     by_id : dict of str to int
         Their numbers.
     over_notes, at_notes, at_ticks : array
-        Numbers of the marks over several notes, at one note, and at ticks.
+        Indices of the marks over several notes, at one note, and at ticks.
     order, height, line : array
-        Of those at one note: from the note outwards, heights in units and in lines of text.
+        For marks at one note: order from the note outwards, heights in units and in lines of text.
     is_stacked, is_outer : array
-        Of those at one note: above its beginning; and above slurs.
+        For marks at one note: whether stacked above its start, and whether above slurs.
     """
 
     def __init__(self, origins: Mapping[Mark, Origin]) -> None:
@@ -65,16 +65,16 @@ def _numbers(found: object) -> IntArray:
 
 
 class NoteSpans(NamedTuple):
-    """Marks over several notes, ascending by the first.
+    """Marks over several notes, ascending by the first note.
 
     Attributes
     ----------
     mark, first, last : array (N,)
-        Number of the mark, places of its first and last note.
+        Index of the mark, indices of its first and last note.
     inner : array (N,)
-        Levels of others that lie within: each goes over those.
+        Number of levels of other marks within, which it passes above.
     chained_first, chained_last : array (N,)
-        Whether another one ends at the first note, and begins at the last.
+        Whether another mark ends at the first note, and whether one begins at the last note.
     """
 
     mark: IntArray
@@ -91,9 +91,9 @@ class MarksAtNotes(NamedTuple):
     Attributes
     ----------
     mark, note, last : array (N,)
-        Number of the mark, places of its note and of the last note that it was written out in.
+        Index of the mark, indices of its note and of the last note of its written-out form.
     units, lines : array (N,)
-        Height of the marks between it and the note or the slur below, in units and in lines of text.
+        Height of the marks between it and the note or slur below, in units and in lines of text.
     is_stacked, is_outer : array (N,)
         As of `MarkList`.
     """
@@ -108,16 +108,16 @@ class MarksAtNotes(NamedTuple):
 
 
 class MarkTable:
-    """The marks of one player, sorted to its notes; those whose notes are gone are left out.
+    """The marks of one player, assigned to its notes; marks without notes are omitted.
 
     Attributes
     ----------
     slurs : NoteSpans
     spans : TimeSpans
-        When these sound.
+        Times during which the spans sound.
     at_notes : MarksAtNotes
     under_slurs : array (N,)
-        Heights of what stands on each note under a slur, in units.
+        Height of the marks on each note below a slur, in units.
     """
 
     def __init__(self, notes: NoteTable, of_player: MarkList) -> None:
@@ -132,7 +132,7 @@ class MarkTable:
         np.add.at(self.under_slurs, at.note[inner], heights[inner])
 
     def _places(self, numbers: IntArray) -> tuple[IntArray, IntArray]:
-        """Places of the first and the last notes of marks, -1 where they are gone."""
+        """Return the indices of the first and last notes of marks, -1 if a note does not exist."""
         marks, index, count = self.of_player.marks, self.notes.index, len(numbers)
         chosen = [marks[number] for number in numbers.tolist()]
         first = np.fromiter(map(index.get, (mark.note_id for mark in chosen), repeat(-1)), np.int64, count)
@@ -162,15 +162,14 @@ class MarkTable:
 
 
 def _within(heights: FloatArray, starts: IntArray, stack: IntArray) -> FloatArray:
-    """Sums of the heights before each one in its own stack."""
+    """Return the cumulative heights before each mark in its stack."""
     before = np.cumsum(heights) - heights
     result: FloatArray = before - before[starts][stack]
     return result
 
 
 def _nested(first: IntArray, last: IntArray) -> IntArray:
-    """Levels of other spans within each: ascending by the first, of those that begin together the longer
-    before."""
+    """Return the number of levels of other spans within each span; ascending by the first note, longer ones first."""
     levels = [0] * len(first)
     opened: list[tuple[int, int]] = []
     ends = last.tolist()

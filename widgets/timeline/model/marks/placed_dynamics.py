@@ -1,4 +1,4 @@
-"""Places of dynamics and hairpins in their lane: letters at their ticks, wedges that leave room for the letters."""
+"""Positions of dynamics and hairpins in their lane: letters at their ticks, wedges that leave space for letters."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from widgets.timeline.model.visible_time import Scale
 GAP_PX: Final = 4.0
 LEAST_HAIRPIN_PX = 5.0
 LEAST_MARK_PX = 4.0
-"""Least room for each mark; with less, none is drawn."""
+"""Least space in pixels for each mark; with less, none is drawn."""
 EDGE_PX = 6.0
 BEHIND_PX = 80.0
-"""Distance before the plot from which letters may still reach into it."""
+"""Distance in pixels before the plot from which letters may still reach into it."""
 
 
 class TimedMarks:
@@ -36,8 +36,8 @@ class TimedMarks:
         In `MarkList.marks`.
     spans : TimeSpans
     last_tick : int or None
-        End of a part read from sound: there a dynamic visibly takes the place of what is heard up to the next mark,
-        or the end. None: of a part of a score.
+        End tick of a part read from sound, in which a dynamic visibly replaces the heard loudness until the next mark
+        or the end. None for a part of a score.
     """
 
     def __init__(self, of_player: MarkList, tempo: TempoMap, last_tick: int | None = None) -> None:
@@ -54,7 +54,7 @@ class TimedMarks:
         self.spans = TimeSpans(tempo.seconds(ticks), tempo.seconds(np.maximum(ticks, ends)))
 
     def _held(self) -> list[int]:
-        """Ticks up to which dynamics without an end visibly hold; 0 for other marks."""
+        """Return the ticks until which dynamics without an end are in effect; 0 for other marks."""
         marks = [self.of_player.marks[number] for number in self.numbers]
         if self.last_tick is None:
             return [0] * len(marks)
@@ -68,19 +68,19 @@ class TimedMarks:
 
 
 class PlacedDynamic(NamedTuple):
-    """A dynamic or a hairpin in pixels.
+    """A dynamic or hairpin in pixels.
 
     Attributes
     ----------
     mark : int
         Number in `MarkList.marks`.
     box : PixelRect
-        Of a hairpin the wedge, of a dynamic its letters.
+        Rectangle of the wedge or the letters.
     end_px : float or None
-        Of a dynamic that holds up to a place.
+        End of a dynamic with an explicit end.
     is_hairpin : bool
     holds_px : float or None
-        Of a dynamic without an end, in a part read from sound: where the next mark or the end of the part is.
+        For a dynamic without an end in a part read from sound: position of the next mark or the end of the part.
     """
 
     mark: int
@@ -90,7 +90,7 @@ class PlacedDynamic(NamedTuple):
     holds_px: float | None = None
 
     def zone_at(self, x_px: float, y_px: float) -> Zone | None:
-        """The part of it under the mouse, if any."""
+        """Return the part of the mark under the mouse, if any."""
         reach = self.box if self.end_px is None else self.box._replace(right=max(self.end_px, self.box.right))
         if not reach.contains(x_px, y_px, slack_px=EDGE_PX if self.is_hairpin else 2.0):
             return None
@@ -113,18 +113,18 @@ def placed_dynamics(
     width_of: Callable[[str], float],
     kept: frozenset[int] = frozenset(),
 ) -> Sequence[PlacedDynamic]:
-    """Place what is visible.
+    """Return the visible marks with their positions.
 
     Parameters
     ----------
     span_s : (float, float)
-        Times that are drawn.
+        Start and end time in seconds.
     band : (float, float)
         Top and bottom of the letters, pixels.
     width_of : callable
         Width of a dynamic's letters, pixels.
     kept : frozenset of int
-        Numbers of marks that are drawn even where they lie over others.
+        Indices of marks that are drawn even if they overlap others.
     """
     marks = timed.of_player.marks
     start_s, end_s = span_s

@@ -1,4 +1,4 @@
-"""Places of marks in the plot's pixels: glyphs stacked on their notes, slurs that clear what they go over."""
+"""Positions of marks in the plot's pixels: glyphs stacked on notes, slurs that avoid obstacles."""
 
 from __future__ import annotations
 
@@ -16,29 +16,31 @@ from widgets.timeline.model.visible_time import Scale
 
 LEAST_ROW_PX = 2.5
 LEAST_GLYPH_PX, LEAST_SLUR_PX = 5.0, 12.0
-"""Least room for each; with less, none is drawn: they could not be told apart."""
+"""Least sizes in pixels below which glyphs and slurs are not drawn, since they would be illegible."""
 LEAST_UNIT_PX, MOST_UNIT_PX = 3.8, 5.5
 UNITS_A_ROW = 0.42
 BEHIND_PX = 240.0
-"""Distance before the plot from which marks of notes may still reach into it."""
+"""Distance in pixels before the plot from which marks may still reach into it."""
 GAP_PX = 2.0
 INSET, MOST_INSET_PX = 0.3, 8.0
-"""Distance of a slur's ends from the outer ends of its notes: a share of the notes' width, and the most."""
+"""Distance of a slur's ends from the outer ends of its notes: share of the notes' width, and greatest distance in
+pixels.
+"""
 WARNING_PX = 9.0
-"""Height of a warning on a note, which marks stand above."""
+"""Height in pixels of a warning on a note, below its marks."""
 STEEPNESS = 0.18
-"""Distance of a slur's handles from its ends, as a share of its width."""
+"""Distance of a slur's control points from its ends, relative to its width."""
 LEAST_LIFT_PX, USUAL_LIFT_PX, MOST_LIFT_PX = 4.0, 13.0, 40.0
 STEEP_PX = 24.0
-"""A slur that would cross the height of its first or last note by more begins or ends at that note's other corner."""
+"""Difference in pixels from which a slur crossing its first or last note begins or ends at that note's other corner."""
 TURNS = 4
-"""Iterations after which hardly anything is left in the way of a slur."""
+"""Number of iterations after which slurs avoid nearly all obstacles."""
 BELOW_COSTS_PX = 10.0
-"""A slur is below its notes where above it would have to be higher by more than this."""
+"""Additional height in pixels above which a slur is drawn below its notes."""
 END_PX = 7.0
-"""Distance within which an end of a slur is caught."""
+"""Distance in pixels within which an end of a slur is hit."""
 NEAR_PX = 4.0
-"""Distance above or below a slur within which it is caught."""
+"""Vertical distance in pixels within which a slur is hit."""
 
 _T: Final = np.linspace(0.0, 1.0, 65)
 _ALONG: Final = 3 * (1 - _T) ** 2 * _T * STEEPNESS + 3 * (1 - _T) * _T**2 * (1 - STEEPNESS) + _T**3
@@ -46,7 +48,7 @@ _HEIGHT: Final = 4 * _T * (1 - _T)
 
 
 def arc_height(share: FloatArray) -> FloatArray:
-    """Height of a slur at a share 0..1 of its width, of its greatest."""
+    """Return the height of a slur relative to its maximum at a share 0..1 of its width."""
     height: FloatArray = np.interp(share, _ALONG, _HEIGHT)
     return height
 
@@ -63,7 +65,7 @@ class Arcs(NamedTuple):
     lift : array
         Height in the middle above the line from end to end; negative below the notes.
     is_bracket : array
-        Straight, of notes that are expressly tongued one by one.
+        Whether it is straight, over notes expressly tongued one by one.
     """
 
     mark: IntArray
@@ -91,9 +93,9 @@ class Glyphs(NamedTuple):
     mark : array
         Numbers in `MarkList.marks`.
     x, y : array
-        Middle of the lower edge; of a line its beginning or, where it leads to a note, its end.
+        Middle of the lower edge; for a line its beginning, or its end if it leads to a note.
     x_end, y_end : array
-        Where a trill's line or a glissando ends.
+        End of a trill's line or a glissando.
     """
 
     mark: IntArray
@@ -104,7 +106,7 @@ class Glyphs(NamedTuple):
 
 
 class PlacedMarks(NamedTuple):
-    """The marks of a player that are drawn in a part of the plot."""
+    """The drawn marks of a player in a section of the plot."""
 
     table: MarkTable
     unit_px: float
@@ -130,7 +132,7 @@ class PlacedMarks(NamedTuple):
         return PixelRect(x - width / 2, y - height, right, y)
 
     def glyph_at(self, x_px: float, y_px: float) -> int | None:
-        """Number of the mark of which the glyph lies at a place."""
+        """Return the index of the mark whose glyph is at a point."""
         glyphs = self.glyphs
         near = np.flatnonzero((glyphs.x - x_px < 40.0) & (np.fmax(glyphs.x, glyphs.x_end) - x_px > -40.0))
         for place in near[::-1].tolist():
@@ -140,7 +142,7 @@ class PlacedMarks(NamedTuple):
         return None
 
     def arc_end_at(self, x_px: float, y_px: float) -> tuple[int, bool] | None:
-        """Number of the slur of which an end lies at a place, and whether it is the first."""
+        """Return the index of the slur with an end at a point, and whether it is the first end."""
         arcs = self.arcs
         found = []
         for is_first, x, y in ((True, arcs.x0, arcs.y0), (False, arcs.x1, arcs.y1)):
@@ -150,7 +152,7 @@ class PlacedMarks(NamedTuple):
         return min(found)[1:] if found else None
 
     def arc_at(self, x_px: float, y_px: float) -> int | None:
-        """Number of the slur that passes a place."""
+        """Return the index of the slur at a point."""
         arcs = self.arcs
         over = np.flatnonzero((arcs.x0 - 2.0 <= x_px) & (x_px <= arcs.x1 + 2.0))
         if not len(over):
@@ -159,7 +161,7 @@ class PlacedMarks(NamedTuple):
         return int(arcs.mark[over[away.argmin()]]) if away.min() <= NEAR_PX else None
 
     def place_of(self, mark: int) -> tuple[float, float] | None:
-        """A place where a mark is caught; None where it is not drawn."""
+        """Return a point at which a mark is hit; None if it is not drawn."""
         at = np.flatnonzero(self.glyphs.mark == mark)
         if len(at):
             left, top, right, bottom = self.box_of_glyph(int(at[0]))
@@ -172,7 +174,7 @@ class PlacedMarks(NamedTuple):
 
 
 class MarkRoom(NamedTuple):
-    """The part of the plot that marks are placed in.
+    """The section of the plot for placing marks.
 
     Attributes
     ----------
@@ -184,11 +186,11 @@ class MarkRoom(NamedTuple):
     highest : float
         Pitch at the upper edge.
     start_s, end_s : float
-        What is drawn.
+        Start and end of the drawn time span in seconds.
     below_px : float
-        Below each note as much is taken by its fingering.
+        Height in pixels below each note that its fingering takes.
     warned : sequence of int
-        Places of the notes with a warning on them.
+        Indices of the notes with a warning.
     """
 
     axis: Scale
@@ -204,7 +206,7 @@ class MarkRoom(NamedTuple):
 
 
 def placed_marks(table: MarkTable, room: MarkRoom) -> PlacedMarks | None:
-    """Place the marks of a part of the plot; None where there are none, or where they would be too small."""
+    """Return the marks of a section of the plot with positions; None if there are none or they would be too small."""
     if not table.of_player.marks or room.row_px < LEAST_ROW_PX:
         return None
     behind_s = BEHIND_PX / room.axis.px_per_s
@@ -225,7 +227,7 @@ def placed_marks(table: MarkTable, room: MarkRoom) -> PlacedMarks | None:
 
 
 class _Placing:
-    """Notes ``first`` to before ``end`` in pixels, and what is placed on them."""
+    """Notes from ``first`` to before ``end`` in pixels, with placed marks."""
 
     def __init__(self, table: MarkTable, room: MarkRoom, first: int, end: int) -> None:
         self.table, self.room, self.first = table, room, first
@@ -310,7 +312,7 @@ class _Placing:
 
 
 class _Cleared(NamedTuple):
-    """Ends and heights of slurs above their notes, and how far they are from what is usual: pixels."""
+    """Ends and heights of slurs above their notes, and their deviation from the usual shape in pixels."""
 
     x0: FloatArray
     y0: FloatArray
@@ -321,7 +323,7 @@ class _Cleared(NamedTuple):
 
 
 class _Over:
-    """Slurs with the notes that they go over, a pair for each of these.
+    """Pairs of slurs and notes below them.
 
     Attributes
     ----------
@@ -340,14 +342,14 @@ class _Over:
         self, top: FloatArray, edges: tuple[FloatArray, FloatArray], ends: tuple[FloatArray, FloatArray],
         away: FloatArray, is_straight: BoolArray,
     ) -> _Cleared:  # fmt: skip
-        """Slurs that clear the upper edges of notes by ``away``.
+        """Return slurs at a distance ``away`` above the notes.
 
         Parameters
         ----------
         edges : two arrays (N,)
             Left and right ends of the notes.
         ends : two arrays (N,)
-            Where the slurs begin and end.
+            Start and end positions of the slurs.
         """
         owner, note = self.owner, self.note
         left, right = edges

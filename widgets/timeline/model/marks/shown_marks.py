@@ -1,4 +1,4 @@
-"""The marks of the player in front, and which of them are selected."""
+"""The marks of the active player, and the selection among them."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class MarkSession(Editing, Protocol):
 
 
 class ShownMarks:
-    """The marks of the player in front, sorted once for each value of them.
+    """The active player's marks, sorted once for each change.
 
     Attributes
     ----------
     shown : bool
-        Whether they are to be seen.
+        Whether marks are visible.
     preview : (Mark, Mark) or None
-        A mark in mid-drag, and as it would be.
+        A dragged mark, before and after.
     """
 
     def __init__(self, session: MarkSession) -> None:
@@ -45,7 +45,7 @@ class ShownMarks:
 
     @property
     def of_player(self) -> MarkList:
-        """The marks of the player in front; none where they are not to be seen."""
+        """The marks of the active player; empty if marks are hidden."""
         player = self._session.player
         if not self.shown or player is None:
             return _NONE
@@ -66,7 +66,7 @@ class ShownMarks:
         return self._list
 
     def table(self, notes: NoteTable) -> MarkTable | None:
-        """The marks sorted to the notes of the player in front; None where there are none."""
+        """Return the marks assigned to the active player's notes; None if there are none."""
         of_player = self.of_player
         if not of_player.marks:
             return None
@@ -81,7 +81,7 @@ class ShownMarks:
 
     @property
     def selected(self) -> frozenset[int]:
-        """Numbers of the selected marks, and of one in mid-drag."""
+        """Return the indices of the selected marks and of a dragged one."""
         player, events, by_id = self._session.player, self._session.selection.events, self.of_player.by_id
         ids = {key.event_id for key in events if player is not None and key.player_id == player.id}
         if self.preview is not None:
@@ -89,7 +89,7 @@ class ShownMarks:
         return frozenset(by_id[id] for id in ids if id in by_id) if ids else frozenset()
 
     def select(self, mark: Mark, add: bool = False, toggle: bool = False) -> None:
-        """Select a mark, alone or with what is selected already."""
+        """Select a mark, alone or in addition."""
         key, events = self.key(mark), self._session.selection.events
         if add or toggle:
             self._session.select(Selection(events=events ^ {key} if toggle else events | {key}))

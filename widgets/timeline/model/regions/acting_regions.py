@@ -1,4 +1,4 @@
-"""The regions of the lane of acting: cues, expressions, poses and gestures, each kind in rows of its own."""
+"""Regions of the acting lane: cues, expressions, poses and gestures, each kind in rows of its own."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from widgets.timeline.model.geometry import packed_rows
 from widgets.timeline.model.regions.shown_event import Region
 
 _ROWS: Final = ("cue", "expression", "pose", "beside", "bell_height", "weight_shift", "feet", "sway", "lean", "accent")
-"""Rows from the top; those of other kinds of gestures are below."""
+"""Kinds in rows from the top; other kinds of gestures are below."""
 ROW_OF: Final[Mapping[str, str]] = {
     **{kind.id: kind.row or kind.id for kind in GESTURES},
     **{kind: kind for kind in ("cue", "expression", "pose")},
@@ -28,15 +28,15 @@ GROUPS: Final = tuple(
 )
 """Kinds that share rows, from the top."""
 VARIED = "vary"
-"""Bars performed anew: not an event, but the user chose it; its row is there only with them, above all others."""
+"""Kind of bars with another variation, in a row above all others that is visible only if there are any."""
 STYLE = "style"
-"""Bars played in another style: their row too is there only with them."""
+"""Kind of bars with another style, in a row that is visible only if there are any."""
 STRIPS: Final = tuple(kind.id for kind in GESTURES if kind.look != "span")
-"""Kinds of which there are so many that what is generated is drawn as one calm strip."""
+"""Kinds so frequent that generated events are drawn as one dim strip."""
 CURVES: Final = tuple(kind.id for kind in GESTURES if kind.look == "curve")
-"""Kinds of these that go on from where the one before ended."""
+"""Kinds among these whose curve continues from the previous event."""
 BASE = "expression:neutral"
-"""The face beneath all others, as long as the piece: a thin line at the foot of its row."""
+"""Id of the underlying face for the whole piece, drawn as a thin line at the bottom of its row."""
 
 
 class Names(NamedTuple):
@@ -50,7 +50,7 @@ class Names(NamedTuple):
 
 
 def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int], int]:
-    """The row of every member of a group, and how many rows there are; the faces beneath all lie in the last."""
+    """Return the row of every member of a group, and the number of rows; underlying faces are in the last row."""
     packed = sorted(
         (*extent(region, clock), region.event_id, place)
         for place, region in enumerate(members)
@@ -66,7 +66,7 @@ def packed_group(members: Sequence[Region], clock: TempoMap) -> tuple[list[int],
 
 
 def entry_near(onset_ticks: FloatArray, near_tick: float, clock: TempoMap, reach_s: float) -> int | None:
-    """The onset next to a tick, where it is no further than ``reach_s``."""
+    """Return the onset nearest to a tick, if it is within ``reach_s`` seconds."""
     if not len(onset_ticks):
         return None
     nearest = float(onset_ticks[np.argmin(np.abs(onset_ticks - near_tick))])
@@ -74,7 +74,7 @@ def entry_near(onset_ticks: FloatArray, near_tick: float, clock: TempoMap, reach
 
 
 def extent(region: Region, clock: TempoMap) -> tuple[float, float]:
-    """The ticks that a region covers, with the fades beside it: ticks, because neighbours touch to the tick."""
+    """Return the ticks of a region including outer fades; ticks are exact where neighbours touch."""
     start, end = float(region.start_tick), float(max(region.end_tick, region.start_tick + 1))
     if region.fades_outside:
         return min(start, clock.ticks(region.first_s)), max(end, clock.ticks(region.last_s))
@@ -82,13 +82,13 @@ def extent(region: Region, clock: TempoMap) -> tuple[float, float]:
 
 
 def in_guest(region: Region) -> Region:
-    """Shown because it matters here."""
+    """Return a region marked as another player's."""
     region.guest = True
     return region
 
 
 def cue_region(event: CueEvent, name: str, pattern: str) -> Region:
-    """A cue; ``pattern`` takes the name of who gives it."""
+    """Return the region of a cue; ``pattern`` takes the giver's name."""
     return Region(
         event.player_id, event.id, "cue", event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=pattern.format(name=name), reason=event.reason, by_hand=event.corrected, steady=True,
@@ -97,7 +97,7 @@ def cue_region(event: CueEvent, name: str, pattern: str) -> Region:
 
 
 def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> Region:
-    """An expression."""
+    """Return the region of an expression."""
     return Region(
         player_id, event.id, "expression", event.start_tick, event.end_tick, event.start_s, event.end_s,
         amount=event.strength, label=names.expression(event.expression), reason=event.reason,
@@ -107,7 +107,7 @@ def expression_region(player_id: str, event: ExpressionEvent, names: Names) -> R
 
 
 def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
-    """A gesture."""
+    """Return the region of a gesture."""
     label = names.gesture(event.name) if event.part == "tracks" else names.kind(event.kind)
     return Region(
         player_id, event.id, event.kind, event.start_tick, event.end_tick, event.start_s, event.end_s,
@@ -117,7 +117,7 @@ def gesture_region(player_id: str, event: GestureEvent, names: Names) -> Region:
 
 
 def pose_region(player_id: str, event: PoseEvent, names: Names) -> Region:
-    """A pose."""
+    """Return the region of a pose."""
     return Region(
         player_id, event.id, "pose", event.start_tick, event.end_tick, event.start_s, event.end_s,
         label=names.pose(event.target), reason=event.reason, by_hand=event.corrected, steady=True,
@@ -135,8 +135,9 @@ def style_region(player_id: str, event: StyleEvent, names: Names) -> Region:
 
 
 def strip(regions: Sequence[Region], kind: str) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Starts, ends and amounts of what is drawn as a strip; a sway's or a lean's curve takes in changed ones,
-    not added ones."""
+    """Return starts, ends and amounts of events drawn as a strip; curves of sway and lean include changed events but
+    not added ones.
+    """
     chosen = [
         region
         for region in regions

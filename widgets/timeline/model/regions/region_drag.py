@@ -1,4 +1,4 @@
-"""A drag in a lane of regions: from where it began to one edit, whatever came between."""
+"""Drag of regions in a lane, which results in a single edit."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from widgets.timeline.model.regions.shown_event import Region
 
 MOST_FADE_S = 30.0
 FINE = 0.2
-"""Factor with Shift from the mouse's way to that of an amount."""
+"""Factor of the mouse's distance with Shift for changing an amount."""
 
 Edit = Callable[[Project, PlayerPlan, Sequence[str]], Edited]
 
@@ -46,9 +46,9 @@ class RegionDrag(MouseGesture):
     Parameters
     ----------
     region : Region or None
-        What is under the mouse.
+        Region under the mouse.
     zone : str
-        Which part of it.
+        Part of the region under the mouse.
     before : Selection
         The selection before the press.
 
@@ -58,9 +58,9 @@ class RegionDrag(MouseGesture):
         Empty until the mouse has moved far enough; ``lasso``, ``move``, ``start``, ``end``, ``amount``, ``fade_in``,
         ``fade_out`` or ``none``.
     preview : mapping of EventKey to Region
-        How the dragged regions will be, for as long as no plan shows it.
+        The dragged regions after the drag, until a plan contains them.
     hidden : frozenset of EventKey
-        What the plan shows that the preview stands for.
+        Regions of the plan that the preview replaces.
     """
 
     def __init__(
@@ -87,12 +87,12 @@ class RegionDrag(MouseGesture):
 
     @property
     def lasso(self) -> PixelRect | None:
-        """The box of a drag that selects."""
+        """Rectangle of a drag that selects."""
         return self._band.box
 
     @property
     def edits(self) -> bool:
-        """True if it has changed the project."""
+        """True if the drag has changed the project."""
         return self.mode not in ("", "lasso", "none")
 
     def follow(self, mouse: LaneMouse) -> None:
@@ -114,13 +114,13 @@ class RegionDrag(MouseGesture):
             self._step.end()
 
     def click(self, mouse: LaneMouse) -> None:
-        """On one of several selected it selects that one, on nothing it selects nothing."""
+        """Handle a click: select the region, or deselect all if there is none."""
         if not (mouse.ctrl or mouse.shift):
             keys = frozenset({self.region.key}) if self.region is not None else frozenset[EventKey]()
             self._lane.session.select(Selection(events=keys))
 
     def cancel(self) -> None:
-        """Back to where it began: that is no step."""
+        """Undo the drag without an undo step."""
         session = self._lane.session
         if self.mode == "lasso":
             session.select(self._before)
@@ -148,7 +148,7 @@ class RegionDrag(MouseGesture):
         lane.session.select(Selection(events=frozenset(inside)))
 
     def _place(self, region: Region, mouse: LaneMouse) -> None:
-        """Move, or draw one end."""
+        """Move the selected regions, or one of their ends."""
         lane, ticks = self._lane, mouse.tick - self.at.tick
         start = end = 0
         if self.mode == "move":
@@ -208,7 +208,7 @@ class RegionDrag(MouseGesture):
         self._apply(Message("edit.set_fades"), edit, {region.key: shown})
 
     def _apply(self, name: Message, edit: Edit, preview: Mapping[EventKey, Region]) -> None:
-        """Edit from where the drag began, so that a drag back leaves nothing; the selection goes with new ids."""
+        """Edit the project of the press, so that a drag back has no effect; new ids are selected."""
         session = self._lane.session
         by_player: dict[str, list[str]] = defaultdict(list)
         for key in self._keys:
@@ -236,7 +236,7 @@ class RegionDrag(MouseGesture):
         session.select(Selection(events=frozenset(new_keys.values())))
 
     def _as_corrected(self, region: Region) -> Region:
-        """A breath ends at its note at the latest, wherever the mouse has gone."""
+        """Return a region as the correction would have it: a breath ends at its note at the latest."""
         project = self._lane.session.project
         for item in corrections_of(project, region.player_id, (region.event_id,)):
             if isinstance(item, SetBreath):

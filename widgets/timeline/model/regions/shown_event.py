@@ -1,4 +1,4 @@
-"""An event as a lane shows it."""
+"""An event as displayed in a lane."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from widgets.timeline.model.geometry import TimeSpans
 
 
 class Region(msgspec.Struct):
-    """An event as a lane shows it; only the lane that makes it sets its row.
+    """An event as displayed in a lane; only the lane that makes it sets its row.
 
     Attributes
     ----------
@@ -23,18 +23,17 @@ class Region(msgspec.Struct):
     row : int
         Counted from the top.
     amount : float
-        0..1, or -1..1 where it is ``signed``.
+        0..1, or -1..1 if ``signed``.
     fades, fades_outside : bool
-        Whether it comes and goes by fades that can be dragged; whether they lie before its start and after its end
-        instead of within.
+        Whether it has fades that can be dragged; whether they are outside of its start and end.
     steady : bool
-        It has no amount that could be dragged.
+        Whether it lacks an amount that could be dragged.
     guest : bool
-        It is another player's, shown because it matters here.
+        Whether it belongs to another player and is shown because it affects this one.
     fixed : bool
-        It stays where it is: it can only be taken back.
+        Whether it cannot be moved but only reverted.
     removed : bool
-        The user took it out: only its place is shown.
+        Whether the user removed it, so that only its place is shown.
     """
 
     player_id: str
@@ -62,12 +61,12 @@ class Region(msgspec.Struct):
 
     @property
     def first_s(self) -> float:
-        """Start of its picture, fades outside included."""
+        """Start of the displayed region in seconds, including outer fades."""
         return self.start_s - self.fade_in_s if self.fades_outside else self.start_s
 
     @property
     def last_s(self) -> float:
-        """End of its picture, fades outside included."""
+        """End of the displayed region in seconds, including outer fades."""
         return self.end_s + self.fade_out_s if self.fades_outside else self.end_s
 
     @property
@@ -77,7 +76,7 @@ class Region(msgspec.Struct):
 
 
 def spans_of(regions: Sequence[Region]) -> TimeSpans:
-    """Index regions by the spans of their pictures."""
+    """Return the displayed time spans of regions."""
     return TimeSpans(
         np.array([region.first_s for region in regions], np.float64),
         np.array([region.last_s for region in regions], np.float64),
@@ -85,7 +84,7 @@ def spans_of(regions: Sequence[Region]) -> TimeSpans:
 
 
 def place_of(event_id: str, onsets: Mapping[str, int]) -> int | None:
-    """The tick in an event's id: of its note, or after an @."""
+    """Return the tick in an event's id: of its note, or after an @."""
     for rest in EventId.parse(event_id).places:
         if rest in onsets:
             return onsets[rest]

@@ -1,4 +1,4 @@
-"""The regions of a lane: where they lie, which are visible, and what is under the mouse."""
+"""The regions of a lane: positions, visibility and hit testing."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ EDGE_PX = 6.0
 HANDLE_PX = 5.0
 LEAST_REGION_PX = 3.0
 GLYPH_PX = 12.0
-"""Width of the mark of a removed event, which has no length."""
+"""Width in pixels of the mark of a removed event, which has no length."""
 
 Handle = tuple[str, tuple[float, float]]
-"""A fade's zone, and where it is taken hold of."""
+"""Part of a fade, and the point at which it is dragged."""
 
 _TRAITS = np.dtype([
     ("row", np.intp), ("start_s", float), ("length_s", float), ("strength", float), ("narrowable", bool)
@@ -32,7 +32,7 @@ _TRAITS = np.dtype([
 
 
 def row_box(row: int, count: int, room_px: float, least_px: float, scrolled_px: float) -> tuple[float, float]:
-    """Top and height of one of ``count`` rows, pixels: as high as there is room, at least ``least_px``."""
+    """Return the top and height in pixels of one of ``count`` rows: as high as possible, at least ``least_px``."""
     height = max(room_px / max(count, 1), least_px)
     return row * height - min(scrolled_px, most_scrolled(count, height, room_px)), height
 
@@ -43,7 +43,7 @@ def most_scrolled(count: int, height_px: float, room_px: float) -> float:
 
 
 def region_box(region: Region, scale: Scale, row: tuple[float, float]) -> PixelRect:
-    """Box of a region in its row (top and height)."""
+    """Return the rectangle of a region in its row (top and height)."""
     top, height = row
     left = scale.x_px(region.start_s)
     width = GLYPH_PX if region.removed else max(scale.x_px(region.end_s) - left, LEAST_REGION_PX)
@@ -81,13 +81,13 @@ def _zone(region: Region, box: PixelRect, mouse: LaneMouse) -> str:
 
 
 class RegionTable:
-    """The regions of a lane, ordered by where their pictures begin.
+    """The regions of a lane, ordered by their displayed start.
 
     Parameters
     ----------
     regions : iterable of Region
     is_calm : callable
-        Whether a region is drawn with all of its row, not one by one.
+        Whether a region is drawn with its whole row instead of singly.
     """
 
     def __init__(self, regions: Sequence[Region] = (), is_calm: Callable[[Region], bool] = lambda _: False) -> None:
@@ -111,7 +111,7 @@ class RegionTable:
         preview: Mapping[EventKey, Region],
         hidden: Collection[EventKey],
     ) -> Iterator[Region]:
-        """The regions to draw one by one: then the selected, and last what a drag shows already."""
+        """Yield the regions to draw singly: others, then selected ones, then previews of a drag."""
         margin_s = GLYPH_PX / scale.px_per_s
         found = self._single_spans.between(scale.seconds(left_px) - margin_s, scale.seconds(right_px) + margin_s)
         for index in self._distinct(found, scale).tolist():
@@ -126,9 +126,9 @@ class RegionTable:
         yield from preview.values()
 
     def _distinct(self, found: IntArray, scale: Scale) -> AnyIntArray:
-        """Choose the regions that can be seen: of the narrow ones in a column the strongest.
+        """Return the regions that can be distinguished: of narrow ones in a column of pixels, the strongest.
 
-        From far away thousands share a column, and each takes as long to draw as a wide one.
+        At small zoom thousands share a column, and each takes as long to draw as a wide one.
         """
         traits = self._traits[found]
         narrow = traits["narrowable"] & (traits["length_s"] * scale.px_per_s < LEAST_REGION_PX)
@@ -144,9 +144,9 @@ class RegionTable:
     def at(
         self, mouse: LaneMouse, scale: Scale, place: Callable[[Region], PixelRect], selected: Collection[EventKey]
     ) -> tuple[Region | None, str]:
-        """The region at a place, and its zone: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``.
+        """Return the region at a point, and the part of it: ``start``, ``end``, ``fade_in``, ``fade_out`` or ``body``.
 
-        Only what is selected has its fades taken hold of: handles of all would be in the way.
+        Only selected regions have handles for fades, since many handles would be in the way.
         """
         reach_s = (EDGE_PX + GLYPH_PX) / scale.px_per_s
         best: tuple[tuple[bool, float], Region, str] | None = None
@@ -165,7 +165,7 @@ class RegionTable:
         return (best[1], best[2]) if best is not None else (None, "")
 
     def beside(self, chosen: Sequence[Region], step: int, at_s: float) -> Region | None:
-        """The neighbour of what is chosen, else what is nearest to a time; of guests there is none."""
+        """Return the region next to given ones, else the one nearest to a time, ignoring other players' regions."""
         own = [region for region in self.regions if not region.guest]
         if not own:
             return None
@@ -179,7 +179,7 @@ class RegionTable:
 def removed_regions(
     project: Project, plan: PlayerPlan, kinds: Iterable[str], row: Callable[[str], int]
 ) -> list[Region]:
-    """Marks of what the user took out of the generator's."""
+    """Return the marks of generated events that the user removed."""
     among = frozenset(kinds)
     onsets: dict[str, int] = {}
     result = []

@@ -1,1 +1,1 @@
-"""Notes and entries as the piano roll shows them."""
+"""Notes and cues as displayed in the piano roll."""

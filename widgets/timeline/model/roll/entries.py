@@ -1,4 +1,4 @@
-"""Arrows from note to note for entries that one player gives another, and the drag of an arrow's end."""
+"""Arrows from note to note for cues between players, and drags of their ends."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from widgets.timeline.model.roll.shown_notes import RollModel, RollSession
 
 End: TypeAlias = Literal["tail", "head"]
 HEAD_PX: Final = 9.0
-"""Length before its note of the head by which an entry is dragged."""
+"""Length in pixels of the draggable head before its note."""
 REACH_PX: Final = 6.0
-"""Reach of the tail, and of the middle of the head."""
+"""Distance in pixels within which a dragged end snaps to a note's start."""
 NOTE_REACH_PX: Final = 36.0
-"""Distance within which a dragged end snaps to a note's beginning."""
+"""Distance in pixels within which the tail snaps to a player's row."""
 ROW_REACH_PX: Final = 28.0
 """Distance within which the tail snaps to a giver's row."""
 FAR_PX: Final = 4.0
 
 
 class EntryArrow(NamedTuple):
-    """Arrow from the preparatory beat of the player who gives an entry to the note of the one who takes it.
+    """Arrow from the preparatory beat of the player who gives a cue to the note of the player who receives it.
 
-    ``from_pitch`` and ``to_pitch`` are the notes' that they begin with, ``to_tick`` is the onset of the latter.
+    ``from_pitch`` and ``to_pitch`` are the pitches of their first notes, ``to_tick`` is the onset of the latter.
     """
 
     giver_id: str
@@ -48,7 +48,7 @@ class EntryArrow(NamedTuple):
 
 
 def entry_arrows(project: Project, plans: Mapping[str, PlayerPlan], player_id: str) -> tuple[EntryArrow, ...]:
-    """The entries that a player gives or takes."""
+    """Return the arrows of the cues that a player gives or receives."""
     arrows = []
     known = {player.id for player in project.players}
     for plan in plans.values():
@@ -68,7 +68,7 @@ def entry_arrows(project: Project, plans: Mapping[str, PlayerPlan], player_id: s
 
 
 def _note_at(project: Project, player_id: str, tick: int) -> tuple[int, int] | None:
-    """Onset and pitch of the first note from a tick on, else of the last one."""
+    """Return the onset and pitch of the first note from a tick on, else of the last one."""
     notes = project.part(project.player(player_id)).notes
     if not notes:
         return None
@@ -88,7 +88,7 @@ class EntryPlane(Plane, Protocol):
 
 
 def end_at(plane: Plane, arrows: Iterable[EntryArrow], mouse: LaneMouse) -> tuple[EntryArrow, End] | None:
-    """The arrow of which an end lies at a place, and which end."""
+    """Return the arrow with an end at a point, and which end."""
     for arrow in arrows:
         x_px, y_px = plane.axis.x_px(arrow.to_s), plane.y_px(arrow.to_pitch + 0.5)
         if -HEAD_PX - 2.0 <= mouse.x_px - x_px <= 1.0 and abs(mouse.y_px - y_px) <= REACH_PX:
@@ -101,18 +101,18 @@ def end_at(plane: Plane, arrows: Iterable[EntryArrow], mouse: LaneMouse) -> tupl
 
 
 class EntryDrag(MouseGesture):
-    """Drag the tail of an arrow to another giver or time, its head to another player's note.
+    """Drag of an arrow's tail to another giver or time, or of its head to another player's note.
 
-    Nothing of the piece changes before the button goes up: `shown` is the arrow as it would be then.
+    The piece changes only when the button is released; before that, `shown` is the resulting arrow.
 
     Attributes
     ----------
     end : str
-        Which is dragged.
+        Dragged end.
     arrow, shown : EntryArrow
-        As it is; and as it would be.
+        Arrow before and after the drag.
     meant : bool
-        Whether letting go here would change something.
+        Whether releasing here would change something.
     """
 
     def __init__(self, plane: EntryPlane, mouse: LaneMouse, arrow: EntryArrow, end: End) -> None:
@@ -133,7 +133,9 @@ class EntryDrag(MouseGesture):
         )
 
     def _tail(self, mouse: LaneMouse) -> EntryArrow:
-        """In the row of the nearest giver; to the left or right it is another preparatory beat."""
+        """Return the arrow with the tail in the row of the nearest giver; a horizontal move changes the preparatory
+        beat.
+        """
         arrow, score = self.arrow, self._base.score
         self._peak_tick = None
         if abs(mouse.x_px - self.at.x_px) >= 2 * FAR_PX:
@@ -152,7 +154,7 @@ class EntryDrag(MouseGesture):
         return arrow._replace(giver_id=giver[0], from_s=from_s, from_pitch=giver[1])
 
     def _nearest_giver(self, mouse: LaneMouse) -> tuple[str, int] | None:
-        """Id and pitch of who has the row nearest to the mouse."""
+        """Return the id and pitch of the player whose row is nearest to the mouse."""
         found: list[tuple[float, bool, str, int]] = []
         for player in self._base.players:
             note = _note_at(self._base, player.id, self._entry_tick())
@@ -164,7 +166,7 @@ class EntryDrag(MouseGesture):
         return None if best is None or best[0] > ROW_REACH_PX else best[2:]
 
     def _head(self, mouse: LaneMouse) -> EntryArrow:
-        """At the beginning of the nearest note that the giver does not play."""
+        """Return the arrow with the head at the start of the nearest note of another player."""
         arrow, project = self.arrow, self._base
         own = {one.id for one in project.played_by(project.player(arrow.giver_id))}
         found: list[tuple[float, bool, Player, NoteTable, int]] = []
@@ -191,7 +193,7 @@ class EntryDrag(MouseGesture):
         )
 
     def _entry_tick(self) -> int:
-        """Tick of the cue's entry; the taker's own note may come later."""
+        """Return the tick of the cue's entry; the receiver's own note may come later."""
         plan = self._plane.plans.get(self.arrow.giver_id)
         cues = plan.cues if plan is not None else ()
         return next((cue.end_tick for cue in cues if cue.id == self.arrow.cue_id), self.arrow.to_tick)

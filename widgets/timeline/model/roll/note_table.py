@@ -1,4 +1,4 @@
-"""A part's notes as arrays: what is visible, and what lies under the mouse, without a look at every note."""
+"""A part's notes as arrays, for finding visible notes and the note under the mouse quickly."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class TimedNotes:
         self._latest_end_s: FloatArray = np.maximum.accumulate(end_s) if len(end_s) else end_s
 
     def visible(self, start_s: float, end_s: float) -> slice:
-        """The notes from the first to the last that sounds between two times (some between may not)."""
+        """Return the range from the first to the last note that sounds between two times (some between may not)."""
         first = int(self._latest_end_s.searchsorted(start_s, side="right"))
         last = int(self.onset_s.searchsorted(end_s, side="left"))
         return slice(first, max(first, last))
@@ -54,11 +54,11 @@ class NoteTable(TimedNotes):
 
     @cached_property
     def index(self) -> dict[str, int]:
-        """Place of every note by id."""
+        """Return the index of every note by id."""
         return {note_id: place for place, note_id in enumerate(map(attrgetter("id"), self.part.notes))}
 
     def flags(self, note_ids: Collection[str]) -> BoolArray:
-        """Mark the notes that are among these ids."""
+        """Return which notes have given ids."""
         result = np.zeros(len(self), np.bool_)
         if self.index.keys().isdisjoint(note_ids):
             # So it is for most players.
@@ -71,7 +71,7 @@ class NoteTable(TimedNotes):
         return result
 
     def at(self, time_s: float, pitch: int, slack_s: float) -> int | None:
-        """The note at a place, the last of several; a note is caught ``slack_s`` beside itself if none is nearer."""
+        """Return the note at a point, the last of several; a note is also hit within ``slack_s`` if none is nearer."""
         near = self.visible(time_s - slack_s, time_s + slack_s)
         rows = np.arange(near.start, near.stop)[self.pitch[near] == pitch]
         if not len(rows):
@@ -81,7 +81,7 @@ class NoteTable(TimedNotes):
         return int(rows[best]) if distance[best] <= slack_s else None
 
     def nearest(self, time_s: float) -> int | None:
-        """Place of the note that sounds at a time, else of the one nearest to it."""
+        """Return the index of the note that sounds at a time, else of the nearest one."""
         if not len(self):
             return None
         near = int(self.onset_s.searchsorted(time_s, side="right"))
@@ -90,19 +90,19 @@ class NoteTable(TimedNotes):
         return int(rows[distance.argmin()])
 
     def within(self, start_s: float, end_s: float, low_pitch: int, high_pitch: int) -> list[str]:
-        """Ids of the notes that touch a rectangle of time and pitch (both pitches included)."""
+        """Return the ids of the notes in a rectangle of time and pitch (both pitches included)."""
         near = self.visible(start_s, end_s)
         hit = (self.end_s[near] > start_s) & (self.pitch[near] >= low_pitch) & (self.pitch[near] <= high_pitch)
         return [self.part.notes[place].id for place in (np.flatnonzero(hit) + near.start).tolist()]
 
 
 class Together(TimedNotes):
-    """The notes of several tables as one: what is visible of fifty players is found at once.
+    """The notes of several tables as one, so that the visible notes of fifty players are found at once.
 
     Attributes
     ----------
     owner : array (N,)
-        Number of the table that every note is of.
+        Index of the table of every note.
     """
 
     def __init__(self, tables: Sequence[NoteTable]) -> None:
@@ -118,14 +118,14 @@ class Together(TimedNotes):
 
 
 class Behind:
-    """The players behind the one in front.
+    """The notes of the inactive players.
 
     Parameters
     ----------
     colours : sequence of str
         For each table.
     before : Behind, optional
-        What was there before: of the same tables it has their notes together.
+        Previous value, whose combined notes are reused if the tables are the same.
     """
 
     def __init__(self, tables: Sequence[NoteTable], colours: Sequence[str], before: Behind | None = None) -> None:
@@ -134,5 +134,5 @@ class Behind:
         self.notes: Together = before.notes if before is not None and same else Together(self.tables)
 
     def looks_like(self, other: Behind) -> bool:
-        """Return whether it shows the same notes in the same colours."""
+        """Return whether another value has the same notes in the same colours."""
         return self.notes is other.notes and self.colours == other.colours

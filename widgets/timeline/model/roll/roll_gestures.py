@@ -1,4 +1,4 @@
-"""Gestures on the piano roll: each is one step, made from the project that it began with."""
+"""Gestures on the piano roll; each is a single edit of the project at its start."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class RollPlane(Plane, Protocol):
 
 
 class RollGesture(MouseGesture):
-    """A press on the roll, one step from its beginning to its end.
+    """A press on the roll, with a single undo step.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class RollGesture(MouseGesture):
     Attributes
     ----------
     moved, sounded : str
-        Ids of notes whose new pitch, whose new velocity is worth saying.
+        Ids of the notes whose new pitch or velocity is displayed.
     copies : bool
         Whether the mouse carries copies.
     """
@@ -65,7 +65,7 @@ class RollGesture(MouseGesture):
 
 
 class Move(RollGesture):
-    """Drag notes in time and pitch; Shift keeps to one of them, Alt suspends the grid."""
+    """Drag of notes in time and pitch; Shift limits it to one of these, Alt disables the grid."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note, narrow: bool) -> None:
         super().__init__(roll, mouse, together(roll.drag_px))
@@ -77,7 +77,7 @@ class Move(RollGesture):
         self._place(*notes.reach_of_move(self.step.base, self._ids, *self._distance(mouse)))
 
     def _distance(self, mouse: LaneMouse) -> tuple[int, int]:
-        """Ticks and semitones by which the mouse moves the notes."""
+        """Return the ticks and semitones by which the mouse moves the notes."""
         by_tick = self._snapped(mouse)
         by_pitch = int(mouse.value // 1) - int(self.at.value // 1)
         if mouse.shift:
@@ -110,7 +110,7 @@ class Move(RollGesture):
 
 
 class Copy(Move):
-    """Drag copies of notes away from them. A press that is none takes its note into the selection or out of it."""
+    """Drag of copies of notes. A press without a drag toggles the note's selection."""
 
     copies = True
 
@@ -145,7 +145,7 @@ class Copy(Move):
 
 
 class Resize(RollGesture):
-    """Drag the end of a note, or its beginning; the others chosen with it grow and shrink alike."""
+    """Drag of the end or start of a note, with the same change for other selected notes."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse, note: Note, at_start: bool) -> None:
         super().__init__(roll, mouse, together(roll.drag_px))
@@ -181,7 +181,7 @@ class Velocity(RollGesture):
 
 
 class Draw(RollGesture):
-    """A new note where the press was, as long as the drag."""
+    """Drag that draws a note from the press to the mouse."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse, part_id: str, velocity: int) -> None:
         super().__init__(roll, mouse)
@@ -211,7 +211,7 @@ class Draw(RollGesture):
 
 
 class Erase(RollGesture):
-    """Every note that the mouse passes over goes."""
+    """Drag that deletes every note that the mouse passes."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse) -> None:
         super().__init__(roll, mouse)
@@ -229,7 +229,7 @@ class Erase(RollGesture):
 
 
 class LassoNotes(Band):
-    """A rectangle over notes; Shift and Ctrl add to what was selected before. A click takes the note it just missed."""
+    """Rubber band over notes; Shift and Ctrl add to the selection. A click selects a note nearby."""
 
     def __init__(self, roll: RollPlane, mouse: LaneMouse) -> None:
         super().__init__(roll, mouse, together(roll.drag_px), self._select_inside)

@@ -1,4 +1,4 @@
-"""Notes of the piano roll, of the player in front and of those behind, and the search for what lies under the mouse."""
+"""Notes of the piano roll (of the active and the other players), and hit testing."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ from widgets.timeline.model.roll.note_table import Behind, NoteTable, TimedNotes
 from widgets.timeline.model.visible_time import Scale
 
 EDGE_PX = 6.0
-"""Distance from a note's end within which a press takes hold of the end."""
+"""Distance in pixels from a note's end within which the end is grabbed."""
 SLACK_PX = 3.0
 NEAR_PX = 7.0
-"""A click this far off a note is one on it: rows are thin, and whoever misses one types on."""
+"""Distance in pixels within which a click beside a note is on it, since rows are thin."""
 LEAST_ROWS, MOST_ROWS = 10.0, 128.0
 USUAL_ROWS = 30.0
 LEGIBLE_ROW_PX = 9.0
-"""Height of a row in which a note is 8 pixels high."""
+"""Height in pixels of a row in which a note is 8 pixels high."""
 AIR_ROWS = 4.0
-"""Around what is fitted."""
+"""Number of empty rows around fitted notes."""
 
 NO_GHOSTS = Behind((), ())
 
 
 class RollSession(Editing, Protocol):
-    """Part of the session that the roll uses; a protocol for the reason of `Editing`."""
+    """Part of the session that the roll uses; a protocol for the reason given at `Editing`."""
 
     @property
     def player(self) -> Player | None: ...
@@ -51,7 +51,7 @@ class RollSession(Editing, Protocol):
 
 
 def kept_pitches(bottom: float, rows: float) -> tuple[float, float]:
-    """The lowest and the highest pitch to show, as near to these as there are pitches."""
+    """Return the displayed pitch range nearest to a requested one within the limits."""
     rows = min(max(rows, LEAST_ROWS), MOST_ROWS)
     bottom = min(max(bottom, 0.0), MOST_ROWS - rows)
     return bottom, bottom + rows
@@ -64,12 +64,12 @@ def fitted_pitches(low: float, high: float, room_px: float) -> tuple[float, floa
 
 
 def legible_pitches(pitches: FloatArray, air: float, room_px: float) -> tuple[float, float]:
-    """The lowest and the highest pitch to show so that notes are legible; where not all fit, as many as possible.
+    """Return the displayed pitch range in which notes are legible, with as many notes as possible.
 
     Parameters
     ----------
     pitches : array (N,)
-        Of the notes to show, at least one.
+        Pitches of the notes, at least one.
     air : float
         Rows to leave free above the notes.
     """
@@ -87,14 +87,14 @@ def legible_pitches(pitches: FloatArray, air: float, room_px: float) -> tuple[fl
 
 
 def zoomed_pitches(pitches: tuple[float, float], factor: float, at: float) -> tuple[float, float]:
-    """``factor`` times fewer; the pitch ``at`` stays where it is."""
+    """Return a pitch range divided by ``factor`` in which the pitch ``at`` keeps its position."""
     bottom, top = pitches
     rows = min(max((top - bottom) / factor, LEAST_ROWS), MOST_ROWS)
     return kept_pitches(at - (at - bottom) / (top - bottom) * rows, rows)
 
 
 def visible(table: TimedNotes, start_s: float, end_s: float, pitches: tuple[float, float]) -> IntArray:
-    """Places of the notes that may show in a range of time and pitch."""
+    """Return the indices of notes that may be visible in a range of time and pitch."""
     found = table.visible(start_s, end_s)
     bottom, top = pitches
     pitch = table.pitch[found]
@@ -104,7 +104,7 @@ def visible(table: TimedNotes, start_s: float, end_s: float, pitches: tuple[floa
 
 
 def moved_notes(before: Score, after: Score) -> list[str]:
-    """Ids of the notes that have another pitch in another score."""
+    """Return the ids of the notes with different pitches in two scores."""
     parts = {part.id: part for part in before.parts}
     changed = [(parts[part.id], part) for part in after.parts if part.id in parts and part is not parts[part.id]]
     moved = []
@@ -117,7 +117,7 @@ def moved_notes(before: Score, after: Score) -> list[str]:
 def boxes(
     table: TimedNotes, rows: IntArray, scale: Scale, highest: float, row_px: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Left, top, width and height of notes, in whole pixels so that edges are sharp."""
+    """Return left, top, width and height of notes in whole pixels, for sharp edges."""
     left = np.floor(scale.x_px(table.onset_s[rows]))
     right = np.floor(scale.x_px(table.end_s[rows]))
     pitch = table.pitch[rows]
@@ -128,7 +128,7 @@ def boxes(
 
 
 def edge_of(left_px: float, right_px: float, x_px: float) -> bool | None:
-    """Return True at the beginning of a note, False at its end, None in its middle."""
+    """Return True at the start of a note, False at its end, None in its middle."""
     reach = min(EDGE_PX, max((right_px - left_px) / 4, 1.5))
     if right_px - x_px <= reach:
         return False
@@ -149,7 +149,7 @@ def cell(score: Score, grid: Grid, mouse: LaneMouse) -> tuple[int, int]:
 
 
 class RollModel:
-    """Every player's notes as arrays; the one in front answers the mouse."""
+    """Every player's notes as arrays; only the active player's respond to the mouse."""
 
     def __init__(self, session: RollSession, axis: Scale) -> None:
         self._session, self._axis = session, axis
@@ -167,7 +167,7 @@ class RollModel:
         self._flags.clear()
 
     def table(self, player: Player) -> NoteTable:
-        """A player's notes as arrays, cached until they change."""
+        """Return a player's notes as arrays, cached until they change."""
         project = self._session.project
         part, tempo = project.part(player), project.score.tempo_map
         known = self._tables.get(part.id)
@@ -202,7 +202,7 @@ class RollModel:
         return Behind(tables, [self._session.colour(player) for player in behind.values()], self._ghosts_of[1])
 
     def _touchable(self) -> list[NoteTable]:
-        """The notes that answer the mouse: of the player in front; where all are seen, then of the others."""
+        """Return the notes that respond to the mouse: the active player's, and if all are shown, then the others'."""
         front = self.front()
         tables = [] if front is None else [front[0]]
         return tables + list(self.ghosts().tables) if self.ghosts_mode is Ghosts.ALL else tables
@@ -214,7 +214,7 @@ class RollModel:
         return front[0].part.notes[place] if front is not None and place is not None else None
 
     def note_at(self, mouse: LaneMouse) -> Note | None:
-        """The note at a place: of the player in front; where all are seen, else of another."""
+        """Return the note at a point: of the active player, or if all are shown, of another."""
         slack_s = SLACK_PX / self._axis.px_per_s
         for table in self._touchable():
             place = table.at(mouse.time_s, int(mouse.value // 1), slack_s)
@@ -238,13 +238,13 @@ class RollModel:
         return best[1] if best is not None else None
 
     def edge_at(self, note: Note, mouse: LaneMouse) -> bool | None:
-        """Return True if the mouse is at the note's beginning, False at its end, None in its middle."""
+        """Return True if the mouse is at the note's start, False at its end, None in its middle."""
         tempo = self._session.project.score.tempo_map
         left_px, right_px = (self._axis.x_px(tempo.seconds(float(tick))) for tick in (note.onset_tick, note.end_tick))
         return edge_of(left_px, right_px, mouse.x_px)
 
     def warned(self, table: NoteTable) -> frozenset[int]:
-        """Places of the notes of the player in front that problems are about."""
+        """Return the indices of the active player's notes with problems."""
         player = self._session.player
         reported = self._session.problems(player.id) if player is not None else ()
         known = self._warned
@@ -254,7 +254,7 @@ class RollModel:
         return known[2]
 
     def notes_within(self, start_s: float, end_s: float, low: int, high: int) -> frozenset[str]:
-        """Ids of the notes that touch a rectangle."""
+        """Return the ids of the notes in a rectangle."""
         return frozenset(id for table in self._touchable() for id in table.within(start_s, end_s, low, high))
 
     def notes_of_pitch(self, pitch: int) -> frozenset[str]:
@@ -266,7 +266,7 @@ class RollModel:
         return frozenset(notes[place].id for place in np.flatnonzero(front[0].pitch == pitch).tolist())
 
     def selected(self, table: NoteTable) -> BoolArray | None:
-        """Mark the selected notes of a table; None if there are none."""
+        """Return which notes of a table are selected; None if there are none."""
         selection = self._session.selection
         if not selection.notes:
             return None
@@ -278,12 +278,12 @@ class RollModel:
 
     @property
     def selects_behind(self) -> bool:
-        """Return whether notes are selected that the player in front does not play."""
+        """Return whether notes of other than the active player are selected."""
         notes, front = self._session.selection.notes, self.front()
         return bool(notes) and (front is None or not front[0].index.keys() >= notes)
 
     def bring_forward(self, note: Note) -> None:
-        """Let the player of a note be in front."""
+        """Make the player of a note active."""
         player = self._session.player
         if player is not None and note.id in self.table(player).index:
             return

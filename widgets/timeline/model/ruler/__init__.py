@@ -1,1 +1,1 @@
-"""The ruler, and beats put where they sound."""
+"""The ruler, and beats pinned to the recording."""

@@ -1,4 +1,4 @@
-"""The bar lines and beats that can be put where they sound in the recording, and what a drag of one does."""
+"""Bar lines and beats that can be pinned to the recording, and their drags."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from widgets.timeline.model.lines import Lines
 from widgets.timeline.model.visible_time import Scale
 
 HANDLE_PX: Final = 11.0
-"""Height of the strip in which they are taken hold of, at the lower edge."""
+"""Height in pixels of the strip at the lower edge with the handles."""
 _SLACK_PX: Final = 6.0
 _LEAST_BEAT_PX: Final = 24.0
-"""Distance between beats from which they can be grabbed."""
+"""Distance between beats in pixels from which they can be grabbed."""
 _FINE: Final = 0.1
-"""Factor with Shift from the mouse's way to that of a beat."""
+"""Factor of the mouse's distance with Shift for a beat."""
 _DECIMALS: Final = 4
 
 
 @dataclass(frozen=True)
 class Anchor:
-    """A bar line or a beat.
+    """A bar line or beat.
 
     Attributes
     ----------
     pin : BeatPin or None
-        None: it is where following put it.
+        Pin; None for the automatic place.
     """
 
     tick: int
@@ -60,7 +60,7 @@ def anchors(project: Project, axis: Scale, lines: Lines) -> list[Anchor]:
 
 
 def anchor_at(among: Sequence[Anchor], mouse: LaneMouse, height_px: float) -> Anchor | None:
-    """The one under the mouse; of two that are as near, the pinned one."""
+    """Return the handle under the mouse; of two equally near, the pinned one."""
     if mouse.y_px < height_px - HANDLE_PX:
         return None
     near = [anchor for anchor in among if abs(anchor.x_px - mouse.x_px) <= _SLACK_PX]
@@ -68,7 +68,7 @@ def anchor_at(among: Sequence[Anchor], mouse: LaneMouse, height_px: float) -> An
 
 
 def anchor_beside(project: Project, tick: int, step: int) -> int:
-    """The next bar line or pin (step 1), or the one before (-1), within the piece."""
+    """Return the tick of the next bar line or pin (step 1) or the previous one (-1) within the piece."""
     metre_map, audio = project.score.metre_map, project.audio
     bar = metre_map.bar_of_tick(tick)
     pins = [pin.tick for pin in audio.pins] if audio is not None else []
@@ -78,13 +78,13 @@ def anchor_beside(project: Project, tick: int, step: int) -> int:
 
 
 def doubt_at(project: Project, tick: float) -> Doubt | None:
-    """The bar at a place, if following was not sure of it."""
+    """Return the uncertain bar at a tick, if any."""
     doubts = project.audio.doubts if project.audio is not None else ()
     return next((doubt for doubt in doubts if doubt.start_tick <= tick < doubt.end_tick), None)
 
 
 class DragAnchor(EditGesture):
-    """A bar line or a beat goes to where it sounds, and is pinned there."""
+    """Drag of a bar line or beat to its place in the recording, where it is pinned."""
 
     def __init__(self, session: Editing, origin: object, at: LaneMouse, project: Project, tick: int) -> None:
         super().__init__(LiveEdit(session, origin), at, along(DRAG_PX))

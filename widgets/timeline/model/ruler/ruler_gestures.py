@@ -1,4 +1,4 @@
-"""Gestures on the ruler: the playhead, a span, an edge of the loop or of the punch, or a mark is dragged."""
+"""Gestures on the ruler: drags of the playhead, a span, an edge of the loop or punch range, or a mark."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Place = TypeVar("Place", int, float)
 
 
 class SelectSpan(MouseGesture):
-    """A span is selected from the press on; a press alone clears it."""
+    """Drag that selects a span from the press on; a press alone deselects."""
 
     def __init__(self, session: Editing, at: LaneMouse, far: Far, tick_at: Callable[[LaneMouse, bool], int]) -> None:
         super().__init__(at, far)
@@ -34,7 +34,7 @@ class SelectSpan(MouseGesture):
 
 
 class Scrub(MouseGesture):
-    """The playhead goes along; Escape brings it back to where it was."""
+    """Drag of the playhead; Escape returns it."""
 
     def __init__(
         self, session: Editing, at: LaneMouse, far: Far, seek: Callable[[float], None], before_s: float
@@ -53,16 +53,16 @@ class Scrub(MouseGesture):
 
 
 class HoldEdge(MouseGesture):
-    """One edge of a span moves, up to the other one.
+    """Drag of one edge of a span, limited by the other.
 
     Parameters
     ----------
     span : callable
-        What the span is now; None: none.
+        Returns the present span; None if there is none.
     put : callable
-        Makes it another.
+        Sets the span.
     place : callable
-        Where an edge is at a tick, as the span counts.
+        Returns the edge's value in the span's unit from a tick.
     """
 
     def __init__(
@@ -95,12 +95,13 @@ class HoldEdge(MouseGesture):
 
 
 class HoldMark(MouseGesture):
-    """A tempo goes to the grid, a metre to the bars that there are without it; what began the piece stays.
+    """Drag of a tempo to the grid, or of a metre to bar lines that exist without it; the first marks of the piece are
+    fixed.
 
     Attributes
     ----------
     chosen : (str, int)
-        Kind and tick of the mark where it is now.
+        Kind and present tick of the mark.
     """
 
     def __init__(
@@ -131,7 +132,7 @@ class HoldMark(MouseGesture):
             self.chosen = (kind, to)
 
     def _target(self, mouse: LaneMouse) -> int:
-        """The place under the mouse is that of the piece before the drag: moved, a tempo would carry it along."""
+        """Return the tick under the mouse in the piece before the drag, since a moved tempo would shift it."""
         base, (kind, start) = self._step.base, self._mark
         if kind == "tempo":
             tick = base.score.tempo_map.ticks(mouse.time_s)
@@ -154,6 +155,6 @@ class HoldMark(MouseGesture):
 
 
 def drop_span(session: Editing) -> None:
-    """Let go of the selected span; what else is selected stays."""
+    """Deselect the span, keeping other selections."""
     if session.selection.span is not None:
         session.select(Selection(session.selection.notes, session.selection.events))

@@ -1,4 +1,4 @@
-"""Labels of the ruler: times in seconds and frames, numbers of bars, marks of tempo and metre."""
+"""Labels of the ruler: times in seconds or frames, bar numbers, marks of tempo and metre."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STEPS_S = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 60.
 STEPS_FRAMES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000, 100000)
 
 Labels = list[tuple[float, str]]
-"""Seconds and what is written there."""
+"""Pairs of a time in seconds and its label."""
 
 
 def bar_labels(score: Score, lines: Lines) -> Labels:
@@ -63,14 +63,14 @@ def clock(seconds: float, decimals: int) -> str:
 
 
 class Metrics(Protocol):
-    """Widths of texts in a font; a protocol, since the metrics are Qt's and the model knows no Qt."""
+    """Widths of texts in a font; a protocol, since font metrics are Qt's and this package is independent of Qt."""
 
     def horizontalAdvance(self, text: str, /) -> float: ...
 
 
 @dataclass(frozen=True)
 class RulerMark:
-    """A tempo (``"tempo"``) or a metre (``"metre"``) with its box on the ruler."""
+    """A tempo (``"tempo"``) or a metre (``"metre"``) with its rectangle on the ruler."""
 
     kind: str
     tick: int
@@ -81,14 +81,14 @@ class RulerMark:
 def lay_marks(
     score: Score, axis: Scale, metrics: Metrics, left_px: float, right_px: float, height_px: float
 ) -> list[RulerMark]:
-    """Lay out the marks: metres before tempi, none over another. The mark in force at the left edge stays in view.
+    """Return the marks without overlaps, metres before tempi. The mark in effect at the left edge stays visible.
 
     Parameters
     ----------
     axis : Scale
-        Its pixels count from ``left_px``.
+        Scale whose pixels count from ``left_px``.
     left_px, right_px : float
-        Between these there is room.
+        Available range.
     """
     metres, bpm = score.metres, score.tempo_map.bpm
     texts: dict[str, Callable[[int], str]] = {
@@ -129,7 +129,7 @@ def lay_marks(
 
 
 def mark_text(score: Score, kind: str, tick: int) -> str:
-    """The tempo or the metre in force at a tick, in the form in which it is typed."""
+    """Return the tempo or metre in effect at a tick, in the form for typing."""
     if kind == "tempo":
         return f"{next(bpm for at, bpm in reversed(score.tempo_map.bpm) if at <= tick):.6g}"
     metre = score.metre_map.metre_at(tick)
@@ -137,7 +137,7 @@ def mark_text(score: Score, kind: str, tick: int) -> str:
 
 
 def typed(kind: str, tick: int, text: str) -> tuple[Message, Callable[[Project], Project]]:
-    """The edit that a typed tempo or metre means, and its name; it refuses what is none."""
+    """Return the edit for a typed tempo or metre, and its name; the edit raises an error for invalid text."""
     if kind == "tempo":
         try:
             bpm = float(text.replace(",", "."))
@@ -150,7 +150,7 @@ def typed(kind: str, tick: int, text: str) -> tuple[Message, Callable[[Project],
 
 
 def removal(kind: str, tick: int) -> tuple[Message, Callable[[Project], Project]]:
-    """The edit that takes a mark away, and its name."""
+    """Return the edit that removes a mark, and its name."""
     if kind == "tempo":
         return Message("edit.remove_tempo"), lambda project: tempo_edit.remove_tempo(project, tick)
     return Message("edit.remove_metre"), lambda project: tempo_edit.remove_metre(project, tick)

@@ -1,1 +1,1 @@
-"""Takes as the timeline shows them."""
+"""Takes as displayed in the timeline."""

@@ -1,4 +1,4 @@
-"""Contents of the lane of takes: a row for each take, the part's share of each, and what a swipe would take."""
+"""Contents of the takes lane: a row for each take, its spans used in the part, and the result of a swipe."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from widgets.timeline.model.takes.take_rows import TakeRow, comp_of, edges, pitc
 from widgets.timeline.model.visible_time import Limited
 
 EDGE_PX = 4.0
-"""Distance within which the mouse holds the border of two takes."""
+"""Distance in pixels within which the boundary of two takes is grabbed."""
 
 
 class Recorded(Editing, Protocol):
-    """Part of the session that takes use; a protocol for the reason of `Editing`."""
+    """Part of the session that takes use; a protocol for the reason given at `Editing`."""
 
     @property
     def player(self) -> Player | None: ...
@@ -34,7 +34,9 @@ class Recorded(Editing, Protocol):
 
 
 class Swipe(MouseGesture):
-    """Over a row, or of an edge: then ``edge`` says what meets there, and the take is that on the side it leaves."""
+    """Swipe over a row, or drag of a boundary; then ``edge`` has the adjacent spans, and the take is the one that
+    grows.
+    """
 
     def __init__(self, at: LaneMouse, take_id: str, tick: int, edge: tuple[CompSpan, CompSpan] | None = None) -> None:
         super().__init__(at, along(DRAG_PX))
@@ -42,7 +44,7 @@ class Swipe(MouseGesture):
         self.start_tick = self.end_tick = tick
 
     def span(self) -> CompSpan | None:
-        """Span that it would take if it ended here."""
+        """Return the span that would be used if the swipe ended now."""
         start, end = sorted((self.start_tick, self.end_tick))
         if not self.began or start == end:
             return None
@@ -52,7 +54,7 @@ class Swipe(MouseGesture):
         return CompSpan(start, end, (left if self.end_tick > self.start_tick else right).take_id)
 
     def follow(self, mouse: LaneMouse) -> None:
-        """Go on to a place; an edge no further than the next one."""
+        """Continue to a position; a boundary is limited by the next one."""
         tick = mouse.snapped_tick
         if self.edge is not None:
             tick = min(max(tick, self.edge[0].start_tick), self.edge[1].end_tick)
@@ -60,7 +62,7 @@ class Swipe(MouseGesture):
 
 
 class TakesModel:
-    """The takes of the player in front."""
+    """The takes of the active player."""
 
     def __init__(self, session: Recorded, axis: Limited) -> None:
         self._session, self._axis = session, axis
@@ -71,7 +73,7 @@ class TakesModel:
         self._sources: tuple[PlayerTakes | None, TempoMap, tuple[Metre, ...]] | None = None
 
     def refresh(self) -> bool:
-        """Read the recordings of the player in front again, and return whether they changed."""
+        """Read the active player's recordings again, and return whether they changed."""
         player, project = self._session.player, self._session.project
         recorded = project.takes.get(player.id) if player is not None else None
         sources = (recorded, project.score.tempo_map, project.score.metres)
@@ -85,7 +87,7 @@ class TakesModel:
         return True
 
     def colour_of(self, take_id: str) -> str:
-        """A take's colour; without one the player's, and of what was there before none."""
+        """Return a take's colour, by default the player's; empty for the notes before the first take."""
         player = self._session.player
         take = self.take_of(take_id)
         if take is None or player is None:
@@ -93,26 +95,26 @@ class TakesModel:
         return take.colour or self._session.colour(player)
 
     def take_of(self, take_id: str) -> Take | None:
-        """A take of the player in front."""
+        """Return a take of the active player."""
         return next((row.take for row in self.rows if row.take is not None and row.take.id == take_id), None)
 
     def number_of(self, take_id: str) -> int | None:
-        """Row number of a take."""
+        """Return the row index of a take."""
         return next((number for number, row in enumerate(self.rows) if row.take_id == take_id), None)
 
     def swiped(self) -> CompSpan | None:
-        """Span that the swipe would take if it ended here."""
+        """Return the span that would be used if the swipe ended now."""
         return self.swipe.span() if self.swipe is not None else None
 
     def shown_comp(self) -> tuple[CompSpan, ...]:
-        """The comp as it would be if the swipe ended here."""
+        """Return the comp as it would be if the swipe ended now."""
         swiped = self.swiped()
         if swiped is None:
             return self.comp
         return comp_with(self.comp, swiped.start_tick, swiped.end_tick, swiped.take_id)
 
     def outlined(self) -> CompSpan | None:
-        """Span that is swiped over, else the selected one, with the take that the part has it from."""
+        """Return the swiped span, else the selected one, with the take used there."""
         selection = self._session.selection
         if self.swipe is not None and self.swipe.began:
             return self.swiped()
@@ -121,7 +123,7 @@ class TakesModel:
         return CompSpan(*selection.span, selection.take)
 
     def shown_spans(self, take_id: str) -> tuple[CompSpan, ...]:
-        """Spans that the part has of a take; of what was there before, the gaps of the comp."""
+        """Return the spans in which the part uses a take; for the notes before the first take, the gaps of the comp."""
         spans = self.shown_comp()
         if take_id != BEFORE:
             return tuple(span for span in spans if span.take_id == take_id)
@@ -131,7 +133,7 @@ class TakesModel:
         )
 
     def end_tick(self) -> int:
-        """End of what can be seen."""
+        """The end tick of the visible range."""
         return max(round(self._session.project.score.tempo_map.ticks(self._axis.limits_s[1])), 1)
 
     def span_at(self, tick: float) -> CompSpan:
@@ -139,8 +141,9 @@ class TakesModel:
         return span_at(self.comp, max(tick, 0.0), self.end_tick())
 
     def edge_at(self, mouse: LaneMouse, row: TakeRow | None) -> tuple[CompSpan, CompSpan] | None:
-        """The edge of the comp that the mouse has hold of: in the strip (no row), and in the rows of the two that
-        meet."""
+        """Return the spans of the comp beside a boundary under the mouse: in the strip (no row), or in the rows of both
+        takes.
+        """
         clock = self._session.project.score.tempo_map
         near: dict[float, tuple[CompSpan, CompSpan]] = {}
         for left, right in edges(self.comp, self.end_tick()):
@@ -150,20 +153,20 @@ class TakesModel:
         return near[min(near)] if near else None
 
     def current(self) -> str | None:
-        """The selected take, else the one that the part has the selected span from."""
+        """Return the selected take, else the one used in the selected span."""
         selection = self._session.selection
         if selection.take is None and selection.span is not None:
             return self.span_at(float(selection.span[0])).take_id
         return selection.take
 
     def beside(self, by: int) -> str:
-        """The take above (-1) or below (1) the current one."""
+        """Return the take above (-1) or below (1) the current one."""
         current = self.current()
         number = self.number_of(current) if current is not None else None
         return self.rows[min(max((number if number is not None else -by) + by, 0), len(self.rows) - 1)].take_id
 
     def span_beside(self, by: int, playhead_s: float) -> CompSpan | None:
-        """The span before (-1) or after (1) the selected one; without one that at the playhead."""
+        """Return the span before (-1) or after (1) the selected one; without one, the span at the playhead."""
         span = self._session.selection.span
         if span is None:
             return self.span_at(self._session.project.score.tempo_map.ticks(playhead_s))
@@ -174,7 +177,7 @@ class TakesModel:
     # Edits
 
     def take_whole(self, take_id: str) -> None:
-        """Let the part have all of a take."""
+        """Use all of a take in the part."""
         player = self._session.player
         if player is not None:
             self._session.attempt(
@@ -182,7 +185,7 @@ class TakesModel:
             )
 
     def rename(self, take_id: str, name: str) -> None:
-        """Call a take something else."""
+        """Rename a take."""
         player = self._session.player
         if player is not None:
             self._session.attempt(
@@ -191,7 +194,7 @@ class TakesModel:
             )
 
     def move_lane(self, take_id: str, before: int) -> None:
-        """Put a take's lane before the one that has a number now."""
+        """Move a take before the row of an index."""
         player, take = self._session.player, self.take_of(take_id)
         if player is not None and take is not None:
             self._session.attempt(
@@ -200,7 +203,7 @@ class TakesModel:
             )
 
     def take_span(self, take_id: str, start_tick: int, end_tick: int) -> bool:
-        """Let the part have a span of a take, and select it; whether that could be done."""
+        """Use a span of a take in the part, select it, and return whether that succeeded."""
         player = self._session.player
         if player is None:
             return False

@@ -1,4 +1,4 @@
-"""Row of the lane of takes as arrays, in seconds of the piece. Nothing draws here."""
+"""Rows of the takes lane as arrays, in seconds of the piece; without drawing."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ _BREATH: Final[IdentityCache[StepCurve | None]] = IdentityCache(128)
 
 @dataclass(frozen=True, eq=False)
 class TakeRow:
-    """A row.
+    """A row of the takes lane.
 
     Attributes
     ----------
     take : Take or None
-        None: what was there before the first.
+        Take; None for the notes before the first take.
     kept : TimeSpans
-        The notes as the part would have them, seconds.
+        Notes that the part would have, in seconds.
     pitches, onset_ticks : int64, as long
     left_out : TimeSpans
-        What cleaning leaves out, as it was played.
+        Notes omitted by cleaning, as played.
     left_out_pitches : int64
     faults : tuple of Fault
         Why.
     breath : StepCurve or None
-        0..1; None where none was sent.
+        Breath, 0..1; None if it was not recorded.
     """
 
     take: Take | None
@@ -55,12 +55,12 @@ class TakeRow:
 
     @property
     def take_id(self) -> str:
-        """Id of the take, as edits use it."""
+        """Return the id of the take as used in edits."""
         return BEFORE if self.take is None else self.take.id
 
 
 def rows_of(project: Project, player_id: str) -> tuple[TakeRow, ...]:
-    """Row of what was there before, then the takes in the order of their lanes; none where nothing was recorded."""
+    """Return the row of the notes before the first take, then those of the takes in order; empty without recordings."""
     recorded = project.takes.get(player_id)
     if recorded is None or not recorded.takes:
         return ()
@@ -69,7 +69,7 @@ def rows_of(project: Project, player_id: str) -> tuple[TakeRow, ...]:
 
 
 def owners(comp: Sequence[CompSpan], ticks: IntArray) -> IntArray:
-    """The index of the span of a comp that each tick lies in; -1: none."""
+    """Return the index of the span of a comp that contains each tick; -1 for none."""
     if not comp:
         return np.full(len(ticks), -1, np.int64)
     starts = np.array([span.start_tick for span in comp], np.int64)
@@ -79,7 +79,7 @@ def owners(comp: Sequence[CompSpan], ticks: IntArray) -> IntArray:
 
 
 def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
-    """The span of a comp at a place; where no take was taken, the gap, as far as ``end_tick``."""
+    """Return the span of a comp at a tick; outside of takes, the gap up to ``end_tick``."""
     start = 0
     for span in comp:
         if tick < span.start_tick:
@@ -91,7 +91,7 @@ def span_at(comp: Sequence[CompSpan], tick: float, end_tick: int) -> CompSpan:
 
 
 def edges(comp: Sequence[CompSpan], end_tick: int) -> tuple[tuple[CompSpan, CompSpan], ...]:
-    """Pairs of neighbours: the spans of a comp, and the gaps beside them as far as ``end_tick``."""
+    """Return pairs of adjacent spans of a comp, including gaps up to ``end_tick``."""
     met: list[CompSpan] = []
     at = 0
     for span in comp:
@@ -103,7 +103,7 @@ def edges(comp: Sequence[CompSpan], end_tick: int) -> tuple[tuple[CompSpan, Comp
 
 
 def pitch_range(rows: Sequence[TakeRow]) -> tuple[int, int]:
-    """The lowest and highest pitch of all rows, at least an octave apart, so that rows can be compared."""
+    """Return the lowest and highest pitch of all rows, at least an octave apart, so that rows are comparable."""
     found = [pitches for row in rows for pitches in (row.pitches, row.left_out_pitches) if len(pitches)]
     if not found:
         return 60, 72
@@ -155,10 +155,10 @@ def _drawn_breath(curve: ControllerCurve, clock: TempoMap) -> StepCurve:
 
 
 def _moved(seconds: FloatArray, own: TempoMap, clock: TempoMap) -> FloatArray:
-    """Times of a take's own clock as times of the piece, whose tempo may have changed since."""
+    """Convert times of a take's own clock to times of the piece, whose tempo may have changed since."""
     return clock.seconds(own.ticks(seconds))
 
 
 def comp_of(project: Project, player_id: str) -> tuple[CompSpan, ...]:
-    """Spans of a player's part, each with its take."""
+    """Return the spans of a player's part, each with its take."""
     return recorded_of(project, player_id).comp
