@@ -1,4 +1,4 @@
-"""Lanes of several players one under another: of each chosen player the open lanes, under the player's name."""
+"""Stacked lanes of several players: the open lanes of each selected player below the player's name."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ from widgets.timeline.roll.piano_roll import PianoRoll
 from widgets.timeline.zoom_and_scroll import TimeAxis
 
 KINDS: Final[tuple[type[Lane], ...]] = (PianoRoll, FingeringLane, BreathLane)
-"""Lanes that are stacked; the others are of the player in front."""
+"""Lanes that are stacked; other lanes show the active player."""
 STACKED_IDS: Final = tuple(kind.id for kind in KINDS)
 MOST_STACKED: Final = 8
-"""Players whose lanes are shown at once."""
+"""Greatest number of stacked players."""
 CAPTION_PX: Final = 24
 HEIGHTS_PX: Final[Mapping[str, int]] = {PianoRoll.id: 92, FingeringLane.id: 46, BreathLane.id: 26}
-"""Heights by the lane's id, while the user set no other; notes of ten pitches are legible in a roll."""
+"""Default heights in pixels by lane id; notes of ten pitches are legible in a roll."""
 LOW_PX: Final[Mapping[str, int]] = {PianoRoll.id: 92, FingeringLane.id: 26, BreathLane.id: 24}
-"""Heights where they bring all players into sight at once, as those of two in a window of usual size."""
+"""Heights in pixels used if they make all players visible at once, as with two in a window of usual size."""
 MOST_ROLL_PX: Final = 260
-"""Rolls grow to this height where there is room."""
+"""Height in pixels up to which rolls grow if there is space."""
 MOST_PX: Final = 600
 
 
 class PlayerCaption(Retranslated, QWidget):
-    """The line above a player's lanes: colour, name, instrument, mute and solo; a click puts the player in front."""
+    """The line above a player's lanes: colour, name, instrument, mute and solo; a click makes the player active."""
 
     def __init__(self, session: PlayerSession, parent: QWidget) -> None:
         super().__init__(parent)
@@ -116,7 +116,7 @@ class PlayerCaption(Retranslated, QWidget):
 
 
 class PlayerLanes(QObject):
-    """Caption and lanes of one place in the stack; the player there changes, the lanes are kept."""
+    """Caption and lanes of one place in the stack; the lanes are reused for different players."""
 
     def __init__(self, session: Session, axis: TimeAxis, parent: QWidget) -> None:
         super().__init__(parent)
@@ -132,7 +132,7 @@ class PlayerLanes(QObject):
 
     @property
     def roll(self) -> PianoRoll:
-        """The player's notes."""
+        """The piano roll of the player."""
         roll = self.lanes[PianoRoll.id]
         assert isinstance(roll, PianoRoll)
         return roll
@@ -147,10 +147,10 @@ class PlayerLanes(QObject):
 
 
 class StackedPlayers(Retranslated, QWidget):
-    """The stack: of the selected players, in their order, as soon as there are several.
+    """The stack of the selected players in their order, shown if there are several.
 
-    Selecting one of them only puts that one in front; selecting one player who is not among them ends the stack until
-    several are selected.
+    Selecting one of them only makes it active; selecting a single other player ends the stack until several are
+    selected.
 
     Signals
     -------
@@ -191,7 +191,7 @@ class StackedPlayers(Retranslated, QWidget):
         return self._requested
 
     def request(self, stacked: bool) -> None:
-        """Stack the lanes of selected players, or show those of the player in front."""
+        """Stack the lanes of selected players, or show those of the active player."""
         if stacked != self._requested:
             self._requested = stacked
             self._chosen = frozenset()
@@ -204,17 +204,17 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def heights_px(self) -> dict[str, int]:
-        """The heights that the user set, by lane id."""
+        """Return the heights set by the user in pixels by lane id."""
         return dict(self._set_px)
 
     @property
     def folded(self) -> dict[str, tuple[str, ...]]:
-        """Ids of the lanes that are folded, by player."""
+        """Return the ids of the folded lanes by player."""
         ids = sorted({id for id, _ in self._folded})
         return {id: tuple(lane_id for lane_id in STACKED_IDS if (id, lane_id) in self._folded) for id in ids}
 
     def set_layout(self, heights_px: Mapping[str, int], folded: Mapping[str, Collection[str]]) -> None:
-        """Let lanes stand as `heights_px` and `folded` said."""
+        """Set heights and folded lanes as returned by `heights_px` and `folded`."""
         self._set_px = {id: _within(id, heights_px[id]) for id in STACKED_IDS if id in heights_px}
         self._folded = {(id, lane_id) for id, lane_ids in folded.items() for lane_id in lane_ids}
         self._show()
@@ -226,15 +226,15 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def front(self) -> PlayerLanes | None:
-        """The lanes of the player in front, if they are stacked."""
+        """The lanes of the active player, if they are stacked."""
         return next((one for one in self.shown if one.session.is_in_front), None)
 
     def lane_in_front(self, lane_id: str) -> Lane | None:
-        """The lane of a kind of the player in front, if it is stacked."""
+        """Return the active player's lane of a kind, if it is stacked."""
         return None if self.front is None or lane_id not in self._open else self.front.lanes[lane_id]
 
     def lane_with(self, widget: QWidget | None) -> Lane | None:
-        """The stacked lane of which a widget is a part."""
+        """Return the stacked lane that contains a widget."""
         lanes = (lane for one in self.shown for lane in one.lanes.values())
         return None if widget is None else next((lane for lane in lanes if lane.isAncestorOf(widget)), None)
 
@@ -318,7 +318,7 @@ class StackedPlayers(Retranslated, QWidget):
 
     @property
     def _left_out_count(self) -> int:
-        """The number of selected players that are too many to stack."""
+        """Return the number of selected players beyond the greatest number of stacked ones."""
         return len(self._chosen - {*self._ids}) if self.active else 0
 
     def _show_captions(self) -> None:
@@ -340,17 +340,17 @@ class StackedPlayers(Retranslated, QWidget):
             self.changed.emit()
 
     def set_sight(self, height_px: int) -> None:
-        """Take the height that the stack has in sight into account."""
+        """Set the visible height for the stack in pixels."""
         self._sight_px = height_px
 
     @property
     def needed_px(self) -> int:
-        """Height with all rolls as low as they may be."""
+        """Return the height in pixels with all rolls at their least height."""
         return self._total_px(self._usual_px)
 
     @property
     def _usual_px(self) -> Mapping[str, int]:
-        """Heights by the lane's id, while the user set no other."""
+        """Return the automatic heights in pixels by lane id."""
         if self._total_px(HEIGHTS_PX) <= self._sight_px or self._total_px(LOW_PX) > self._sight_px:
             return HEIGHTS_PX
         lanes = sum(lane.id == FingeringLane.id and not lane.folded for lane in self._lanes_in_sight())
@@ -369,7 +369,7 @@ class StackedPlayers(Retranslated, QWidget):
         return FOLDED_PX if lane.folded else self._set_px.get(lane.id, usual_px[lane.id])
 
     def set_room(self, room_px: int) -> None:
-        """Take at least `needed_px`; rolls share what there is more."""
+        """Set the available height in pixels, at least `needed_px`; rolls share the rest."""
         lanes, usual_px = self._lanes_in_sight(), self._usual_px
         rolls = [lane for lane in lanes if isinstance(lane, PianoRoll) and not lane.folded]
         total = self._total_px(usual_px)
@@ -385,5 +385,5 @@ class StackedPlayers(Retranslated, QWidget):
 
 
 def _within(lane_id: str, height_px: int) -> int:
-    """The height nearest to one that a stacked lane may have."""
+    """Return a height limited to the range for a stacked lane."""
     return min(max(height_px, HEIGHTS_PX[lane_id] // 2), MOST_PX)

@@ -1,4 +1,4 @@
-"""The bar over the ruler: which tool, whose notes are in front, how the others are seen."""
+"""The bar above the ruler: tools, active player, and display of other players' notes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MODES = {
 GHOST_ICONS = {Ghosts.GHOSTS: "ghosts", Ghosts.SELECTED: "ghosts", Ghosts.ALL: "players", Ghosts.ALONE: "player"}
 BUTTON_PX = 26
 READOUT_PX = 160
-"""Room left for what is under the mouse."""
+"""Width in pixels for the description of the object under the mouse."""
 SWATCH_PX = 12
 
 
@@ -97,7 +97,7 @@ class ToolBar(Retranslated, QWidget):
         self.show_state()
 
     def show_lanes_and_zoom(self, lanes: QToolButton, *zoom: QToolButton) -> None:
-        """Put the menu of the lanes beside that of the other players' notes, and zoom at the right."""
+        """Add the menu of the lanes beside that of other players' notes, and the zoom buttons at the right."""
         row = self.layout()
         assert isinstance(row, QHBoxLayout)
         row.insertWidget(row.indexOf(self.ghosts_button) + 1, lanes)
@@ -117,7 +117,7 @@ class ToolBar(Retranslated, QWidget):
         self._count()
 
     def show_state(self) -> None:
-        """Show the tool and the way of seeing the others."""
+        """Show the tool and the display of other players' notes."""
         self.tools[self._roll.tool].setChecked(True)
         mode = self._roll.ghosts_mode
         self._modes[mode].setChecked(True)
@@ -126,7 +126,7 @@ class ToolBar(Retranslated, QWidget):
         self._fit_texts()
 
     def report(self, text: str) -> None:
-        """Show what is under the mouse; nothing: how much is selected."""
+        """Show a description of the object under the mouse; for an empty one, the size of the selection."""
         if text:
             self.readout.setText(text)
         else:
@@ -177,7 +177,7 @@ class ToolBar(Retranslated, QWidget):
         self.show_state()
 
     def _fit_texts(self) -> None:
-        """Show the texts of buttons as far as there is room."""
+        """Show the texts of buttons as far as there is space."""
         row = self.layout()
         if row is None:
             return

@@ -1,4 +1,4 @@
-"""Zoom and scroll of the timeline, by the wheel and otherwise: the one time axis that the ruler and all lanes share."""
+"""Zoom and scrolling of the timeline: the common time axis of the ruler and all lanes."""
 
 from __future__ import annotations
 
@@ -47,9 +47,10 @@ def wheel_turn(event: QWheelEvent) -> WheelTurn:
 
 
 class TimeAxis(QObject):
-    """The visible range of seconds, and where they lie in pixels: a `TimeView` that says when it is another.
+    """The visible range of seconds and its scale in pixels: a `TimeView` with a signal for changes.
 
-    Pixels count from the left edge of the plot area, which is as wide in every lane. Nothing scrolls past the limits.
+    Pixels count from the left edge of the plot area, which has the same width in every lane. Scrolling stops at the
+    limits.
 
     Signals
     -------
@@ -92,7 +93,7 @@ class TimeAxis(QObject):
 
     @property
     def px_per_s(self) -> float:
-        """The zoom."""
+        """Pixels per second."""
         return self._view.px_per_s
 
     @overload
@@ -112,25 +113,26 @@ class TimeAxis(QObject):
         return self._line_cache.get(score, grid, self.start_s, self.end_s, self.px_per_s)
 
     def set_limits(self, start_s: float, end_s: float, whole_s: tuple[float, float]) -> None:
-        """Change what can be scrolled to, and what is shown as the whole; the visible range moves only where it
-        must."""
+        """Set the range that can be scrolled to, and the range of the whole piece; the visible range moves only if
+        necessary.
+        """
         self._whole_s = whole_s
         self._become(self._view.within(start_s, end_s))
 
     def set_width(self, width_px: int) -> None:
-        """The plot areas are this wide now. The zoom stays, so that widening a window shows more."""
+        """Set the width of the plot areas in pixels, with the same zoom, so that a wider window shows more."""
         self._become(self._view.widened(width_px))
 
     def show(self, start_s: float, end_s: float) -> None:
-        """Show this range, as far as the limits allow."""
+        """Show a range within the limits."""
         self._become(self._view.showing(start_s, end_s))
 
     def fit(self) -> None:
-        """Show the whole."""
+        """Show the whole piece."""
         self._become(self._view.showing(*self._whole_s))
 
     def zoom(self, factor: float, at_s: float) -> None:
-        """Show ``factor`` times less; the time ``at_s`` stays where it is."""
+        """Show ``factor`` times less around the time ``at_s``."""
         self._become(self._view.zoomed(factor, at_s))
 
     def pan(self, by_s: float) -> None:
@@ -138,7 +140,7 @@ class TimeAxis(QObject):
         self._become(self._view.panned(by_s))
 
     def pan_px(self, by_px: float) -> None:
-        """Scroll by what a hand drags the picture to the right."""
+        """Scroll as when a hand drags the contents to the right by pixels."""
         self.pan(-by_px / self.px_per_s)
 
     def turn_wheel(self, turn: WheelTurn, x_px: float) -> None:
@@ -149,7 +151,7 @@ class TimeAxis(QObject):
             self.pan(-turn.notches * PAN_A_NOTCH * self.span_s)
 
     def reveal(self, time_s: float, end_s: float | None = None) -> None:
-        """Scroll only if a time (or a span from it on) is not comfortably in view."""
+        """Scroll to a time (or a span from it on), unless it is visible with some margin."""
         self._become(self._view.revealing(time_s, end_s))
 
     def _become(self, view: TimeView) -> None:

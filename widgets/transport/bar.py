@@ -1,4 +1,4 @@
-"""The transport: play, stop, loop; where the playhead is; what sounds; what edits snap to."""
+"""The transport bar: play, stop, loop; playhead position; audible sources; grid."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ BUTTONS = (
     ("play.loop", "loop", "transport_bar.loop_selection_else_bar"),
     ("record.toggle", "record", "transport_bar.record_player_in_front_or"),
 )
-"""Actions by id, their icons and the ids of their tips."""
+"""Action ids with icons and ids of tool tips."""
 TOGGLES = (
     ("play.click", "metronome", "transport_bar.metronome"),
     ("play.follow", "follow", "transport_bar.timeline_follows_playhead"),
@@ -51,12 +51,12 @@ _SPACING_PX = 3
 
 
 class TransportBar(Retranslated, QWidget):
-    """The bar under the menu.
+    """The bar below the menu bar.
 
     Parameters
     ----------
     session : Session
-        Its actions are what the buttons do, so that menu, keys and buttons cannot differ.
+        Session whose actions the buttons trigger, so that menu, keys and buttons agree.
     """
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -240,7 +240,7 @@ class TransportBar(Retranslated, QWidget):
             self.tempo.setText(text)
 
     def _show_take(self, playhead_s: float) -> None:
-        """Show the beats that are still counted in, or the pass of a loop that is recorded."""
+        """Show the remaining beats of the count-in, or the recorded pass of a loop."""
         recording, text = self._session.recording, ""
         if recording.running and playhead_s < recording.start_s - 1e-6:
             project = self._session.project
@@ -278,14 +278,16 @@ class TransportBar(Retranslated, QWidget):
         self._fit()
 
     def _spare(self) -> dict[QWidget, int]:
-        """Fields that are also elsewhere, and the width that each needs, pixels; the last goes first."""
+        """Return the fields that exist elsewhere too, with the width in pixels that each needs; the last one is hidden
+        first.
+        """
         return {
             widget: max(widget.minimumWidth(), widget.minimumSizeHint().width()) + _SPACING_PX
             for widget in (self.clock, self.tempo, self.silent_text)
         }
 
     def _least_px(self) -> int:
-        """Width without what is also elsewhere."""
+        """Return the width in pixels without these fields."""
         layout = self.layout()
         assert layout is not None
         items = [item for index in range(layout.count()) if (item := layout.itemAt(index)) is not None]
@@ -297,7 +299,7 @@ class TransportBar(Retranslated, QWidget):
         return margins.left() + margins.right() + widths + spaces
 
     def _fit(self) -> None:
-        """Leave out fields that are also elsewhere where room is short, so that every control keeps its name."""
+        """Hide fields that exist elsewhere too if the space is insufficient, so that every control keeps its name."""
         room = self.width() - self._least_px()
         for widget, width in self._spare().items():
             if widget is self.silent_text and not self._session.listening.silent:

@@ -1,4 +1,4 @@
-"""A light that flashes with the metronome, for playing along without hearing it."""
+"""A light that flashes with the metronome, for playing along without its sound."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _BAR, _BEAT, _OFF = "bar", "beat", "off"
 
 
 class BeatLight(QWidget):
-    """Shines on every felt beat while it plays and the metronome is on, or a take is recorded; brighter on a bar's."""
+    """Lights up on every felt beat during playback with metronome or recording; brighter on the first beat of a bar."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -29,7 +29,7 @@ class BeatLight(QWidget):
         session.theme_changed.connect(self.update)
 
     def show_time(self, playhead_s: float) -> None:
-        """The performance is here now."""
+        """Set the performance time in seconds."""
         state = self._at(playhead_s)
         if state != self.state:
             self.state = state

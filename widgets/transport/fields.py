@@ -1,4 +1,4 @@
-"""The moment shown, written in three ways; each is typed, dragged and copied."""
+"""Fields with the playhead's position in three notations, for typing, dragging and copying."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from widgets.common.number_slider import NumberSlider
 
 _CLOCK = re.compile(r"^\s*(-?)(?:(?:(\d+)\s*:\s*)?(\d+)\s*:\s*)?(\d+(?:\.\d*)?|\.\d+)\s*$")
 MOST_S = 12 * 3600.0
-"""Beyond any performance: typed times are kept below it."""
+"""Limit in seconds for typed times, beyond any performance."""
 
 
 def clock_text(time_s: float) -> str:
-    """``"00:19.250"``: minutes and seconds, hours where there are any."""
+    """Return a time as ``"00:19.250"``: minutes and seconds, hours if necessary."""
     milliseconds = round(abs(time_s) * 1000)
     minutes, rest = divmod(milliseconds, 60_000)
     hours, minutes = divmod(minutes, 60)
@@ -25,7 +25,7 @@ def clock_text(time_s: float) -> str:
 
 
 def clock_seconds(text: str) -> float | None:
-    """Read a clock text, or a plain number of seconds; None if it is neither."""
+    """Return the seconds of a clock text or plain number; None if it is neither."""
     plain = unicodedata.normalize("NFKC", text).replace("−", "-").replace(",", ".").strip().removesuffix("s")
     match = _CLOCK.match(plain)
     if match is None:

@@ -1,6 +1,6 @@
-"""The camera as a value: an orbit about a target. Nothing here knows Qt or GL.
+"""The camera as a value: an orbit about a target; independent of Qt and GL.
 
-World: metres, Y up; the audience is towards +Z, and a camera of yaw 0 looks from there.
+World: metres, Y up; the audience is towards +Z, from where a camera of yaw 0 looks.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ NEAREST_M, FARTHEST_M = 0.08, 120.0
 LOWEST_RAD, HIGHEST_RAD = math.radians(-20.0), math.radians(89.9)
 ORBIT_RAD_PER_PX = math.radians(0.35)
 DOLLY_PER_STEP = 0.88
-"""Distance left after one step of the wheel."""
+"""Factor of the distance for one step of the wheel."""
 
 
 @dataclass(frozen=True)
 class Camera:
-    """Looks at ``target_m`` from a distance.
+    """A camera that looks at ``target_m`` from a distance.
 
     Attributes
     ----------
     target_m : (float, float, float)
     yaw_rad : float
-        0: from the audience (+Z); towards +X it grows.
+        Angle from the audience (+Z), increasing towards +X.
     pitch_rad : float
         0: level; positive: from above.
     distance_m : float
@@ -82,7 +82,7 @@ class Camera:
         return self.distance_m + 80.0
 
     def view(self) -> FloatArray:
-        """``eye_from_world`` (4, 4)."""
+        """Return ``eye_from_world`` (4, 4)."""
         rotation = np.stack([self.right, self.up, self.backward])
         matrix = np.eye(4)
         matrix[:3, :3] = rotation
@@ -107,12 +107,14 @@ class Camera:
         return self.projection(aspect) @ self.view()
 
     def pixels_per_metre(self, height_px: float, distance_m: float | None = None) -> float:
-        """Pixels of a metre across the line of sight, in a picture of this height."""
+        """Return the pixels per metre across the line of sight in a picture of a height."""
         distance = self.distance_m if distance_m is None else max(distance_m, 1e-3)
         return 0.5 * height_px / (distance * math.tan(math.radians(self.fov_deg) / 2.0))
 
     def project(self, points_m: npt.ArrayLike, width_px: float, height_px: float) -> tuple[FloatArray, FloatArray]:
-        """Pixels (N, 2) from the upper left corner, and depths (N,) in metres before the eye, negative behind it."""
+        """Return the pixels (N, 2) of points from the upper left corner, and depths (N,) in metres in front of the
+        eye.
+        """
         points = np.atleast_2d(np.asarray(points_m, np.float64))
         view = self.view()
         eye = points @ view[:3, :3].T + view[:3, 3]
@@ -131,7 +133,7 @@ class Camera:
 
 
 def orbit(camera: Camera, right_px: float, down_px: float) -> Camera:
-    """Turn about the target as a drag over the picture asks: the picture follows the hand."""
+    """Return the camera turned about the target by a drag, so that the picture follows the mouse."""
     pitch = camera.pitch_rad + down_px * ORBIT_RAD_PER_PX
     return replace(
         camera,
@@ -141,28 +143,29 @@ def orbit(camera: Camera, right_px: float, down_px: float) -> Camera:
 
 
 def pan(camera: Camera, right_px: float, down_px: float, height_px: float) -> Camera:
-    """Shift so that what lies at the target's distance follows the hand."""
+    """Return the camera shifted by a drag, so that objects at the target's distance follow the mouse."""
     metre = 1.0 / camera.pixels_per_metre(height_px)
     target = np.asarray(camera.target_m) + metre * (down_px * camera.up - right_px * camera.right)
     return replace(camera, target_m=triple(target))
 
 
 def dolly(camera: Camera, steps: float) -> Camera:
-    """Come nearer by steps of the wheel; negative: move away."""
+    """Return the camera moved nearer by steps of the wheel; negative steps move it away."""
     distance = camera.distance_m * DOLLY_PER_STEP**steps
     return replace(camera, distance_m=min(max(distance, NEAREST_M), FARTHEST_M))
 
 
 def frame(camera: Camera, low_m: npt.ArrayLike, high_m: npt.ArrayLike, aspect: float, margin: float = 1.1) -> Camera:
-    """Look, in the same direction, at a box so that all of it is in the picture."""
+    """Return the camera in the same direction with all of a box in the picture."""
     low, high = np.asarray(low_m, np.float64), np.asarray(high_m, np.float64)
     corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     return frame_around(camera, (low + high) / 2.0, corners, aspect, margin)
 
 
 def frame_around(camera: Camera, middle_m: npt.ArrayLike, points_m: FloatArray, aspect: float, margin: float) -> Camera:
-    """Look, in the same direction, at a point (3,) so that some points (N, 3) are in the picture, in which they take
-    one part in ``margin`` of a side at most."""
+    """Return the camera in the same direction at a point (3,) with points (N, 3) in the picture, of which they take at
+    most 1 / ``margin`` of a side.
+    """
     middle = np.asarray(middle_m, np.float64)
     away = points_m - middle
     tangent = math.tan(math.radians(camera.fov_deg) / 2.0) / margin
@@ -173,18 +176,18 @@ def frame_around(camera: Camera, middle_m: npt.ArrayLike, points_m: FloatArray, 
 
 
 _FRONTAL_RAD = math.radians(10.0)
-"""A camera within this of someone's front looks from the front."""
+"""Angle within which a camera counts as being in front of a person."""
 
 
 def from_other_side(camera: Camera, front_rad: float) -> Camera:
-    """Look at the same from the other side of someone who faces ``front_rad`` (from +Z towards +X)."""
+    """Return the camera on the other side of a person facing ``front_rad`` (from +Z towards +X)."""
     side = _wrapped(camera.yaw_rad - front_rad)
     is_frontal = min(abs(side), math.pi - abs(side)) < _FRONTAL_RAD
     return replace(camera, yaw_rad=_wrapped(front_rad + (side + math.pi if is_frontal else -side)))
 
 
 def between(start: Camera, end: Camera, share: float) -> Camera:
-    """Part of the way from one camera to another, by the shorter turn, eased at both ends."""
+    """Return the camera at a share of the way between two, by the shorter rotation, eased at both ends."""
     if share >= 1.0:
         return end
     share = max(share, 0.0)
@@ -202,9 +205,9 @@ def between(start: Camera, end: Camera, share: float) -> Camera:
 def followed(
     camera: Camera, target_m: npt.ArrayLike, elapsed_s: float, distance_m: float | None = None, settle_s: float = 0.35
 ) -> Camera:
-    """The camera drawn after a moving target, and to another distance, as by a damped spring without overshoot.
+    """Return the camera moved towards a moving target and distance like a damped spring without overshoot.
 
-    ``settle_s`` is the time constant: 63 % of a jump is made up in it.
+    ``settle_s`` is the time constant in seconds, in which 63 % of a jump is covered.
     """
     share = 1.0 - math.exp(-max(elapsed_s, 0.0) / settle_s)
     target = np.asarray(camera.target_m)

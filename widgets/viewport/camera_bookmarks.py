@@ -1,4 +1,4 @@
-"""Cameras of the viewport as bookmarks of a piece, both ways."""
+"""Conversion between cameras of the viewport and bookmarks of a piece."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from widgets.viewport.scene import ViewportScene
 
 
 def bookmark_of(eye: Eye, name: str, player_id: str) -> CameraBookmark:
-    """The bookmark of a camera, or of where its flight ends."""
+    """Return the bookmark of a camera, or of the end of its flight."""
     camera = eye.destination
     return CameraBookmark(
         name,
@@ -42,7 +42,7 @@ def camera_of(bookmark: CameraBookmark) -> Camera:
 def shot_of(
     bookmark: CameraBookmark, player_ids: tuple[str, ...], project: Project, cameras: dict[float, Camera] | None
 ) -> Shot:
-    """A film's camera from a bookmark, which follows the player that it was made of, if there still is one."""
+    """Return a film's camera for a bookmark, which follows the bookmark's player if it exists."""
     is_there = any(bookmark.player_id == one.id for one in project.performers)
     followed = (bookmark.player_id,) if is_there else player_ids
     return Shot(bookmark.view, camera_of(bookmark), followed, bookmark.shift_m, cameras)
@@ -54,7 +54,7 @@ class BookmarkedCamera:
     Parameters
     ----------
     go : callable
-        Moves the camera somewhere, smoothly where it is seen.
+        Moves the camera, with an animation if it is visible.
     """
 
     def __init__(
@@ -63,11 +63,11 @@ class BookmarkedCamera:
         self._session, self._eye, self._scene, self._header, self._go = session, eye, scene, header, go
 
     def bookmark(self, name: str) -> CameraBookmark:
-        """The camera as it stands."""
+        """Return the bookmark of the present camera."""
         return bookmark_of(self._eye, name, next(iter(self._session.in_front), ""))
 
     def recall(self, bookmark: CameraBookmark) -> None:
-        """Look from a bookmark, with its player in front."""
+        """Move the camera to a bookmark, and make its player active."""
         session, eye, player_id = self._session, self._eye, bookmark.player_id
         if player_id in session.project.dancer_ids:
             session.set_dancer(player_id)
@@ -82,11 +82,11 @@ class BookmarkedCamera:
 
     @property
     def is_moved(self) -> bool:
-        """True if the camera stands where the user put it."""
+        """True if the user has moved the camera."""
         return self._eye.touched
 
     def restore(self, bookmark: CameraBookmark, is_moved: bool) -> None:
-        """Restore the view that a piece had when it was last open."""
+        """Restore the view in which a piece was closed."""
         if is_moved:
             self.recall(bookmark)
             self._eye.jump(self._eye.destination)

@@ -1,4 +1,4 @@
-"""Moves of the camera: flights between views, following a player, orbit, pan and zoom. Nothing here knows Qt or GL."""
+"""Moves of the camera: flights between views, following a player, orbit, pan and zoom; independent of Qt and GL."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from widgets.viewport.camera import Camera
 
 TRANSITION_S = 0.35
 ARRIVED_M = 0.0008
-"""A close-up nearer to its middle than this has arrived."""
+"""Distance in metres from its centre below which a close-up has arrived."""
 ARRIVED_SHARE = 0.002
-"""A distance within this share of where it goes has arrived."""
+"""Relative difference of the distance below which it has arrived."""
 SLACK = 1.15
-"""Factor by which what a close-up shows may grow before the camera goes back."""
+"""Factor by which a close-up's contents may grow before the camera moves back."""
 LONGEST_STEP_S = 0.1
-"""After a pause the camera goes on as if it had been this long."""
+"""Longest step in seconds after a pause."""
 
 
 class Eye:
-    """Camera position of the picture, with its flights. Times are any clock's, in seconds.
+    """Position of the camera with its flights. Times are those of any clock in seconds.
 
     Attributes
     ----------
     camera : Camera
         Of now.
     view : View
-        What is looked at: close-ups follow it.
+        Present view; close-ups follow their object.
     touched : bool
-        Whether the camera stands where the user moved it; else it is the view's own.
+        Whether the user has moved the camera.
     """
 
     def __init__(self) -> None:
@@ -45,30 +45,30 @@ class Eye:
 
     @property
     def destination(self) -> Camera:
-        """The camera, or where its flight ends."""
+        """The camera, or the end of its flight."""
         return self._flight[1] if self._flight is not None else self.camera
 
     @property
     def shift_m(self) -> FloatArray:
-        """Target of a close-up against what it follows, as the user shifted it (3,)."""
+        """Shift (3,) in metres of a close-up from its object, as set by the user."""
         return self._shift_m
 
     @property
     def flying(self) -> bool:
-        """True while it is on its way to another place."""
+        """True during a flight."""
         return self._flight is not None
 
     def choose(self, view: View) -> None:
-        """Look at something else from now on."""
+        """Set the view."""
         self.view, self.touched, self._framed = view, False, None
         self._shift_m = np.zeros(3)
 
     def place(self, shift_m: FloatArray) -> None:
-        """Stand as if the user had moved the camera, a close-up with this shift."""
+        """Set the camera as moved by the user, for a close-up with a shift."""
         self.touched, self._shift_m = True, shift_m
 
     def jump(self, camera: Camera) -> None:
-        """Look from there at once."""
+        """Set the camera without a flight."""
         self.camera, self._flight, self._framed = camera, None, None
 
     def fly(self, camera: Camera, now_s: float) -> None:
@@ -76,7 +76,7 @@ class Eye:
         self._flight, self._framed = (self.camera, camera, now_s), None
 
     def advance(self, now_s: float) -> bool:
-        """Go on with a flight; whether there was one."""
+        """Continue a flight, and return whether there was one."""
         if self._flight is None:
             return False
         start, end, since_s = self._flight
@@ -88,19 +88,19 @@ class Eye:
         return True
 
     def centred(self, middle_m: FloatArray) -> FloatArray:
-        """The target for a followed place: the user may have shifted it."""
+        """Return the target for a followed point, with the user's shift."""
         shifted: FloatArray = middle_m + self._shift_m
         return shifted
 
     def follow(self, middle_m: FloatArray | None, now_s: float, needed_m: float | None = None) -> bool:
-        """Go after a place; whether there is still a way to go.
+        """Move towards a followed point, and return whether it is not reached yet.
 
         Parameters
         ----------
         middle_m : array (3,) or None
         now_s : float
         needed_m : float, optional
-            Distance from which all that the close-up shows is in the picture; as far as it grows, the camera goes back.
+            Distance in metres at which all of a close-up's contents are visible; the camera moves back if it grows.
         """
         elapsed_s, self._last_s = min(now_s - self._last_s, LONGEST_STEP_S), now_s
         if middle_m is None or self._flight is not None:
@@ -112,7 +112,7 @@ class Eye:
         return bool(away or abs(self.camera.distance_m / distance_m - 1.0) > ARRIVED_SHARE)
 
     def _distance_m(self, needed_m: float | None) -> float:
-        """Distance that keeps what a close-up shows in the picture: as framed, or farther."""
+        """Return the distance in metres that keeps a close-up's contents visible: as framed, or greater."""
         if needed_m is None:
             return self.camera.distance_m
         if self._framed is None:
@@ -121,19 +121,19 @@ class Eye:
         return framed_m * max(needed_m / (SLACK * needed_then_m), 1.0)
 
     def orbit(self, right_px: float, down_px: float) -> None:
-        """Turn by hand."""
+        """Turn the camera by a drag of the user."""
         self._grasp()
         self.camera = moves.orbit(self.camera, right_px, down_px)
 
     def pan(self, right_px: float, down_px: float, height_px: float) -> None:
-        """Shift by hand; a close-up keeps the shift while it follows."""
+        """Shift the camera by a drag of the user; a close-up keeps the shift while following."""
         self._grasp()
         before = np.asarray(self.camera.target_m)
         self.camera = moves.pan(self.camera, right_px, down_px, height_px)
         self._shift_m = self._shift_m + np.asarray(self.camera.target_m) - before
 
     def dolly(self, steps: float) -> None:
-        """Come nearer by hand."""
+        """Move the camera nearer by steps of the user."""
         self._grasp()
         self.camera = moves.dolly(self.camera, steps)
 

@@ -1,4 +1,4 @@
-"""The one GL canvas: a vispy canvas that Qt embeds, and pictures of any size from its context."""
+"""The GL canvas: a vispy canvas embedded by Qt, and pictures of any size in its context."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Picture = tuple[Camera, ViewportLook, Emphasis]
 
 
 def why_no_gl() -> str | None:
-    """Reason for which GL does not work here, in the driver's words; None where it works."""
+    """Return why GL does not work, in the driver's words; None if it works."""
     platform = QGuiApplication.platformName()
     if platform in NO_GL_PLATFORMS:
         return f"Qt platform '{platform}'"
@@ -46,7 +46,7 @@ def why_no_gl() -> str | None:
 
 
 class Canvas(vispy_app.Canvas):  # type: ignore[misc]
-    """Draws what `picture` says whenever Qt asks for it.
+    """Draws the result of `picture` whenever Qt requests it.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         )
 
     def prepare(self, prepare: Callable[[Renderer], None]) -> None:
-        """Let the renderer take another stage before it draws next."""
+        """Call a function with the renderer before it draws next."""
         self._prepare = prepare
         self.update()
 
@@ -90,7 +90,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         self.update()
 
     def on_draw(self, event: Any) -> None:
-        """Called by vispy when Qt paints."""
+        """Draw; called by vispy when Qt paints."""
         width, height = self.physical_size
         began_s = perf_counter()
         self._draw(int(width), int(height))
@@ -103,7 +103,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
         return perf_counter() - self._drawn_s
 
     def draw_now(self) -> None:
-        """Draw before anything else is done."""
+        """Draw immediately."""
         self.native.repaint()
 
     def _draw(self, width: int, height: int) -> None:
@@ -122,7 +122,7 @@ class Canvas(vispy_app.Canvas):  # type: ignore[misc]
             self._failed(f"{type(error).__name__}: {error}")
 
     def render_image(self, width: int, height: int) -> npt.NDArray[np.uint8] | None:
-        """A picture of any size (height, width, 4); None where the context is not there."""
+        """Return a picture of any size (height, width, 4); None if there is no context."""
         native: Any = self.native
         if self._broken:
             return None

@@ -1,6 +1,6 @@
-"""The performers on the stage, prepared for drawing, and everyone's pose as arrays of bone matrices.
+"""The performers on the stage, prepared for drawing, and their poses as arrays of bone matrices.
 
-All players whose skeletons have the same joints are posed at once: the arrays have one row for every player.
+All performers whose skeletons have the same joints are posed at once: the arrays have a row for each.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from widgets.viewport.held_instruments import Instruments
 
 @dataclass(frozen=True, eq=False)
 class RenderAssets:
-    """Meshes and skeletons that a player or a dancer is drawn from.
+    """Meshes and skeletons for drawing a player or dancer.
 
     Attributes
     ----------
     character : Character
     held : (InstrumentModel, InstrumentMap) or None
-        None: a dancer.
+        Instrument; None for a dancer.
     """
 
     character: Character
@@ -44,20 +44,20 @@ class RenderAssets:
 
     @property
     def instrument(self) -> InstrumentModel:
-        """The model of what a player holds."""
+        """Return the model of a player's instrument."""
         assert self.held is not None
         return self.held[0]
 
     @property
     def map(self) -> InstrumentMap:
-        """The map of what a player holds."""
+        """Return the map of a player's instrument."""
         assert self.held is not None
         return self.held[1]
 
 
 @dataclass(frozen=True, eq=False)
 class Member:
-    """A player or a dancer on the stage.
+    """A player or dancer on the stage.
 
     Attributes
     ----------
@@ -65,14 +65,13 @@ class Member:
     kit : RenderAssets
     world_from_player : (3, 4) float64
     seat_m : (3,) float64 or None
-        Middle of the seat's top in the player's frame; None: standing.
+        Middle of the seat's top in the player's frame; None if standing.
     musician_id : str
-        Who has the body, which is drawn once: of who doubles an instrument nothing else is seen.
+        Id of the musician whose body it is, which is drawn once; for a doubled instrument nothing else is drawn.
     stand_m : (3,) float64 or None
-        Top of the stand on which the instrument lies while the musician plays another, in the player's frame; None: no
-        stand.
+        Top of the stand for the instrument while the musician plays another, in the player's frame; None for no stand.
     dances_on_foot : bool
-        True if legs are to be seen: those of a dancer, or of a player who dances and stands.
+        True if the legs dance: of a dancer, or of a player who dances standing.
     """
 
     player_id: str
@@ -90,13 +89,13 @@ class Member:
 
 
 def kit_of(player: Player) -> RenderAssets:
-    """Load what a player is drawn from. Raises AppError where something is missing or damaged."""
+    """Load the assets for drawing a player. Raises AppError if something is missing or damaged."""
     instrument_map = suited_to(player, find_map(player.instrument_id)).instrument
     return RenderAssets(dressed_character(player), (model_of(instrument_map), instrument_map))
 
 
 def dancer_kit(dancer: Dancer) -> RenderAssets:
-    """Load what a dancer is drawn from. Raises AppError where the character is missing or damaged."""
+    """Load the assets for drawing a dancer. Raises AppError if the character is missing or damaged."""
     if dancer.character_id not in character_library().sources:
         raise AppError("project.character_missing", player=dancer.name, id=dancer.character_id)
     return RenderAssets(dressed_character(dancer), None)
@@ -108,7 +107,7 @@ def dancing_member(dancer: Dancer, assets: RenderAssets) -> Member:
 
 
 def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | None:
-    """Top of the stand for one of the instruments of a musician, counted from 0; None as long as no one knows."""
+    """Return the top of the stand for one of a musician's instruments, counted from 0; None while unknown."""
     found = lies_at(player, find_map(player.instrument_id), number)
     if found is None:
         return None
@@ -121,7 +120,7 @@ def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | 
 
 
 def member_of(player: Player, assets: RenderAssets, musician_id: str = "", stand_m: FloatArray | None = None) -> Member:
-    """A player at their place, with the body of a musician; empty: one of their own."""
+    """Return a player at its place, with a musician's body if given."""
     musician_id = musician_id or player.id
     posture = body_of(player).postures[assets.map.hold.possible(player.parameters.posture)]
     seat_m = seat(assets.character.skeleton, posture) if musician_id == player.id else None
@@ -141,7 +140,7 @@ def placed(stage: StagePosition) -> FloatArray:
 
 
 def seat(skeleton: Skeleton, posture: Posture) -> FloatArray | None:
-    """Middle of a seat's top in a posture; None if standing."""
+    """Return the middle of a seat's top in a posture; None if standing."""
     if posture.seat_height_shank <= 0.0:
         return None
     rest = rest_positions(skeleton)
@@ -153,7 +152,7 @@ def seat(skeleton: Skeleton, posture: Posture) -> FloatArray | None:
 
 
 SITTING_FLESH_M = 0.095
-"""From the hip joint's height down to what one sits on."""
+"""Distance in metres from the height of the hip joint down to the seat."""
 
 
 class SkeletonBatch:
@@ -164,7 +163,7 @@ class SkeletonBatch:
     members : sequence of Member
         All of the stage.
     rows : sequence of int
-        Those of the troupe.
+        Rows of the members.
     """
 
     def __init__(self, members: Sequence[Member], rows: Sequence[int]) -> None:
@@ -200,7 +199,7 @@ class SkeletonBatch:
 
 
 class Stage:
-    """Everyone, and the matrices of their last pose.
+    """All performers, and the matrices of their last pose.
 
     Parameters
     ----------
@@ -209,14 +208,14 @@ class Stage:
     Attributes
     ----------
     bones : (N, B, 3, 4) float32
-        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and of
-        the stand; all 0 for performers without a pose.
+        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and the
+        stand; all 0 for performers without a pose.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
     heads : (N,) int
-        The joint that is the head.
+        Index of the head joint.
     shown : (N,) bool
-        Who has a pose.
+        Whether each performer has a pose.
     """
 
     def __init__(self, members: Sequence[Member]) -> None:
@@ -251,7 +250,7 @@ class Stage:
                 self.bones[row, self.stand_bone, :, 3] = _moved(member.world_from_player, member.stand_m)
 
     def pose(self, poses: Mapping[str, Pose | None]) -> bool:
-        """Put everyone into their poses, and return whether anything changed."""
+        """Apply poses to all performers, and return whether anything changed."""
         fresh = False
         for row, member in enumerate(self.members):
             pose = poses.get(member.player_id)
@@ -289,14 +288,14 @@ class Stage:
         self._instruments.work(row, pose.controls)
 
     def index(self, player_id: str) -> int | None:
-        """The row of a player; None where there is none."""
+        """Return the row of a performer; None if it is missing."""
         for row, member in enumerate(self.members):
             if member.player_id == player_id:
                 return row
         return None
 
     def rows(self, player_ids: Sequence[str]) -> list[int]:
-        """The rows of players, in their order; without those who are not here."""
+        """Return the rows of performers in the given order, without missing ones."""
         rows = [self.index(player_id) for player_id in player_ids]
         return [row for row in rows if row is not None]
 
@@ -313,7 +312,9 @@ class Stage:
 
 
 def _levels(skeleton: Skeleton) -> tuple[IndexArray, list[tuple[slice, IndexArray | None]]]:
-    """An order of the joints by their depth; each depth's place in it, with the parents' places: the root has none."""
+    """Return an order of the joints by depth, and for each depth its range with the parents' positions; the root has
+    none.
+    """
     depth: list[int] = []
     for parent in skeleton.parents:
         depth.append(0 if parent < 0 else depth[parent] + 1)

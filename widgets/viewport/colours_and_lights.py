@@ -34,24 +34,23 @@ class ViewportLook:
 
 @dataclass(frozen=True)
 class Emphasis:
-    """Highlights: rings by row, rows that are seen through, how figures are drawn, and the
-    podium."""
+    """Highlighted parts of the picture: rings by row, transparent rows, style of the figures, and the podium."""
 
     rings: Mapping[int, Color] = field(default_factory=dict)
     podium: tuple[float, float, Color] | None = None
-    """The conductor's place: x, z, and the colour of the rings that mark it."""
+    """Conductor's place: x, z, and the colour of the rings that mark it."""
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
     video: Picture | None = None
     """Seen behind the players ..."""
     video_opacity: float = 1.0
-    """... so much of it."""
+    """Opacity of the video's picture, 0..1."""
     in_motion: bool = False
     """True if the next picture follows immediately: drawing without a graphics card may then be less exact."""
 
 
 def direction(x: float, y: float, z: float) -> Color:
-    """A unit vector."""
+    """Return a unit vector."""
     length = float(np.linalg.norm((x, y, z)))
     return x / length, y / length, z / length
 
@@ -61,7 +60,7 @@ KEY = direction(-0.55, 1.0, 0.72)
 
 
 def rgb(text: str) -> Color:
-    """``#rrggbb`` as 0..1."""
+    """Return ``#rrggbb`` as values 0..1."""
     return int(text[1:3], 16) / 255.0, int(text[3:5], 16) / 255.0, int(text[5:7], 16) / 255.0
 
 

@@ -1,4 +1,4 @@
-"""Contacts of a player's hands with the instrument: where they should be, where they are, and the distance."""
+"""Contacts of a player's hands with the instrument: required place, actual place, and distance."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from instrument_maps.model import ROOT, InstrumentMap
 from widgets.viewport.cast import Stage
 
 AWAY_FROM_REST = 0.5
-"""A control farther than this from its rest, as a share of its least use, is pressed."""
+"""Share of its least use beyond which a control counts as pressed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class ContactReading:
     requested_m, found_m : (3,) float64
         The place on the instrument and the middle of the landmark's skin, in the world.
     firm : bool
-        Whether it carries or works the instrument.
+        Whether it supports or works the instrument.
     """
 
     part: str
@@ -38,17 +38,17 @@ class ContactReading:
 
     @property
     def finger(self) -> str:
-        """``"left.index"`` of ``"left.index.pad"``."""
+        """Return ``"left.index"`` for ``"left.index.pad"``."""
         return self.part.rpartition(".")[0]
 
     @property
     def distance_mm(self) -> float:
-        """Distance of the skin from its place."""
+        """Return the distance in millimetres of the skin from its place."""
         return 1000.0 * float(np.linalg.norm(self.requested_m - self.found_m))
 
 
 def touches(stage: Stage, row: int) -> tuple[ContactReading, ...]:
-    """The contacts of a player that hold in the present pose."""
+    """Return the contacts of a player that apply in the present pose."""
     kit, pose = stage.members[row].assets, stage.poses[row]
     if pose is None:
         return ()
@@ -84,8 +84,9 @@ def _nearest(touches: list[ContactReading]) -> ContactReading:
 
 
 def _holds(index: int, instrument: InstrumentMap, controls: Mapping[str, float]) -> bool:
-    """Return whether a contact counts: a finger with several places counts at the one where it works most of what is
-    worked."""
+    """Return whether a contact applies: of a finger with several places, the one at which it works most of the pressed
+    controls.
+    """
     contact = instrument.contacts[index]
     place = only_at(instrument)[index]
     if place is not None:

@@ -1,4 +1,4 @@
-"""The stage of a project: loaded in the background, put into poses, and distinguished from the one before."""
+"""Figures of a project's stage, loaded in the background."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ CastKey = tuple[tuple[str, str, str, str, str, int, int, bool, float, float, flo
 
 @dataclass(frozen=True, eq=False)
 class DrawableFigures:
-    """Figures of the performers that can be drawn; for the others, the reason.
+    """Figures of the performers that can be drawn, with the reasons for the others.
 
-    ``crowd`` is there until the card has it: it is large.
+    ``crowd`` is dropped once the graphics card has it, since it is large.
     """
 
     key: CastKey
@@ -44,7 +44,7 @@ class DrawableFigures:
 
 
 def cast_key(project: Project) -> CastKey:
-    """Key of what has to be loaded for the stage: while it is the same, nothing is loaded."""
+    """Return the key of the data to load for the stage; while it is the same, nothing is loaded."""
     instruments = library()
     return tuple(
         (
@@ -81,18 +81,18 @@ def cast_key(project: Project) -> CastKey:
 
 
 def _has_stand(project: Project, player: Player) -> bool:
-    """Return whether the player's instrument lies on a stand at times, at a known place."""
+    """Return whether the player's instrument is on a stand at times, at a known place."""
     instrument = library().maps.get(player.instrument_id)
     return len(project.played_by(player)) > 1 and instrument is not None and is_held(player, instrument)
 
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
-    """Return whether two stages differ in places alone, so that nothing has to be loaded."""
+    """Return whether two stages differ only in places, so that nothing must be loaded."""
     return [row[:8] for row in one] == [row[:8] for row in other]
 
 
 def is_part_of(part: CastKey, whole: CastKey) -> bool:
-    """Return whether all figures of one stage are on another, except for their places."""
+    """Return whether all figures of one stage are on another, possibly at other places."""
     return {row[:8] for row in part} <= {row[:8] for row in whole}
 
 

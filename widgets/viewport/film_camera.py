@@ -1,4 +1,4 @@
-"""The camera of a film: it stands still, or goes smoothly after what a close-up shows."""
+"""The camera of a film: fixed, or following a close-up's object smoothly."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from widgets.viewport.cast import Stage
 from widgets.viewport.framing import tracked
 
 _POSES: Final = 64
-"""Most poses of players that are looked at before a film, in all."""
+"""Greatest number of poses examined before a film."""
 _LEAST_TIMES, _MOST_TIMES = 3, 17
 
 
 class Shot:
-    """The camera of pictures that are drawn one after the other, from one direction and distance.
+    """The camera of consecutive pictures, with fixed direction and distance.
 
     Parameters
     ----------
@@ -27,11 +27,11 @@ class Shot:
     camera : Camera
         Direction, distance and angle of view of the whole film.
     player_ids : tuple of str
-        Those that are filmed; a close-up shows the first.
+        Filmed performers; a close-up shows the first.
     shift_m : (3,) float, optional
-        Of what a close-up shows against the middle of the picture.
+        Shift of a close-up's object from the middle of the picture.
     cameras : dict of float to Camera, optional
-        By time: those that are there are used, the others put there.
+        Cameras by time: existing ones are used, others are added.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Shot:
         """Names, marks and rings are drawn."""
 
     def camera_at(self, stage: Stage, time_s: float) -> Camera:
-        """The camera for the poses that the stage shows at a time after the last one; the first one is centred."""
+        """Return the camera for the stage's poses at a time after the previous one; the first one is centred."""
         if self._cameras is not None and time_s in self._cameras:
             return self._cameras[time_s]
         rows = stage.rows(self.player_ids)
@@ -65,7 +65,7 @@ class Shot:
 
 
 def times_looked_at(players: int, start_s: float, end_s: float) -> list[float]:
-    """Times at which a number of players is measured before a film of them is made."""
+    """Return the times in seconds at which players are measured before a film."""
     if end_s <= start_s:
         return [start_s]
     count = min(max(_POSES // max(players, 1), _LEAST_TIMES), _MOST_TIMES)

@@ -1,4 +1,4 @@
-"""Direction from which a player's moving fingers are seen best: past the instrument and the hands themselves."""
+"""Direction in which a player's moving fingers are best visible past the instrument and the hands."""
 
 from __future__ import annotations
 
@@ -18,13 +18,15 @@ Direction = tuple[float, float]
 
 _SIDES_DEG = (-12.0, 12.0, -24.0, 24.0, -48.0, 48.0, -72.0, 72.0)
 _HEIGHTS_DEG = (14.0, 34.0)
-"""Sides and heights to look from; none from the front, of which the other side would be the back."""
+"""Heights of the directions in degrees; none is from the front, whose other side would be the back."""
 _EYE_M = 0.7
-"""From the middle of the hands to where the eye is taken to be."""
+"""Distance in metres of the assumed eye from the middle of the hands."""
 _SKIN_M, _STEP_M = 0.02, 0.02
-"""A line of sight starts this far from a finger, so that what it touches does not hide it; and its steps."""
+"""Distance in metres at which a line of sight starts from a finger, so that touching parts do not hide it; and its
+step.
+"""
 _WIRE_M = 0.003
-"""Half of the least thickness that still hides."""
+"""Half of the least thickness in metres that hides."""
 _UNUSUAL = 0.1
 """Share of the fingers that must be gained for a turn by 90 degrees from the usual direction."""
 
@@ -32,21 +34,21 @@ _HANDS: Final = ("left", "right")
 _FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 _BONES: Final = ("Proximal", "Intermediate", "Distal")
 _TIP_M = 0.022
-"""From a finger's last joint to its tip."""
+"""Distance in metres from a finger's last joint to its tip."""
 
 
 def directions(usual: Direction) -> list[Direction]:
-    """The directions to choose from, the usual one first; in degrees."""
+    """Return the possible directions in degrees, the usual one first."""
     return [usual, *((side, height) for side in _SIDES_DEG for height in _HEIGHTS_DEG)]
 
 
 def clearest(gained: FloatArray, usual: Direction) -> Direction:
-    """The direction from which most is seen, unless one nearer to the usual one shows nearly as much.
+    """Return the direction with the best visibility, preferring directions near the usual one.
 
     Parameters
     ----------
     gained : (D,) float64
-        What is seen from each of `directions`, 0..1.
+        Visibility from each of `directions`, 0..1.
     usual : tuple of float
         In degrees.
     """
@@ -56,10 +58,10 @@ def clearest(gained: FloatArray, usual: Direction) -> Direction:
 
 
 def fingers_seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_rad: float) -> FloatArray:
-    """Return how well the moving fingers of a player are seen from each direction.
+    """Return the visibility of a player's moving fingers from each direction.
 
-    A finger is seen best from where its tip points and from over its back, which is the side that it comes to its key
-    from; least from behind the hand. What the instrument hides is not seen.
+    A finger is best visible from the direction of its tip and above its back, and least from behind the hand. Parts
+    hidden by the instrument are not visible.
 
     Parameters
     ----------
@@ -84,7 +86,9 @@ def fingers_seen(stage: Stage, row: int, towards_deg: Sequence[Direction], turn_
 
 
 def _moving(instrument: InstrumentMap) -> list[str]:
-    """First parts of the joints' names of fingers that play; thumbs, which lie behind, only if no other finger does."""
+    """Return the first parts of the joint names of playing fingers; thumbs, which are behind, only if there is no other
+    finger.
+    """
     movers = {control.finger for control in instrument.controls if control.role == "pitch"}
     named = sorted(f"{hand}{finger.capitalize()}" for hand, finger in (mover.split(".") for mover in movers))
     fingers = [name for name in named if name.endswith(_FINGERS)]
@@ -96,7 +100,7 @@ def _moving(instrument: InstrumentMap) -> list[str]:
 
 
 def _moving_fingers(stage: Stage, row: int) -> tuple[FloatArray, FloatArray]:
-    """Wrists (F, 3) and joints (F, 3, 3) of the fingers that play."""
+    """Return wrists (F, 3) and joints (F, 3, 3) of the playing fingers."""
     names = _moving(stage.members[row].assets.map)
     wrists = [f"{hand}Hand" for name in names for hand in _HANDS if name.startswith(hand)]
     joints_m = np.array([[stage.joint_m(row, f"{name}{bone}") for bone in _BONES] for name in names])
@@ -104,7 +108,7 @@ def _moving_fingers(stage: Stage, row: int) -> tuple[FloatArray, FloatArray]:
 
 
 def _past_instrument(stage: Stage, row: int, points_m: FloatArray, towards: FloatArray) -> FloatArray:
-    """Return which points (P, 3) are seen past the instrument from each direction: (D, P), 0 or 1."""
+    """Return whether points (P, 3) are visible past the instrument from each direction: (D, P), 0 or 1."""
     lines = points_m.mean(axis=0) + _EYE_M * towards[:, None] - points_m
     steps = np.arange(_SKIN_M, _EYE_M, _STEP_M)
     on_line = points_m[:, None] + _unit(lines)[:, :, None] * steps[:, None]

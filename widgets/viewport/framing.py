@@ -1,4 +1,4 @@
-"""Framing of the 3D viewport: the first camera of each view, and the point that it keeps in the middle."""
+"""Framing of the 3D viewport: the initial camera of each view, and the point that it keeps in the middle."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _DIRECTIONS_DEG: dict[View, tuple[float, float]] = {
 _HALF_M: dict[View, float] = {"mouth": 0.115, "feet": 0.30}
 """Half the height of a close-up's picture, at least."""
 _HANDS_MARGIN = 1.25
-"""Height of the picture over that of the hands' bones, so that their flesh and some of the instrument is in it."""
+"""Height of the picture relative to that of the hands' bones, so that hands and part of the instrument are visible."""
 _FINGERS = tuple(
     f"{side}{name}"
     for side in ("left", "right")
@@ -44,26 +44,26 @@ _FINGERS = tuple(
         ),
     )
 )
-"""Joints that a close-up of the hands shows."""
+"""Joints shown by a close-up of the hands."""
 HEAD_M = 0.16
-"""From a head's joint to its crown."""
+"""Distance in metres from a head's joint to its crown."""
 _BUST_M = 0.3
 """From the middle of the head to the side of a bust's box."""
 BODY_M = 0.55
-"""Room that a player with an instrument takes, from the middle."""
+"""Distance in metres from the middle that a player with an instrument takes."""
 
 
 def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, aspect: float) -> Camera:
-    """The camera of a view.
+    """Return the camera of a view.
 
     Parameters
     ----------
     view : View
     stage : Stage
     rows : sequence of int
-        The selected players, the one in front first.
+        Rows of the selected players, the active one first.
     camera : Camera
-        The one before: gives the angle of view, and stays where there is no one to look at.
+        Previous camera: gives the angle of view, and is kept if there is nobody to show.
     aspect : float
         Width over height.
     """
@@ -71,12 +71,12 @@ def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, a
 
 
 def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camera: Camera, aspect: float) -> Camera:
-    """The camera of a view that suits several poses: one direction, and everyone in the picture in each of them.
+    """Return the camera of a view that suits several poses: one direction with all performers visible in each pose.
 
     Parameters
     ----------
     posed : iterable of Stage
-        The same stage, in another pose each time that it is given out.
+        The same stage, in another pose at each iteration.
     """
     clear, around, boxes = list[FloatArray](), list[FloatArray](), list[tuple[FloatArray, FloatArray]]()
     turn, middle, usual = 0.0, None, _DIRECTIONS_DEG[view]
@@ -107,7 +107,7 @@ def steady_camera(view: View, posed: Iterable[Stage], rows: Sequence[int], camer
 
 
 def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
-    """Point that a close-up keeps in the middle (3,); None: the view does not follow anything."""
+    """Return the point (3,) that a close-up keeps in the middle; None if the view follows nothing."""
     if not stage.shown[row]:
         return None
     if view == "hands":
@@ -132,7 +132,7 @@ def tracked(view: View, stage: Stage, row: int) -> FloatArray | None:
 
 
 def needed_distance_m(view: View, stage: Stage, row: int, camera: Camera, aspect: float) -> float | None:
-    """Distance from which a camera in this direction shows all of a close-up; None where that is always the same."""
+    """Return the distance in metres at which a camera shows all of a close-up; None if it is constant."""
     middle = tracked(view, stage, row)
     if view != "hands" or middle is None:
         return None
@@ -140,7 +140,7 @@ def needed_distance_m(view: View, stage: Stage, row: int, camera: Camera, aspect
 
 
 def in_the_way(view: View, stage: Stage, rows: Sequence[int], camera: Camera) -> frozenset[int]:
-    """Players between the camera and the selected players of a view that is about them."""
+    """Return the players between the camera and the selected players of a view about these."""
     chosen = [row for row in rows if stage.shown[row]]
     if view == "ensemble" or not chosen:
         return frozenset()
@@ -181,8 +181,9 @@ def bounds(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
 
 
 def _bust(stage: Stage, rows: Sequence[int]) -> tuple[FloatArray, FloatArray]:
-    """The box around players from the hips up, in the middle whatever they hold out; from the floor up where they
-    dance."""
+    """Return the box around players from the hips up, centred regardless of their arms; from the floor up if they
+    dance.
+    """
     low, high = bounds(stage, rows)
     if any(stage.members[row].assets.held is None for row in rows):
         return low, high
@@ -213,7 +214,7 @@ def _hands(stage: Stage, row: int) -> FloatArray:
 
 
 def _around(view: View, stage: Stage, row: int, middle: FloatArray) -> FloatArray:
-    """Points that a close-up shows, from its middle (N, 3)."""
+    """Return the points (N, 3) that a close-up shows, relative to its middle."""
     if view == "hands":
         return np.array([stage.joint_m(row, name) for name in _FINGERS]) - middle
     half = 0.58 * _HALF_M[view]

@@ -1,6 +1,6 @@
-"""Vertex arrays of characters and instruments for the graphics card: levels of detail, faces with their morphs.
+"""Vertex arrays of characters and instruments for the graphics card: levels of detail, faces with morphs.
 
-Everything here is plain numpy, made once for each character and instrument, away from the window's thread.
+Computed with numpy, once for each character and instrument, outside the window's thread.
 """
 
 from __future__ import annotations
@@ -24,27 +24,29 @@ from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geome
 from widgets.viewport.texture_groups import texture_groups, textured_looks, uv_islands
 
 BODY_CELLS_M = (0.0, 0.0055, 0.02)
-"""Vertices nearer to one another than this are one, by level of detail; 0: all are kept."""
+"""Distance in metres within which vertices are merged, by level of detail; 0 keeps all."""
 INSTRUMENT_CELLS_M = (0.0, 0.0035, 0.011)
 PLAIN_FACTOR, PLAIN_LEAST_M = 1.4, 0.08
-"""Factor by which cloth and hair may be coarser than skin, and the thickness below which a mesh (eyes) may not."""
+"""Factor by which cloth and hair are coarser than skin, and the thickness in metres below which a mesh (eyes) is
+not.
+"""
 THIN_SHARES = (0.0, 0.1, 0.34)
-"""Coarsest size of thin things (brows, eyes) by level, as a share of their smallest side."""
+"""Coarsest cell for thin meshes (brows, eyes) by level, relative to their smallest side."""
 LEAST_CELL_M = 1e-5
-"""Finest size of what is flat."""
+"""Finest cell in metres for flat meshes."""
 LEVELS = len(BODY_CELLS_M)
 _MOST_SHORT = 2**16 - 1
-"""Vertices whose numbers have 16 bits."""
+"""Greatest number of vertices with 16-bit indices."""
 
 
 @dataclass(frozen=True, eq=False)
 class Crowd:
-    """Things of many players end to end, for one call.
+    """Geometries of many players concatenated for a single draw call.
 
     Attributes
     ----------
     parts : tuple of (int, Geometry)
-        What follows what: the player's row, and the thing.
+        Row of the player and geometry of each part, in order.
     shape : (V,) SHAPE
     surface : (V,) SURFACE
     rows : (V,) float32
@@ -69,23 +71,23 @@ def character_levels(character: Character) -> tuple[Geometry, ...]:
 
 @lru_cache(maxsize=128)
 def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry, ...]:
-    """All levels of detail of an instrument, whose node n moves with bone ``first_bone + n``.
+    """Return all levels of detail of an instrument, whose node n moves with bone ``first_bone + n``.
 
-    More are kept than there are instruments: in an orchestra with one more than these, all would be made again with
-    every player that comes or goes, which takes seconds.
+    The cache is larger than the number of instruments: otherwise all would be made anew with every added player, which
+    takes seconds.
     """
     return tuple(_moving_with(level, first_bone) for level in _levels(model.meshes, INSTRUMENT_CELLS_M, 1.0))
 
 
 def _moving_with(geometry: Geometry, first_bone: int) -> Geometry:
-    """A geometry whose bones begin with another than 0."""
+    """Return a geometry with its bone indices increased."""
     surfaces = geometry.surfaces.copy()
     surfaces["a_bones"] += first_bone * (surfaces["a_weights"] > 0.0)
     return replace(geometry, surfaces=surfaces)
 
 
 def stool(bone: int, height_m: float) -> Geometry:
-    """A round seat on a single foot, its top in the origin; it moves with one bone."""
+    """Return a round seat on a single foot, with its top at the origin; it moves with one bone."""
     radius, thick = 0.17, 0.045
     seat, metal = (0.05, 0.052, 0.058), (0.30, 0.31, 0.33)
     profiles = (
@@ -110,7 +112,9 @@ def stool(bone: int, height_m: float) -> Geometry:
 
 
 def stand(bone: int) -> Geometry:
-    """Make the stand an instrument lies on: a rod on a foot, one high, its top at the origin; moves with one bone."""
+    """Return the stand for an instrument: a rod on a foot, of height 1, with its top at the origin; moves with one
+    bone.
+    """
     metal = (0.16, 0.165, 0.175)
     profiles = (
         [(0.0, 0.0), (0.011, -0.004), (0.011, -0.05), (0.008, -0.055), (0.008, -0.985)],
@@ -120,15 +124,15 @@ def stand(bone: int) -> Geometry:
 
 
 def joined(parts: Sequence[Geometry]) -> Geometry:
-    """Several geometries as one, without their morphs."""
+    """Return several geometries joined, without their morphs."""
     whole = crowd([(0, part) for part in parts])
     return Geometry(whole.shape, whole.surface, whole.triangles, whole.one_sided)
 
 
 def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
-    """Rows of players and their things as one.
+    """Return players and their geometries joined.
 
-    Copied part by part: fifty players are sixty megabytes, and numpy lets no one else run while it copies a whole.
+    Copied part by part, since fifty players take sixty megabytes, and numpy blocks other threads while copying.
     """
     count = sum(len(part.shape) for _, part in parts)
     shape, surface, rows = np.empty(count, SHAPE), np.empty(count, SURFACE), np.empty(count, np.float32)
@@ -149,7 +153,7 @@ def crowd(parts: Sequence[tuple[int, Geometry]]) -> Crowd:
 
 
 def crowd_edges(parts: Sequence[tuple[int, Geometry]]) -> npt.NDArray[np.uint32]:
-    """Every edge of a crowd's parts once (E, 2); those of one geometry are looked for once."""
+    """Return every edge of a crowd's parts once (E, 2); edges of repeated geometries are computed once."""
     known = {id(part): edges(part) for part in {id(part): part for _, part in parts}.values()}
     starts = np.cumsum([0, *(len(part.shape) for _, part in parts)])
     return np.concatenate([known[id(part)] + np.uint32(start) for (_, part), start in zip(parts, starts, strict=False)])
@@ -270,7 +274,7 @@ class _Whole:
                 self._shades[own][here] = shade
 
     def level(self, cell_m: float, thin_share: float, far: bool) -> Geometry:
-        """One level of detail; the ``far`` one has no morphs and no textures but their colours."""
+        """Return one level of detail; the ``far`` one has no morphs, and mean colours instead of textures."""
         kept, triangles = self._clustered(cell_m, thin_share)
         names = () if far else tuple(self._morphs)
         moved = np.zeros(len(self._shape), dtype=bool)
@@ -322,7 +326,9 @@ class _Whole:
         return MorphTargets(count, names, tuple(targets), rest)
 
     def _clustered(self, cell_m: float, thin_share: float) -> tuple[IntArray, IntArray]:
-        """Vertices kept, and triangles between them: of those in one cell and of one surface the first one stays."""
+        """Return the kept vertices and the triangles between them: the first vertex in each cell and surface is
+        kept.
+        """
         if cell_m <= 0.0:
             return np.arange(len(self._shape)), self._triangles
         wide = np.maximum(np.minimum(cell_m * self._coarser, thin_share * self._thickness), LEAST_CELL_M)[:, None]

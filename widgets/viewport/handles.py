@@ -1,4 +1,4 @@
-"""Handles on a player that are dragged to hold bell, head, elbows or trunk differently, and what a drag means."""
+"""Draggable handles on a player for the pose of bell, head, elbows or trunk, and the effect of drags."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Angle = Literal["up_deg", "left_deg", "roll_deg"]
 
 TARGETS: tuple[PoseTarget, ...] = ("bell", "head", "left_elbow", "right_elbow", "torso")
 HEAD_ARM_M, ROLL_ARM_M = 0.25, 0.25
-"""A drag as far as this is one radian where the handle itself hardly moves."""
+"""Distances in metres of a drag that equal one radian if the handle itself hardly moves."""
 _SMALL, _DAMPING = 1e-4, 0.06
 FINER = 0.25
 """Factor of a drag with Shift."""
@@ -33,17 +33,17 @@ FINER = 0.25
 
 @dataclass(frozen=True, eq=False)
 class Handle:
-    """A grip that turns something about a point.
+    """A handle that rotates a part about a point.
 
     Attributes
     ----------
     target : PoseTarget
     at_m : (3,) float64
-        Where it is seen.
+        Displayed position.
     turns : tuple of (Angle, (3,) float64)
-        How the handle moves, in metres, for one radian of each angle that a drag changes.
+        Motion of the handle in metres per radian of each angle that a drag changes.
     leans : tuple of the same
-        What a drag with Alt changes instead.
+        Same for a drag with Alt.
     """
 
     target: PoseTarget
@@ -87,12 +87,12 @@ def handles(stage: Stage, row: int) -> tuple[Handle, ...]:
 
 
 def _turns(arm_m: FloatArray, **axes: FloatArray) -> tuple[tuple[Angle, FloatArray], ...]:
-    """Motion of an arm's end under turns about axes through its other end."""
+    """Return the motion of an arm's end for rotations about axes through its other end."""
     return tuple((cast(Angle, angle), np.cross(axis, arm_m)) for angle, axis in axes.items())
 
 
 def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: FloatArray, up: FloatArray) -> Handle:
-    """An elbow, which swings about the line from shoulder to wrist."""
+    """Return the handle of an elbow, which swings about the line from shoulder to wrist."""
     side = target.split("_")[0]
     shoulder, elbow, wrist = (stage.joint_m(row, side + name) for name in ("UpperArm", "LowerArm", "Hand"))
     line = (wrist - shoulder) / max(float(np.linalg.norm(wrist - shoulder)), 1e-6)
@@ -105,7 +105,7 @@ def _elbow(stage: Stage, row: int, target: PoseTarget, outwards: FloatArray, up:
 
 @lru_cache(maxsize=64)
 def _bell(model: InstrumentModel) -> FloatArray:
-    """The far end of what does not move in the instrument, in its frame: for most, the middle of the bell."""
+    """Return the far end of the instrument's fixed part in its frame: usually the middle of the bell."""
     root = model.node_names.index(ROOT)
     places = np.concatenate([mesh.positions_m[mesh.joints[:, 0] == root] for mesh in model.meshes])
     far = places[:, 2] > places[:, 2].max() - 0.01
@@ -116,10 +116,10 @@ def _bell(model: InstrumentModel) -> FloatArray:
 def dragged(
     handle: Handle, camera: Camera, right_px: float, down_px: float, height_px: float, lean: bool
 ) -> dict[Angle, float]:
-    """Degrees that a drag over the picture asks for.
+    """Return the angles in degrees for a drag in the picture.
 
-    The handle follows the pointer as well as its turns allow: least squares in the picture, with turns that point
-    into the picture left alone.
+    The handle follows the pointer as well as its rotations allow: least squares in the picture, excluding rotations
+    towards the viewer.
     """
     turns = handle.leans if lean and handle.leans else handle.turns
     depth_m = float((camera.eye_m - handle.at_m) @ camera.backward)
@@ -152,7 +152,7 @@ class CorrectionSpan:
 
 
 def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int) -> CorrectionSpan:
-    """The chosen span, else the bar at the playhead; faded over a felt beat."""
+    """Return the chosen span, else the bar at the playhead, with fades of a felt beat."""
     if chosen is not None:
         return CorrectionSpan(chosen[0], chosen[1], project.metre_map.felt_ticks_at(chosen[0]))
     metre_map = project.metre_map
@@ -163,7 +163,7 @@ def span_of(project: Project, chosen: tuple[int, int] | None, playhead_tick: int
 def correction_at(
     project: Project, player_id: str, target: PoseTarget, chosen: tuple[int, int] | None, playhead_tick: int
 ) -> PoseCorrection | None:
-    """The correction that a handle would change: the one over the chosen span, or that acts at the playhead."""
+    """Return the correction that a handle changes: the one of the chosen span, or in effect at the playhead."""
     own = [
         item
         for item in project.corrections.get(player_id, ())
@@ -179,7 +179,7 @@ def correction_at(
 
 
 def fresh_correction(project: Project, player_id: str, target: PoseTarget, span: CorrectionSpan) -> PoseCorrection:
-    """A pose correction without effect yet, under a name that the player's corrections do not use."""
+    """Return a pose correction without effect, with an unused name."""
     taken = {item.name for item in project.corrections.get(player_id, ()) if isinstance(item, PoseCorrection)}
     number = 1
     while f"{target}_{number}" in taken:
@@ -199,7 +199,7 @@ Limits = Mapping[str, tuple[float, float]]
 
 
 def turned(correction: PoseCorrection, angles_deg: dict[Angle, float], limits: Limits) -> PoseCorrection:
-    """The correction with angles added, as far as the body and the hold let a player go; to a tenth of a degree."""
+    """Return the correction with angles added within the limits of body and grip, rounded to a tenth of a degree."""
     changes = {}
     for angle, value in angles_deg.items():
         low, high = limits.get(angle, (0.0, 0.0))
@@ -209,7 +209,7 @@ def turned(correction: PoseCorrection, angles_deg: dict[Angle, float], limits: L
 
 
 def with_correction(project: Project, player_id: str, before: PoseCorrection, after: PoseCorrection) -> Project:
-    """The project with a pose held so; one that does nothing is none."""
+    """Return the project with a pose correction; one without effect is removed."""
     if _is_nothing(after):
         return edit.take_back(project, player_id, (before,))
     return edit.with_corrections(project, player_id, (after,))

@@ -1,4 +1,4 @@
-"""The viewport's header: views, the pose tool, what is drawn beside the players."""
+"""The viewport's header: views, pose tool, and additional display options."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _VIEWS: Final[dict[View, tuple[str, str]]] = {
     "mouth": ("header.mouth", "header.mouth_of_player_in_front"),
     "feet": ("header.feet", "header.feet_of_player_in_front"),
 }
-"""Texts and tips of the views, by their ids."""
+"""Text and tool tip ids of the views."""
 _SHOWN: Final[dict[Shown, tuple[str, str]]] = {
     "names": ("header.players_names", "player"),
     "skeleton": ("header.skeleton", "skeleton"),
     "contacts": ("header.contact_points_and_their_distances", "contacts"),
     "wireframe": ("header.wireframe", "wireframe"),
 }
-"""Ids of texts, and icons, of what is drawn in addition to the players."""
+"""Text ids and icons of the additional display options."""
 FULL_SCREEN = "application.full_screen"
 """The shell's: only a window can fill the screen."""
 _BETWEEN: Final = " · "
@@ -125,7 +125,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._folded.hide()
 
     def _add_shown(self) -> dict[Shown, QAction]:
-        """Add the menu of what is drawn in addition to the players."""
+        """Add the menu of the additional display options."""
         menu = named(QMenu(self), "viewport_show_menu")
         self._show.setMenu(menu)
         self._show.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -146,7 +146,7 @@ class ViewportHeader(Retranslated, QWidget):
         self.texted(self._full, explained=with_keys(session, FULL_SCREEN, "header.full_screen_tip"))
 
     def _list_cameras(self) -> None:
-        """Fill the menu of the cameras that are kept."""
+        """Fill the menu of stored cameras."""
         session, menu = self._session, self._camera_menu
         menu.clear()
         table = actions(session)
@@ -167,7 +167,7 @@ class ViewportHeader(Retranslated, QWidget):
             self._session.viewport.use_bookmark(camera.name)
 
     def ask_name(self, camera: CameraBookmark) -> None:
-        """Have another name for a camera typed beside the button of cameras."""
+        """Open a field for the name of a camera."""
         self._end_typing()
         field = self._name = named(QLineEdit(camera.name, self), "camera_name")
         field.setAccessibleName(self.tr("header.name_of_camera"))
@@ -179,7 +179,7 @@ class ViewportHeader(Retranslated, QWidget):
         field.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _typed(self, before: str) -> None:
-        """Take the name that was typed."""
+        """Set the typed name."""
         field = self._name
         if field is None:
             return
@@ -196,13 +196,13 @@ class ViewportHeader(Retranslated, QWidget):
             field.deleteLater()
 
     def set_note(self, text: str) -> None:
-        """Say something between the buttons: the parts from the first on for which there is room."""
+        """Show a text between the buttons, as many of its parts as fit."""
         self._note_text = text
         self._note.setToolTip(text)
         self._fold()
 
     def refresh(self) -> None:
-        """Check what is on."""
+        """Update the checked states."""
         state = self._session.viewport
         self._views[state.view].setChecked(True)
         self._view_rows[state.view].setChecked(True)
@@ -238,7 +238,7 @@ class ViewportHeader(Retranslated, QWidget):
         self._note.setStyleSheet(f"color: {tokens.text_dim};")
 
     def _fold(self) -> None:
-        """Seven buttons where they fit, else one with a menu."""
+        """Show seven buttons if they fit, else one with a menu."""
         others = sum(button.sizeHint().width() + 4 for button in self._others)
         fits = self.width() >= self._segments.sizeHint().width() + others + 24
         self._segments.setVisible(fits)
@@ -251,11 +251,11 @@ class ViewportHeader(Retranslated, QWidget):
 
     @property
     def _others(self) -> tuple[QToolButton, ...]:
-        """Buttons that are always there."""
+        """Return the buttons that are always visible."""
         return self._cameras, self._pose, self._frame, self._show, self._full
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Escape leaves a camera's name as it was."""
+        """Cancel renaming of a camera on Escape."""
         if watched is self._name and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
             self._end_typing()
             return True
@@ -267,7 +267,7 @@ class ViewportHeader(Retranslated, QWidget):
         return QSize(sum(button.sizeHint().width() + 4 for button in shown) + 16, super().minimumSizeHint().height())
 
     def showEvent(self, event: QShowEvent) -> None:
-        """The shell's actions are known by now: their shortcuts are reported, and the screen can be filled."""
+        """Show the button for full screen and the shortcuts, which are known by now."""
         self._full.setVisible(FULL_SCREEN in actions(self._session))
         self.word()
         super().showEvent(event)

@@ -1,7 +1,6 @@
-"""Everyone's instrument and its moving parts as matrices, all of them at once.
+"""All instruments and their moving parts as matrices, computed together.
 
-What the maps say of a node's motion is put into arrays once, so that a picture costs the same with one kind of
-instrument on the stage as with thirty.
+The motion of nodes in the maps is stored in arrays once, so that thirty kinds of instruments take no longer than one.
 """
 
 from __future__ import annotations
@@ -20,17 +19,17 @@ NOWHERE_M = (0.0, 0.0, 0.0)
 
 
 class Instruments:
-    """The instruments of everyone on a stage, N of them, with all their moving parts one after another.
+    """The instruments of all N performers on a stage, with all their moving parts concatenated.
 
     Parameters
     ----------
     kits : sequence of (InstrumentModel, InstrumentMap) or None
-        One for every row; None for who holds nothing.
+        Instrument of every row; None for a performer without one.
 
     Attributes
     ----------
     nodes : int
-        How many the model has that has most.
+        Greatest number of nodes of a model.
     """
 
     def __init__(self, kits: Sequence[tuple[InstrumentModel, InstrumentMap] | None]) -> None:
@@ -70,11 +69,11 @@ class Instruments:
         self._travels_m = self._axes * np.array([motion.travel_m or 0.0 for motion in motions])[:, None]
 
     def work(self, row: int, controls: Mapping[str, float]) -> None:
-        """Set what moves the parts of an instrument, 0..1; one that is not named is at 0."""
+        """Set the controls of an instrument, 0..1; missing ones are at 0."""
         self._values[self._own[row]] = [controls.get(name, 0.0) for name in self._names[row]]
 
     def matrices(self, held: FloatArray) -> FloatArray:
-        """``world_from_rest`` (N, nodes, 3, 4) of instruments with these ``world_from_instrument`` (N, 3, 4)."""
+        """Return ``world_from_rest`` (N, nodes, 3, 4) for ``world_from_instrument`` (N, 3, 4)."""
         result = np.empty((len(held), self.nodes, 3, 4))
         result[:] = held[:, None]
         asked = self._values[self._controls]

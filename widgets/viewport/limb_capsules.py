@@ -1,4 +1,4 @@
-"""Limbs as capsules: for shadows on the floor and for finding what the pointer is on."""
+"""Limbs as capsules, for shadows on the floor and hit testing."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ SHADING, HELD = len(_BONES), len(_BONES) + 2
 
 @dataclass(frozen=True, eq=False)
 class _Anatomy:
-    """Joints that the capsules of one character hang on, and places in their frames: (L, 2), (L, 2, 3), (L,)."""
+    """Joints of a character's capsules, positions in their frames, and radii: (L, 2), (L, 2, 3), (L,)."""
 
     joints: IndexArray
     offsets_m: FloatArray
@@ -71,7 +71,7 @@ def _anatomy(skeleton: Skeleton) -> _Anatomy:
 
 @lru_cache(maxsize=64)
 def model_bounds(model: InstrumentModel) -> tuple[FloatArray, FloatArray]:
-    """The box around a model at rest, in its frame."""
+    """Return the bounding box of a model at rest in its frame."""
     low = np.min([mesh.positions_m.min(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
     high = np.max([mesh.positions_m.max(axis=0) for mesh in model.meshes], axis=0).astype(np.float64)
     return low, high
@@ -79,7 +79,7 @@ def model_bounds(model: InstrumentModel) -> tuple[FloatArray, FloatArray]:
 
 @lru_cache(maxsize=64)
 def instrument_capsule(model: InstrumentModel) -> tuple[FloatArray, FloatArray, float]:
-    """The capsule along the longest side of a model's bounds: both ends in its frame, and the radius."""
+    """Return the capsule along the longest side of a model's bounds: both ends in its frame, and the radius."""
     low, high = model_bounds(model)
     size, middle = high - low, (low + high) / 2.0
     longest = int(np.argmax(size))
@@ -115,7 +115,7 @@ class LimbCapsules:
         self._without = np.array([not member.has_body for member in stage.members], dtype=bool)
 
     def capsules(self) -> FloatArray:
-        """(N, LIMBS, 2, 4): both ends with their radius beside them, in the world."""
+        """Return capsules (N, LIMBS, 2, 4) in the world: both ends with their radius."""
         stage = self._stage
         count = len(stage.members)
         result = np.empty((count, LIMBS, 2, 4))
@@ -140,7 +140,7 @@ class LimbCapsules:
 
 
 def hit(capsules: FloatArray, origin: FloatArray, direction: FloatArray) -> tuple[int, float] | None:
-    """The first row of capsules (N, L, 2, 4) that a ray meets, with the distance; None where it meets none."""
+    """Return the first row of capsules (N, L, 2, 4) that a ray hits, with the distance; None if there is none."""
     if not capsules.size:
         return None
     a, b = capsules[..., 0, :3], capsules[..., 1, :3]

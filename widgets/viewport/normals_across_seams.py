@@ -1,4 +1,4 @@
-"""Meshes split by material, and their normals across the seams that this makes."""
+"""Meshes split by material, with normals smoothed across the resulting seams."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from app.rig.mesh import Mesh
 
 
 def row_keys(*columns: AnyIntArray, size: int | None = None) -> IntArray:
-    """Number the rows of a table of integers: equal rows get equal numbers, and numbers ascend as rows do.
+    """Return a number for each row of a table of integers: equal for equal rows, ascending in the order of rows.
 
-    A table without columns has ``size`` rows, all equal.
+    A table without columns has ``size`` equal rows.
 
     Sorting numbers takes a tenth of the time of sorting rows.
     """
@@ -30,11 +30,11 @@ def row_keys(*columns: AnyIntArray, size: int | None = None) -> IntArray:
 
 @dataclass(frozen=True, eq=False)
 class SplitMesh:
-    """A mesh whose vertices have one material each: those between materials are doubled."""
+    """A mesh whose vertices have a single material each; those at seams are duplicated."""
 
     mesh: Mesh
     vertices: IntArray
-    """Vertex of the mesh for every vertex here."""
+    """Original vertex of every vertex."""
     materials: IntArray
     triangles: IntArray
 

@@ -1,4 +1,4 @@
-"""The viewport without a window: pictures of a project for the command line."""
+"""The viewport without a window, for pictures on the command line."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ _CAPTION_PX = (10, 24)
 """Least and greatest size of the letters under a picture."""
 _CAPTION_PER_WIDTH = 1 / 26
 _DOT = " · "
-"""Between what a caption says of its time."""
+"""Separator between parts of a caption."""
 
 
 class Offscreen:
-    """Draws a project's players in a viewport that is never shown; see `offscreen`."""
+    """Draws a project's players in an invisible viewport; see `offscreen`."""
 
     def __init__(
         self, performance: Performance, theme: str, stop_requested: StopRequested, posed: Posed | None = None
@@ -55,8 +55,9 @@ class Offscreen:
         cameras: dict[float, Camera] | None = None,
         marked: bool = True,
     ) -> Draw:
-        """Make the drawer of a film: see `ViewportPanel.film`. Dancers among the players are not selected in the
-        window. Unless marked, no names are drawn, and no rings around those that the view is about."""
+        """Return a function that draws a film: see `ViewportPanel.film`. Dancers in it are not selected in the window.
+        Unless marked, names and rings are not drawn.
+        """
         selected = tuple(own for own in player_ids if own not in self._session.project.dancer_ids)
         self._session.set_players(selected if marked else ())
         self._session.viewport.show("names", marked)
@@ -66,7 +67,7 @@ class Offscreen:
 
     @property
     def left_out(self) -> list[LeftOut]:
-        """Performers that cannot be seen, as far as pictures were drawn."""
+        """Return the performers that could not be drawn so far."""
         found = list[LeftOut]()
         loaded = self._panel.scene.loaded
         unseen = {} if loaded is None else {one.player.id: one.reason for one in loaded.left_out}
@@ -79,12 +80,12 @@ class Offscreen:
         return found
 
     def shows(self, player_ids: tuple[str, ...]) -> bool:
-        """Return whether any of these players can be seen; any of all if none is named."""
+        """Return whether any of these players can be drawn; any player at all if none is given."""
         stage = self._panel.scene.stage
         return stage is not None and bool(stage.rows(player_ids) if player_ids else stage.members)
 
     def close(self) -> None:
-        """Let go of what is drawn with."""
+        """Free the viewport."""
         self._panel.close()
         self._panel.deleteLater()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
@@ -94,17 +95,17 @@ class Offscreen:
 def offscreen(
     performance: Performance, theme: str, stop_requested: StopRequested, posed: Posed | None = None
 ) -> Iterator[Offscreen]:
-    """A viewport of a performance's project that is never shown.
+    """Yield an invisible viewport of a performance's project.
 
     Parameters
     ----------
     posed : Posed, optional
-        What changes the performance's poses.
+        Function that changes the performance's poses.
 
     Raises
     ------
     AppError
-        ``picture.film_no_gl`` (reason).
+        GL does not work.
     Cancelled
     """
     application = QApplication.instance() or QApplication(["suisou"])
@@ -121,13 +122,13 @@ def offscreen(
 
 
 def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[Picture]:
-    """Make captions for pictures of a width: two lines of text each, the second one fainter. If a first line is wider
-    than its picture, all of them are broken at their middle dots.
+    """Return captions for pictures of a width: two lines of text each, the second one fainter. If a first line is too
+    wide, all are broken at their middle dots.
 
     Returns
     -------
     list of (H, width, 4) uint8
-        All of one height.
+        Captions of equal height.
     """
     tokens: Tokens = THEMES[theme]
     font = QFont(QApplication.font())
@@ -161,7 +162,7 @@ def captions(texts: Sequence[tuple[str, str]], width: int, theme: str) -> list[P
 
 
 class _MadePoses:
-    """Poses of a performance, made when they are asked for, a chunk of frames at a time."""
+    """Poses of a performance, computed when requested, in chunks of frames."""
 
     def __init__(self, live: LiveMotion, stop_requested: StopRequested, posed: Posed | None) -> None:
         self._live, self._stop_requested, self._posed = live, stop_requested, posed
@@ -192,14 +193,14 @@ class _MadePoses:
 
 
 class _AtOnce:
-    """Does work where it is asked for: without a window nothing waits beside it."""
+    """Task runner that runs work immediately, since there is no window."""
 
     def __init__(self, stop_requested: StopRequested) -> None:
         self._stop_requested = stop_requested
 
     @property
     def writing(self) -> tuple[Message, ...]:
-        """No work is ever under way beside another."""
+        """Return an empty tuple, since work is never in the background."""
         return ()
 
     def run(

@@ -1,4 +1,4 @@
-"""Overlay painted over the picture with Qt: names, skeletons, contact points, the handles of the pose tool."""
+"""Overlay painted with Qt: names, skeletons, contact points, handles of the pose tool."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from widgets.viewport.handles import Handle
 
 HANDLE_RADIUS_PX = 13.0
 CROWN_M = np.array([0.0, 0.12, 0.0])
-"""Top of the head in its joint's frame."""
+"""Top of the head in the frame of its joint, in metres."""
 NAME_UP_M = 0.19
 _RING_PX = HANDLE_RADIUS_PX + 2.0
 _FACE_M, _FACE_HALF_M = np.array([0.0, 0.08, 0.04]), 0.13
-"""Middle of the face in the frame of the head's joint, and half the side of a square that holds it."""
+"""Middle of the face in the frame of the head's joint, and half the side of a square around it, in metres."""
 _STEPS, _SAME_PX2 = 5, 1e-3
-"""Distances that a reading is tried at, and areas that count as alike."""
+"""Number of distances tried for a label, and difference of areas in square pixels that counts as equal."""
 _SIDES = ((0.0, -1.0), (0.0, 1.0), (1.0, 0.0), (-1.0, 0.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-"""Directions to the right and down, the first ones preferred."""
+"""Directions to the right and down in order of preference."""
 CLOSE_MM, NEAR_MM = 2.0, 4.0
 """A touch within the first is right, within the second all but right."""
 
@@ -38,7 +38,7 @@ class NameTag:
 
     text: str
     color: str
-    """Colour of a player in front; others do not show it."""
+    """Colour of an active player; empty for others."""
     at_m: FloatArray
     in_front: bool
 
@@ -55,7 +55,7 @@ class OverlayMarks:
     grasped: PoseTarget | None = None
     corrected: frozenset[PoseTarget] = field(default_factory=frozenset)
     reading: str = ""
-    """Angles, beside the handle in hand."""
+    """Angles displayed beside the dragged handle."""
 
     def __bool__(self) -> bool:
         return bool(self.names or self.skeletons or self.touches or self.handles)
@@ -64,7 +64,7 @@ class OverlayMarks:
 def paint(
     painter: QPainter, marks: OverlayMarks, stage: Stage, camera: Camera, size: tuple[float, float], tokens: Tokens
 ) -> None:
-    """Paint marks over a picture of this size (width, height)."""
+    """Paint marks over a picture of a size (width, height)."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     for row, color in marks.skeletons:
         _paint_skeleton(painter, stage, row, color, camera, size, tokens)
@@ -88,7 +88,7 @@ def over_heads_m(stage: Stage, rows: Sequence[int], upwards: FloatArray) -> Floa
 def handle_at(
     handles: Sequence[Handle], camera: Camera, x_px: float, y_px: float, size: tuple[float, float]
 ) -> Handle | None:
-    """The handle under a point; where several are, the nearest to the eye."""
+    """Return the handle at a point; of several, the nearest to the eye."""
     if not handles:
         return None
     places, depths = camera.project(np.array([handle.at_m for handle in handles]), *size)
@@ -126,7 +126,7 @@ def _paint_touches(
     tokens: Tokens,
     names: Sequence[QRectF],
 ) -> None:
-    """Paint contact points with their distances, which keep clear of the names."""
+    """Paint contact points with their distances, without overlapping names."""
     requested, depths = camera.project(np.array([touch.requested_m for touch in touches]), *size)
     found, _ = camera.project(np.array([touch.found_m for touch in touches]), *size)
     font = _font(painter, 9.0)
@@ -173,7 +173,7 @@ def _paint_handles(
     tokens: Tokens,
     taken: Sequence[QRectF],
 ) -> None:
-    """Paint handles and the angles of the one in hand, which keep clear of names, faces and the others."""
+    """Paint handles and the angles of the dragged one, without overlapping names, faces and other handles."""
     places, depths = camera.project(np.array([handle.at_m for handle in marks.handles]), *size)
     for handle, place, depth in zip(marks.handles, places, depths, strict=True):
         if depth <= 0.0:
@@ -201,8 +201,9 @@ def _paint_handles(
 
 
 def clear_of(box: QRectF, at: QPointF, taken: Sequence[QRectF], size: tuple[float, float]) -> QRectF:
-    """Move a box beside a handle, within the picture, where it covers least of what is taken: over the handle if it
-    covers nothing there, else under it, beside it, or some heights farther."""
+    """Return a rectangle placed beside a handle within the picture with the least overlap: preferably above it, else
+    below, beside, or some heights farther.
+    """
     far = HANDLE_RADIUS_PX + 4.0
     picture = QRectF(0.0, 0.0, *size)
     best, least = box, float("inf")
@@ -241,7 +242,7 @@ def faces(stage: Stage, camera: Camera, size: tuple[float, float]) -> list[QRect
 def _placed_names(
     painter: QPainter, names: Sequence[NameTag], camera: Camera, size: tuple[float, float]
 ) -> list[tuple[NameTag, QRectF]]:
-    """The names that are painted, with their boxes."""
+    """Return the names to paint with their rectangles."""
     places, depths = camera.project(np.array([name.at_m for name in names]), *size)
     metrics = {bold: QFontMetricsF(_font(painter, 9.0, bold)) for bold in (False, True)}
     placed: list[tuple[NameTag, QRectF]] = []
@@ -266,7 +267,7 @@ def _pill_box(metrics: QFontMetricsF, text: str, at: QPointF, size: tuple[float,
 
 
 def _paint_pill(painter: QPainter, text: str, box: QRectF, tokens: Tokens, color: str) -> None:
-    """A short text on a rounded plate, with a rim where it has a colour."""
+    """Paint a short text on a rounded background, with a coloured border if given."""
     painter.setFont(_font(painter, 9.0, bold=bool(color)))
     painter.setBrush(_faded(tokens.sunken, 0.72))
     painter.setPen(QPen(QColor(color), 1.2) if color else Qt.PenStyle.NoPen)

@@ -1,4 +1,4 @@
-"""A sheet over the canvas for what Qt paints: it is there only while there is something to paint."""
+"""A transparent widget over the canvas for painting with Qt, hidden while there is nothing to paint."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Paint = Callable[[QPainter, tuple[float, float]], None]
 
 
 class Layer(QWidget):
-    """Lies over a widget; the pointer passes through.
+    """Widget over another one that ignores the mouse.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ class Layer(QWidget):
         self.hide()
 
     def refresh(self, requested: bool) -> None:
-        """Paint again, or go away where there is nothing to paint."""
+        """Repaint, or hide if there is nothing to paint."""
         if requested != self.isVisibleTo(self._below):
             self.setGeometry(self._below.rect())
             self.setVisible(requested)
@@ -39,13 +39,13 @@ class Layer(QWidget):
             self.update()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay as large as what lies below."""
+        """Keep the size of the widget below."""
         if event.type() == QEvent.Type.Resize:
             self.setGeometry(self._below.rect())
         return super().eventFilter(watched, event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint."""
+        """Paint the contents."""
         painter = QPainter(self)
         self._paint(painter, (float(self.width()), float(self.height())))
         painter.end()

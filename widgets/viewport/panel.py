@@ -1,4 +1,4 @@
-"""The viewport: the players on their stage, seen from anywhere, selected and posed by hand."""
+"""The viewport panel: the players on their stage from any direction, with selection and posing by mouse."""
 
 from __future__ import annotations
 
@@ -54,15 +54,16 @@ Draw = Callable[[float], npt.NDArray[np.uint8]]
 """Draws a film's picture of a time in seconds (height, width, 4)."""
 
 QUICK_S = 0.02
-"""A picture that takes less may be drawn twice."""
+"""Seconds below which a picture may be drawn twice."""
 FRAME_MS = 16
 WAIT_MS = 90
-"""Between two looks whether a pose that is not there yet has been made."""
+"""Interval in milliseconds at which a missing pose is looked for."""
 REST = 4.0
-"""Pause between pictures while players still appear one by one, as a multiple of the time the last picture took:
-each picture delays the players that follow."""
+"""Pause between pictures while figures are loaded, relative to the time of the last picture, since each picture delays
+loading.
+"""
 SETTLED_S = 4.0
-"""After an edit poses may still change for this long."""
+"""Seconds after an edit during which poses may still change."""
 LEAST_SIZE = QSize(160, 120)
 MENU = (
     *("viewport.frame", "viewport.frame_all", ""),
@@ -77,9 +78,9 @@ MENU = (
 
 
 class ViewportPanel(Retranslated, QWidget):
-    """The players in three dimensions.
+    """The players in 3D.
 
-    Without a working GL the panel says why in plain Qt, and everything else of the editor works.
+    If GL does not work, the panel shows the reason, and the rest of the editor works.
 
     Parameters
     ----------
@@ -161,12 +162,12 @@ class ViewportPanel(Retranslated, QWidget):
 
     @property
     def has_gl(self) -> bool:
-        """True if players can be drawn here."""
+        """True if players can be drawn."""
         return self._canvas is not None
 
     @property
     def camera(self) -> Camera:
-        """The camera, or where its flight ends."""
+        """The camera, or the end of its flight."""
         return self._eye.destination
 
     @property
@@ -189,16 +190,16 @@ class ViewportPanel(Retranslated, QWidget):
         return {item.target: QPointF(*place) for item, place in zip(found, places, strict=True)}
 
     def message(self) -> str:
-        """Text shown instead of a picture, or in its middle; empty if there is none."""
+        """Text shown instead of a picture or in its middle; empty if there is none."""
         return self._reason.text() if self._failure is not None else self.scene.message()
 
     def set_poses(self, poses: PoseSource) -> None:
-        """Take poses from there from now on."""
+        """Set the source of poses."""
         self.scene.set_poses(poses)
         self.refresh()
 
     def poses_changed(self) -> None:
-        """Take note that motion was made; what is not at the playhead does not matter here."""
+        """Handle new motion, which only matters at the playhead."""
         if self._canvas is None:
             return
         at_s = self._session.playhead_s
@@ -209,8 +210,9 @@ class ViewportPanel(Retranslated, QWidget):
             self.refresh()
 
     def draw_now(self) -> None:
-        """Draw the poses at the playhead before anything else is done, unless a picture takes long: it is drawn again
-        once the panels have followed."""
+        """Draw the poses at the playhead immediately, unless drawing is slow; then it is done after the panels are
+        updated.
+        """
         if self._canvas is not None and self._canvas.drawing_s < QUICK_S:
             self.scene.pose(self._session.playhead_s)
             self._canvas.draw_now()
@@ -225,7 +227,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def render_image(self, width: int, height: int, time_s: float, view: View | None = None) -> npt.NDArray[np.uint8]:
-        """A picture of a moment, with the names and marks that are shown: see `film`."""
+        """Return a picture of a moment with the displayed names and marks: see `film`."""
         return self.film(width, height, (time_s, time_s), view, True)(time_s)
 
     def film(
@@ -238,32 +240,32 @@ class ViewportPanel(Retranslated, QWidget):
         player_ids: tuple[str, ...] | None = None,
         cameras: dict[float, Camera] | None = None,
     ) -> Draw:
-        """Make the drawer of a film's pictures, in their order.
+        """Return a function that draws a film's pictures in order.
 
         Parameters
         ----------
         width, height : int
             Pixels.
         span_s : (float, float)
-            Seconds of the performance in which all pictures lie.
+            Range of the pictures in seconds of the performance.
         view : View or CameraBookmark, optional
-            The camera as it stands if absent.
+            View; by default the present camera.
         marked : bool
-            Draw the names and marks that the window shows, and the rings of who is selected.
+            Whether to draw the names and marks of the window, and rings around selected players.
         player_ids : tuple of str, optional
-            Players or dancers that the view is about; the selected players if absent.
+            Performers that the view is about; by default the selected players.
         cameras : dict of float to Camera, optional
-            A first film of the span puts the camera of every picture there; another one is then seen the same way.
+            Cameras by time: the first film of a span adds them, and another film then uses the same.
 
         Returns
         -------
         callable
-            Gets a time in seconds and gives a picture (height, width, 4) uint8.
+            Function from a time in seconds to a picture (height, width, 4) uint8.
 
         Raises
         ------
         AppError
-            ``picture.no_gl`` (reason), ``picture.loading``; what is returned raises them too.
+            GL does not work, or figures are still being loaded; the returned function raises this too.
         """
         self._require_stage()
         chosen = self._session.players if player_ids is None else player_ids
@@ -315,7 +317,7 @@ class ViewportPanel(Retranslated, QWidget):
         player_ids: tuple[str, ...],
         cameras: dict[float, Camera] | None,
     ) -> Shot:
-        """Camera of a film: by a view, or as the window's camera stands."""
+        """Return the camera of a film: of a view, or like the window's."""
         if view is None:
             return Shot(self._eye.view, self._eye.camera, player_ids, self._eye.centred(np.zeros(3)))
         _, stage = self._require_stage()
@@ -337,7 +339,7 @@ class ViewportPanel(Retranslated, QWidget):
     # GL
 
     def _start_gl(self) -> str | None:
-        """Make the canvas; why that does not work, None where it does."""
+        """Make the canvas; return the reason if GL does not work, else None."""
         reason = why_no_gl()
         if reason is not None:
             return reason
@@ -403,7 +405,7 @@ class ViewportPanel(Retranslated, QWidget):
             paint(painter, self.scene.marks(camera), stage, camera, size, self._session.tokens)
 
     def _update(self) -> None:
-        """Draw again soon."""
+        """Request a redraw."""
         if self._canvas is not None:
             self._canvas.update()
         if self._layer is not None:
@@ -425,12 +427,12 @@ class ViewportPanel(Retranslated, QWidget):
     # The camera
 
     def _tracked(self) -> FloatArray | None:
-        """Point that the view keeps in the middle."""
+        """Return the point that the view keeps in the middle."""
         stage, rows = self.scene.stage, self.scene.rows()
         return tracked(self._eye.view, stage, rows[0]) if stage is not None and rows else None
 
     def _needed_m(self) -> float | None:
-        """Distance from which all of a close-up is in the picture, where that changes."""
+        """Return the distance in metres at which all of a close-up is visible, if it varies."""
         stage, rows, widget = self.scene.stage, self.scene.rows(), self.canvas_widget()
         if stage is None or not rows or widget is None:
             return None
@@ -459,7 +461,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def _follow(self) -> None:
-        """Let a close-up go after its player."""
+        """Move a close-up towards its player."""
         dragging = self._pointer is not None and self._pointer.dragging
         if self._eye.follow(None if dragging else self._tracked(), perf_counter(), self._needed_m()):
             self._ticker.start()
@@ -472,7 +474,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._update()
 
     def _wait(self) -> None:
-        """Look again soon, as long as anyone is there whose pose is missing or may still change after an edit."""
+        """Look again after a while, as long as a pose is missing or may still change after an edit."""
         stage, changing = self.scene.stage, self.scene.missing or perf_counter() < self._settle_until_s
         waiting = changing and stage is not None and bool(stage.members)
         if waiting and not self._waiter.isActive():
@@ -556,7 +558,7 @@ class ViewportPanel(Retranslated, QWidget):
             self._go(self._view_camera())
 
     def _turn(self) -> None:
-        """Look from the other side: a view from the front from behind, any other as in a mirror before the player."""
+        """Move the camera to the other side: from the front to the back, other views mirrored."""
         stage, rows = self.scene.stage, self.scene.rows()
         if stage is not None:
             self._eye.touched = True
@@ -568,7 +570,7 @@ class ViewportPanel(Retranslated, QWidget):
         self._go(dolly(self._eye.destination, steps))
 
     def _frame_asked(self, selected: bool) -> None:
-        """Frame players as the camera stands."""
+        """Frame players in the present direction."""
         self._frame(self.scene.visible(selected))
 
     def _frame(self, rows: Sequence[int]) -> None:

@@ -1,4 +1,4 @@
-"""The pointer over the picture: orbit, pan, dolly, click, and the handles of the pose tool."""
+"""Mouse handling of the viewport: orbit, pan, zoom, click, and the handles of the pose tool."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.scene import ViewportScene
 
 CLICK_PX = 4.0
-"""A press that moves less is a click."""
+"""A press that moves less than this number of pixels is a click."""
 DOLLY_PX_PER_STEP = 40.0
 WHEEL_STEP = 120.0
 TOUCHPAD_PX_PER_STEP = 60.0
 
 
 class Pointer(QObject):
-    """Turns what happens on the canvas into moves of the eye, a selection, and poses.
+    """Converts mouse events on the canvas to moves of the camera, selections, and poses.
 
     Parameters
     ----------
@@ -34,15 +34,15 @@ class Pointer(QObject):
     Signals
     -------
     moved()
-        The picture is another one: the camera moved, or another performer is under the pointer.
+        The picture changed: the camera moved, or another performer is under the mouse.
     posed()
         A handle was dragged.
     released()
         A drag has ended.
     menu_asked(QPoint)
-        The right button was clicked there on the screen.
+        The right button was clicked at this point of the screen.
     framed(int)
-        The dancer of this row should be framed.
+        The dancer of this row must be framed.
     """
 
     moved = Signal()
@@ -69,7 +69,7 @@ class Pointer(QObject):
         return self._scene.row_at(*self._eye.camera.ray(at.x(), at.y(), *self._size()))
 
     def forget(self) -> None:
-        """Another stage: no one is under the pointer."""
+        """Reset the performer under the mouse after a change of the stage."""
         self.hovered = None
 
     def _size(self) -> tuple[float, float]:
@@ -176,7 +176,7 @@ class Pointer(QObject):
             self._session.set_players(tuple(own for own in before if own != player_id))
 
     def _dancer_id(self, row: int) -> str | None:
-        """Id of the dancer of a row; None for a player."""
+        """Return the id of the dancer of a row; None for a player."""
         stage = self._scene.stage
         found = stage.members[row].player_id if stage is not None else ""
         return found if found in self._session.project.dancer_ids else None

@@ -1,4 +1,4 @@
-"""The pose tool: drags of handles become corrections of the player in front."""
+"""The pose tool: drags of handles become corrections of the active player."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _NAMES: dict[PoseTarget, Message] = {
 
 @dataclass(eq=False)
 class _Drag:
-    """A drag in hand: where it began, and what it has come to so far."""
+    """State of a drag: its start and its present result."""
 
     handle: Handle
     player_id: str
@@ -74,14 +74,14 @@ class PoseTool:
         return self._drag.after if self._drag is not None else None
 
     def corrected(self, targets: Sequence[PoseTarget]) -> frozenset[PoseTarget]:
-        """The targets that are posed by hand at the playhead."""
+        """Return the targets with a pose correction at the playhead."""
         player_id = self._player_id()
         if player_id is None:
             return frozenset()
         return frozenset(target for target in targets if self._at(player_id, target) is not None)
 
     def grasp(self, handle: Handle) -> bool:
-        """Begin a drag; whether there is a performer to hold."""
+        """Start a drag, and return whether there is a player to pose."""
         player_id = self._player_id()
         if player_id is None:
             return False
@@ -112,13 +112,13 @@ class PoseTool:
         self._session.attempt(name, lambda project: with_correction(start, player_id, before, after), drag.token)
 
     def release(self) -> None:
-        """End the drag: it is one step of the history."""
+        """End the drag as a single undo step."""
         if self._drag is not None:
             self._drag = None
             self._session.document.end_gesture()
 
     def cancel(self) -> bool:
-        """Give the drag up; whether there was one."""
+        """Cancel the drag, and return whether there was one."""
         drag, self._drag = self._drag, None
         if drag is None:
             return False
@@ -127,7 +127,7 @@ class PoseTool:
         return True
 
     def reset(self, target: PoseTarget) -> None:
-        """Give a target back to the generator, here."""
+        """Remove the pose correction of a target at the playhead."""
         player_id = self._player_id()
         found = self._at(player_id, target) if player_id is not None else None
         if player_id is not None and found is not None:

@@ -1,7 +1,7 @@
-"""Draws a stage with gloo: everything that holds objects of the graphics card.
+"""Renderer of a stage with gloo, which owns all objects on the graphics card.
 
-Near players are drawn one by one, their faces morphed here and only the moved vertices sent; far players are one call
-together, from coarser shapes. All bones of all players travel in one float texture, one upload a frame.
+Near players are drawn one by one, with faces morphed on the processor and only moved vertices sent; far players are
+drawn by a single call with coarser shapes. The bones of all players are in one float texture, uploaded once per frame.
 """
 
 from __future__ import annotations
@@ -30,33 +30,33 @@ from widgets.viewport.shapes import Shapes, Solid, draw_sides, looks_same, sides
 from widgets.viewport.texture_maps import MULTISAMPLED, WHOLE_PIXELS, TextureMaps
 
 FINE_PX_PER_M = 620.0
-"""Size on screen above which a player is drawn from all vertices."""
+"""Pixels per metre above which a player is drawn with all vertices."""
 COARSE_PX_PER_M = 120.0
-"""Size on screen below which a player is drawn from the fewest vertices, together with all others."""
+"""Pixels per metre below which a player is drawn with the fewest vertices, together with all others."""
 MOST_NEAR = 12
 HASTY_FACTOR = 1.7
-"""Factor by which pictures made in haste are treated as smaller when their level of detail is chosen."""
+"""Factor by which sizes are reduced for choosing levels of detail in fast pictures."""
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software", "basic render", "gdi generic")
-"""Parts of the names of renderers that have no card."""
+"""Parts of the names of software renderers."""
 GL_MULTISAMPLE, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLES = 0x809D, 0x809E, 0x80A9
 _ALL = 2**30
 _NO_LOOK = (0.0, 0.0, 0.0, 0.0)
 MIDDLE_M = np.array([0.0, 1.0, 0.0])
-"""About where the chest of a player is."""
+"""Approximate position of a player's chest in metres."""
 SPREAD_M = 1.25
 """No part of a player or instrument is farther from the chest."""
 SHADOW_RADIUS_M = 1.9
 OVER = ("src_alpha", "one_minus_src_alpha", "zero", "one")
-"""Blended over what is there; the picture itself stays opaque."""
+"""Blending over the existing picture, which stays opaque."""
 SEEN_THROUGH = 0.85
-"""Share of the pixels that are left out of who stands in the way."""
+"""Share of omitted pixels of a transparent player."""
 
 
 _SHADERS = Path(__file__).with_name("shaders")
-"""Programs in GLSL 120, which every driver of the last fifteen years runs."""
+"""Folder of the programs in GLSL 120, which all drivers of the last fifteen years support."""
 RING_M = 0.48
 PODIUM_M = (0.28, 0.55)
-"""Radii of the rings around a player, and of those that mark the conductor's place."""
+"""Radii in metres of the rings around a player, and of those at the conductor's place."""
 
 
 def _program(name: str) -> Any:
@@ -92,16 +92,16 @@ class Renderer:
         self._software: bool | None = None
 
     def set_stage(self, stage: Stage, shapes: Shapes, everyone: Crowd | None) -> None:
-        """Draw this stage from now on.
+        """Set the stage to draw.
 
         Parameters
         ----------
         stage : Stage
-            Someone is on it: see `clear_stage`.
+            Stage with at least one performer: see `clear_stage`.
         shapes : Shapes
         everyone : Crowd or None
-            Of this stage and these shapes (`crowd_of`), made away from the window's thread. None: as the stage before,
-            whose players stand at other places now.
+            Crowd of this stage and these shapes (`crowd_of`), made outside the window's thread. None for the previous
+            one with players at other places.
         """
         same = self._stage is not None and shapes is self._shapes and looks_same(stage, self._stage)
         self._stage, self._shapes = stage, shapes
@@ -153,8 +153,7 @@ class Renderer:
         self._fill_batch(everyone)
 
     def clear_stage(self) -> None:
-        """Draw no players from now on, and keep nothing of those that were drawn; the card frees it with the next
-        picture."""
+        """Remove all players; the graphics card frees them with the next picture."""
         self._stage = self._shapes = self._limbs = None
         self._solids.clear()
         self._maps.clear()
@@ -168,7 +167,7 @@ class Renderer:
         return self._software
 
     def _fill_batch(self, everyone: Crowd) -> None:
-        """Send the crowd to the card; nothing of it is kept here."""
+        """Send the crowd to the graphics card, without keeping it in memory."""
         self._batch.bind(gloo.VertexBuffer(everyone.shape))
         self._batch.bind(gloo.VertexBuffer(everyone.surface))
         self._batch["a_row"] = gloo.VertexBuffer(everyone.rows)
@@ -177,7 +176,7 @@ class Renderer:
         self._batch_parts = everyone.parts
 
     def draw(self, camera: Camera, size_px: tuple[int, int], look: ViewportLook, emphasis: Emphasis) -> None:
-        """Draw one picture of this size into the bound framebuffer."""
+        """Draw a picture of a size into the bound framebuffer."""
         width, height = size_px
         aspect = width / max(height, 1)
         gloo.set_viewport(0, 0, width, height)
@@ -251,7 +250,7 @@ class Renderer:
         program["u_middle"], program["u_radius"] = middle, radius
 
     def _draw_video(self, picture: Picture, opacity: float, aspect: float) -> None:
-        """A film's picture, as large as it can be."""
+        """Draw a film's picture as large as possible."""
         if picture is not self._video_picture:
             before, self._video_picture = self._video_picture, picture
             if before is not None and before.shape == picture.shape:
@@ -325,7 +324,7 @@ class Renderer:
         program["u_key_light"], program["u_fill_light"] = look.key_light, look.fill_light
 
     def _draw_near(self, stage: Stage, shapes: Shapes, level: IndexArray, mode: str) -> None:
-        """All performers that are drawn singly; things of one kind in a row, so that buffers are bound once."""
+        """Draw all near performers; geometries of one kind together, so that buffers are bound once."""
         near = [int(row) for row in np.flatnonzero((level >= 0) & (level < LEVELS - 1))]
         if not near:
             return
@@ -366,7 +365,7 @@ class Renderer:
             self._figures.draw(mode, solid.edges)
 
     def _draw_looks(self, solid: Solid) -> None:
-        """Draw a solid in its textures; one without has the colours of its vertices."""
+        """Draw a solid with its textures, or with the colours of its vertices."""
         program, looks = self._figures, solid.geometry.looks
         if solid.uvs is not None:
             program["a_uv"] = solid.uvs
@@ -409,7 +408,7 @@ class Renderer:
         return solid
 
     def _shape(self, stage: Stage, row: int, level: int, solid: Solid) -> Any:
-        """The vertices of a player with the face of the pose; sent only where the pose is another."""
+        """Return the vertices of a player with the face of the pose, sent only if changed."""
         pose, face = stage.poses[row], solid.geometry.face
         if face is None or pose is None:
             return solid.shape

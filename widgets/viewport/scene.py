@@ -1,4 +1,4 @@
-"""Performers on the stage with their poses, and the texts and marks about them."""
+"""Performers on the stage with their poses, texts and marks."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from widgets.viewport.pose_tool import PoseTool
 from widgets.viewport.shapes import Shapes
 
 FEW = 12
-"""Performers whose figures are loaded at once; of more the one in front is first."""
+"""Number of performers up to which figures are loaded at once; with more, the active one is loaded first."""
 FRONT_MS = 3000
-"""Milliseconds after which the others' figures are loaded even if the player in front does not move yet."""
+"""Milliseconds after which the other figures are loaded even if the active player does not move yet."""
 CONDUCTORS_NAME = "stage.conductor"
 PODIUM_NAME_M = 0.5
 """Height of the podium's name above the conductor's place."""
 
 
 class ViewportScene(QObject):
-    """The stage of a session's project, as drawn in the viewport.
+    """The stage of a session's project for the viewport.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class ViewportScene(QObject):
     Signals
     -------
     staged()
-        There is another stage.
+        The stage changed.
     shown()
         More or fewer players have a pose.
     """
@@ -83,20 +83,20 @@ class ViewportScene(QObject):
         return self._loaded.stage if self._loaded is not None else None
 
     def set_poses(self, poses: PoseSource) -> None:
-        """Take poses from there from now on."""
+        """Set the source of poses."""
         self._poses = WornFaces(self._session, LivePoses(self._session, poses))
 
     # Figures
 
     def leave(self) -> None:
-        """Show no figures of the piece before: another one is open. They stay where both pieces have the same."""
+        """Remove the figures of the previous piece when another is opened, except for equal stages."""
         loaded = self._loaded
         if loaded is not None and not same_figures(loaded.key, cast_key(self._session.project)):
             self._loaded, self._shapes = None, loaded.shapes
             self.staged.emit()
 
     def load(self) -> None:
-        """Bring the stage to the project's players; what is not there yet is loaded in the background."""
+        """Load missing figures of the project in the background."""
         self._others.stop()
         project, before = self._session.project, self._loaded
         if before is not None and same_figures(before.key, cast_key(project)):
@@ -116,7 +116,7 @@ class ViewportScene(QObject):
         )
 
     def sent(self, shapes: Shapes) -> None:
-        """The card has these shapes and their crowd."""
+        """Drop the crowd of shapes that the graphics card has received."""
         if self._loaded is not None and self._loaded.shapes is shapes:
             self._loaded = replace(self._loaded, crowd=None)
 
@@ -147,7 +147,7 @@ class ViewportScene(QObject):
     # Poses
 
     def pose(self, time_s: float) -> None:
-        """Put everyone into the pose of a time, as far as it is made."""
+        """Set the poses of a time, as far as they exist."""
         if self._loaded is not None:
             player_ids = [member.player_id for member in self._members()]
             asked = self._poses.poses(player_ids, time_s)
@@ -155,7 +155,7 @@ class ViewportScene(QObject):
             self.take(dict(zip(player_ids, asked, strict=True)))
 
     def pose_now(self, time_s: float, player_ids: Sequence[str] | None = None) -> None:
-        """Put everyone, or some, into the pose of a time, made here where it is not there yet."""
+        """Set the poses of a time for all or some performers, computing missing ones."""
         asked = [member.player_id for member in self._members()] if player_ids is None else player_ids
         self.take({player_id: self._poses.pose_now(player_id, time_s) for player_id in asked})
 
@@ -167,7 +167,7 @@ class ViewportScene(QObject):
         return {member.player_id: pose for member, pose in zip(stage.members, stage.poses, strict=True)}
 
     def take(self, poses: Mapping[str, Pose | None]) -> None:
-        """Put players into poses."""
+        """Set the poses of performers."""
         stage = self.stage
         if stage is not None:
             before = int(stage.shown.sum())
@@ -176,14 +176,14 @@ class ViewportScene(QObject):
                 self.shown.emit()
 
     def is_outdated(self, time_s: float) -> bool:
-        """Return whether any pose differs from the one shown."""
+        """Return whether any pose differs from the displayed one."""
         shown = self.poses()
         found = self._poses.poses(tuple(shown), time_s)
         # A pose that is not there yet leaves the one before it.
         return any(pose is not None and not same(pose, own) for pose, own in zip(found, shown.values(), strict=True))
 
     def lacks(self, time_s: float) -> bool:
-        """Return whether any pose is not there yet."""
+        """Return whether any pose is missing."""
         return any(pose is None for pose in self._poses.poses([one.player_id for one in self._members()], time_s))
 
     def _members(self) -> tuple[Member, ...]:
@@ -193,7 +193,7 @@ class ViewportScene(QObject):
     # Players
 
     def rows(self) -> list[int]:
-        """Rows of the selected players, the one in front first."""
+        """Return the rows of the selected players, the active one first."""
         return [] if self.stage is None else self.stage.rows(self._session.players)
 
     def visible(self, selected: bool) -> list[int]:
@@ -205,7 +205,7 @@ class ViewportScene(QObject):
         return [row for row in rows if stage.shown[row]]
 
     def row_at(self, origin_m: FloatArray, direction: FloatArray) -> int | None:
-        """Row of the performer that a ray meets first."""
+        """Return the row of the first performer that a ray hits."""
         stage = self.stage
         if stage is None or not stage.shown.any():
             return None
@@ -213,8 +213,9 @@ class ViewportScene(QObject):
         return found[0] if found is not None else None
 
     def rings(self, hovered: int | None = None) -> dict[int, Color]:
-        """Rings on the floor: the rows of the selected players and the selected dancer with their colours, and a faint
-        one of the row under the pointer."""
+        """Return the rings on the floor: for selected players and the selected dancer in their colours, and a faint one
+        for the row under the mouse.
+        """
         stage = self.stage
         if stage is None:
             return {}
@@ -226,7 +227,7 @@ class ViewportScene(QObject):
         return rings
 
     def podium(self) -> tuple[float, float, Color] | None:
-        """The conductor's place, and the colour that marks it."""
+        """Return the conductor's place, and the colour that marks it."""
         place = self._session.project.conducting
         return None if place is None else (place.x_m, place.z_m, rgb(self._session.tokens.text_dim))
 
@@ -240,7 +241,7 @@ class ViewportScene(QObject):
     # Marks and words
 
     def handles(self) -> tuple[Handle, ...]:
-        """The pose tool's handles, while it is in hand."""
+        """Return the handles of the pose tool while it is active."""
         stage, rows = self.stage, self.rows()
         return handles(stage, rows[0]) if self._session.viewport.posing and stage is not None and rows else ()
 
@@ -277,7 +278,7 @@ class ViewportScene(QObject):
         )
 
     def message(self) -> str:
-        """Text in the middle of the picture; empty if there is none."""
+        """Return the text in the middle of the picture; empty if there is none."""
         loaded = self._loaded
         if not self._session.project.players and not self._session.project.dancers:
             return self.tr("scene.no_players_yet_open_or")
@@ -307,6 +308,6 @@ class ViewportScene(QObject):
 
 
 def _conductors_name() -> str:
-    """In the editor's language; in English where none is chosen, as in a film."""
+    """Return the conductor's name in the editor's language; in English if none is set, as in a film."""
     said = tr(CONDUCTORS_NAME)
     return text(Message(CONDUCTORS_NAME)) if said == CONDUCTORS_NAME else said

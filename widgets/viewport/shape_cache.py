@@ -1,5 +1,5 @@
-"""Shapes for the graphics card in the user's cache: making those of fifty players takes seconds, and keeping them in
-memory as much as their motion. The file is mapped: the system reads from it what is sent to the card.
+"""Cache files of shapes for the graphics card, since making those of fifty players takes seconds, and they are as large
+as their motion. Files are memory-mapped, so that the system reads only the parts that are sent to the card.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ MOST_FILES: Final = 128
 """Most files of characters and instruments, earlier versions included; the oldest go."""
 _ALIGNED: Final = 64
 _BEGINNING: Final = struct.Struct("<II")
-"""Length of the head, and the CRC-32 of all that follows."""
+"""Format of the head's length, and the CRC-32 of everything after it."""
 _KINDS: Final = {
     "shape": SHAPE,
     "surface": SURFACE,
@@ -40,7 +40,7 @@ _NAMES: Final = {kind: name for name, kind in _KINDS.items()}
 
 
 class _Array(msgspec.Struct, frozen=True, array_like=True):
-    """Place of an array in the file, counted from the end of its head."""
+    """Place of an array in the file, counted from the end of the head."""
 
     start: int
     kind: str
@@ -76,12 +76,12 @@ _DECODER: Final = msgspec.msgpack.Decoder(_Head)
 def kept(
     meshes: Sequence[Mesh], made_with: tuple[object, ...], make: Callable[[], tuple[Geometry, ...]]
 ) -> tuple[Geometry, ...]:
-    """Make geometry of meshes by ``make``, or take it from the user's cache.
+    """Return the geometries of meshes from the cache, or made by ``make``.
 
     Parameters
     ----------
     made_with : tuple
-        All else that it depends on, besides the code in this folder.
+        All other inputs besides the code in this folder.
     """
     path = cache_folder("shapes") / f"{_digest(meshes, made_with)}.shapes"
     found = _read(path)
@@ -153,7 +153,7 @@ def _write(file: BinaryIO, levels: Sequence[Geometry]) -> None:
 
 
 def _read(path: Path) -> tuple[Geometry, ...] | None:
-    """The levels of a file; None where it is not there, or damaged."""
+    """Return the levels in a file; None if it is missing or damaged."""
     try:
         with open_file(path) as file:
             length, expected = _BEGINNING.unpack(file.read(_BEGINNING.size))

@@ -1,4 +1,4 @@
-"""Drawable parts of one thing: vertices, surfaces and triangles for the graphics card, and the face's morphs."""
+"""Drawable parts of an object: vertices, surfaces and triangles for the graphics card, and face morphs."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ SURFACE = np.dtype(
 
 @dataclass(frozen=True, eq=False)
 class MorphTargets:
-    """Morph targets over the first vertices of a geometry.
+    """Morph targets for the first vertices of a geometry.
 
     Attributes
     ----------
     count : int
-        Vertices that any of them moves: the first ones.
+        Number of vertices that any of them moves, which are the first ones.
     names : tuple of str
     targets : tuple of ((K,) int32, (K, 6) float32)
-        By name: the vertices that it moves, and how: displacement and change of normal as in `SHAPE`. Most move few.
+        Moved vertices of each name, with displacement and change of normal as in `SHAPE`. Most move few vertices.
     rest : (count, 6) float32
     """
 
@@ -43,7 +43,7 @@ class MorphTargets:
     rest: SingleArray
 
     def morphed(self, weights: SingleArray) -> npt.NDArray[np.void]:
-        """The first vertices under these weights (len(names),), as `SHAPE` records."""
+        """Return the first vertices under weights (len(names),) as `SHAPE` records."""
         shape = self.rest.copy()
         for index in np.flatnonzero(np.abs(weights) > 1e-4).tolist():
             vertices, deltas = self.targets[index]
@@ -53,26 +53,26 @@ class MorphTargets:
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """One level of detail of a thing.
+    """One level of detail of an object.
 
     Attributes
     ----------
     shape : (V,) SHAPE
-        At rest, in the space the bones' matrices take from.
+        Vertices at rest, in the space that the bones' matrices transform.
     surfaces : (S,) SURFACE
-        Bones as indices into a player's matrices; base colour (linear) with the roughness beside it; metallic.
+        Bones as indices into a player's matrices; linear base colour with roughness; metallic.
     triangles : (T, 3) uint16 or uint32
-        Those that are seen from one side only come first.
+        Triangles; one-sided ones first.
     one_sided : int
-        How many these are.
+        Number of one-sided triangles.
     face : MorphTargets or None
     surface_of : (V,) uint16 or None
-        Which of the surfaces each vertex has: those of what does not bend are few. None: each its own.
+        Index of each vertex's surface, since rigid objects have few. None if each vertex has its own.
     uvs : (V, 2) float32 or None
-        Where anything has textures; v points down.
+        Texture coordinates with v pointing down, if there are textures.
     groups : (G, 3) int32 or None
-        Triangles of one look, which follow one another: the first, how many, and which of the looks; -1: the colours of
-        the vertices. None: all have these.
+        Ranges of consecutive triangles with one look: first triangle, number of triangles, index of the look; -1 for
+        vertex colours. None if all use vertex colours.
     looks : tuple of Material
         With textures.
     """
@@ -96,5 +96,5 @@ class Geometry:
 
 
 def numbers(records: npt.NDArray[np.void]) -> SingleArray:
-    """Records of float32 as rows of them; the same memory."""
+    """Return records of float32 as rows sharing their memory."""
     return records.view(np.float32).reshape(len(records), -1)

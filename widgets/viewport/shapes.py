@@ -1,4 +1,4 @@
-"""Shapes that the renderer draws of the stage: players, the crowd behind them, and solids."""
+"""Shapes that the renderer draws: players, the crowd behind them, and solids."""
 
 from __future__ import annotations
 
@@ -24,8 +24,7 @@ from widgets.viewport.shape_model import Geometry
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Geometries by level of detail: of characters by id, of instruments by the id of their map; what one sits on, and
-    what an instrument lies on."""
+    """Geometries by level of detail: of characters by id, of instruments by map id, of seats and stands."""
 
     characters: Mapping[str, tuple[Geometry, ...]]
     instruments: Mapping[str, tuple[Geometry, ...]]
@@ -34,7 +33,7 @@ class Shapes:
 
 
 def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
-    """Make what a stage is drawn from; what ``before`` has is taken from there."""
+    """Return the shapes of a stage, reusing those in ``before``."""
     # What no one wears any more is not kept: every colour that was tried would be.
     known = {} if before is None else before.characters
     characters: dict[str, tuple[Geometry, ...]] = {}
@@ -81,13 +80,13 @@ def parts_of(member: Member) -> tuple[bool, bool, bool]:
 
 
 def sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:
-    """The triangles seen from one side, and those seen from both: whether their backs are left out, and indices."""
+    """Return the one-sided and the two-sided triangles: whether back faces are culled, and indices."""
     parts = ((True, geometry.triangles[: geometry.one_sided]), (False, geometry.triangles[geometry.one_sided :]))
     return tuple((culled, gloo.IndexBuffer(part)) for culled, part in parts if len(part))
 
 
 def looks(geometry: Geometry) -> tuple[tuple[bool, int, Any], ...]:
-    """Triangles of one look each: whether their backs are left out, the number of the look, and indices."""
+    """Return the triangles of each look: whether back faces are culled, index of the look, and indices."""
     if geometry.groups is None:
         return tuple((culled, -1, indices) for culled, indices in sides(geometry))
     groups = ((int(first), int(count), int(look)) for first, count, look in geometry.groups)

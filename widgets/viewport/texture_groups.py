@@ -1,4 +1,4 @@
-"""Triangles of meshes by their textures, for the graphics card."""
+"""Grouping of triangles by their textures for the graphics card."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ from app.rig.mesh import Mesh
 
 
 def textured_looks(meshes: Sequence[Mesh]) -> tuple[Material, ...]:
-    """The materials of meshes that have textures, each once."""
+    """Return the textured materials of meshes, each once."""
     materials = (material for mesh in meshes for material in mesh.materials)
     return tuple(dict.fromkeys(material for material in materials if material.textures.uses))
 
 
 def uv_islands(triangles: AnyIntArray, textured: npt.NDArray[np.bool_]) -> IntArray:
-    """One number for the vertices (V,) of each connected part of textured ones; 0 for all others.
+    """Return a number for the vertices (V,) of each connected textured part; 0 for all others.
 
-    A texture's picture is torn between such parts: what became one vertex across them would smear it.
+    Texture coordinates are discontinuous between such parts, so that merging vertices across them would distort the
+    texture.
     """
     count = len(textured)
     if not textured.any():
@@ -37,7 +38,7 @@ def uv_islands(triangles: AnyIntArray, textured: npt.NDArray[np.bool_]) -> IntAr
 
 
 def texture_groups(look: AnyIntArray, two_sided: npt.NDArray[np.bool_]) -> npt.NDArray[np.int32]:
-    """`Geometry.groups` of triangles in order, by the look and the sides of each."""
+    """Return `Geometry.groups` for triangles in order by look and sides."""
     keys = look.astype(np.int64) * 2 + two_sided
     first = np.flatnonzero(np.r_[True, keys[1:] != keys[:-1]])
     counts = np.diff(np.r_[first, len(keys)])

@@ -1,4 +1,4 @@
-"""Textures on the graphics card: shared by all who wear them, small from afar, within a bound of memory."""
+"""Textures on the graphics card: shared by performers, smaller for far ones, within a memory limit."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from app.formats.scene import Material
 from app.formats.textures import Texture, TextureUse
 
 NEAR_PX: Final = 1024
-"""Longest side of a texture that is seen from near; from afar it is that of `app.formats.images.small`."""
+"""Longest side in pixels of a texture for near performers; for far ones that of `app.formats.images.small`."""
 MOST_BYTES: Final = 192 * 2**20
-"""Most of all textures on the card, and a third more for their smaller copies; those that were not drawn for the
-longest time go."""
+"""Limit in bytes of all textures on the card, plus a third for mipmaps; the least recently drawn are dropped."""
 BLENDED: Final = 2.0
-"""The cutoff that stands for a screen of pixels."""
+"""Value of the cutoff for transparency by dithering."""
 MULTISAMPLED, WHOLE_PIXELS = 0.02, 0.25
-"""Least share of a pixel that what is cut out has to cover: with samples, which show how much, and without, where brows
-of less would fall to pieces."""
+"""Least share of a pixel that cut-out parts must cover: with multisampling, and without, where thin brows would
+otherwise break up.
+"""
 _GL_LINEAR_MIPMAP_LINEAR: Final = 0x2703
 _WHITE: Final = np.full((1, 1, 4), 255, np.uint8)
 _FLAT: Final = np.array([[[128, 128, 255, 255]]], np.uint8)
@@ -39,17 +39,17 @@ class TextureMaps:
         """Number of textures that may still be read for this picture."""
 
     def clear(self) -> None:
-        """Keep none; the card frees them with the next picture."""
+        """Remove all textures; the graphics card frees them with the next picture."""
         self._maps.clear()
         self._bytes = 0
 
     def undress(self, program: Any) -> None:
-        """Give a program the colours of vertices."""
+        """Set a program to vertex colours."""
         program["u_textured"] = 0.0
         program["u_color_map"], program["u_surface_map"], program["u_normal_map"] = self._white, self._white, self._flat
 
     def dress(self, program: Any, look: Material, near: bool) -> None:
-        """Give a program the textures of a material; from afar without its normal map."""
+        """Set a program to the textures of a material, without its normal map for far performers."""
         textures = look.textures
         program["u_textured"] = 1.0
         surface = textures.metallic_roughness or textures.occlusion
@@ -95,7 +95,7 @@ def _pixels(texture: Texture, near: bool) -> Pixels | None:
 
 
 def texture_of_pixels(pixels: Pixels) -> Any:
-    """A texture with smaller copies of itself: what is finer than the screen's pixels would glitter."""
+    """Return a texture with mipmaps, so that fine details do not flicker."""
     texture = gloo.Texture2D(np.ascontiguousarray(pixels), interpolation="linear", wrapping="repeat")
     # vispy has no name for them. Its last command leaves the texture bound.
     texture.glir.command("INTERPOLATION", texture.id, _GL_LINEAR_MIPMAP_LINEAR, "linear")

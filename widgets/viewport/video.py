@@ -1,4 +1,4 @@
-"""The reference video in the viewport: beside the players, and the strip with its placement and offset."""
+"""The reference video in the viewport: its picture beside the players, and the strip with its controls."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ _BUTTONS: Final[dict[Placement, tuple[str, str]]] = {
 
 
 def fitted(ratio: float, width: float, height: float) -> QRectF:
-    """Box of a picture of this ratio: as large as fits, in the middle."""
+    """Return the largest centred rectangle of an aspect ratio."""
     shown_width = min(width, height * ratio)
     shown_height = shown_width / ratio
     return QRectF((width - shown_width) / 2.0, (height - shown_height) / 2.0, shown_width, shown_height)
 
 
 class VideoView(Retranslated, QWidget):
-    """The video's picture at the playhead, or the reason why none is shown.
+    """The video's picture at the playhead, or the reason why there is none.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class VideoView(Retranslated, QWidget):
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint."""
+        """Paint the picture or the reason."""
         state, tokens = self._session.video, self._session.tokens
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(tokens.sunken))
@@ -84,7 +84,7 @@ class VideoView(Retranslated, QWidget):
 
 
 class BesideVideo(QSplitter):
-    """The players, and beside them the video while it is to be there.
+    """Splitter with the players and, if shown, the video beside them.
 
     Parameters
     ----------
@@ -116,19 +116,19 @@ class BesideVideo(QSplitter):
             self._share()
 
     def _share(self) -> None:
-        """Half of the room for each, once there is any."""
+        """Divide the width equally as soon as it is known."""
         if self._halves and self.isVisible():
             self._halves = False
             self.setSizes([self.width() // 2] * 2)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """There is room from now on."""
+        """Divide the width when shown."""
         super().showEvent(event)
         self._share()
 
 
 class VideoStrip(Retranslated, QWidget):
-    """Controls of the video: its display, its start, and the search for its place by its sound.
+    """Controls of the video: display, start time, and alignment by sound.
 
     Parameters
     ----------
