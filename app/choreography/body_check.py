@@ -14,10 +14,6 @@ from app.choreography.captured_joints import ARM, LEG, SIDES, Captured, X, Y, Z,
 from app.errors import Message
 from app.rig import quaternion
 
-ASKEW_DEG: Final = 60.0
-"""A zero pose stands if every part of it is nearer than this to where the motion has it in the mean."""
-STRAIGHT_DEG: Final = 45.0
-"""And if the legs of it are nearer than this to hanging down."""
 SURE: Final = 0.5
 """A hinge less sure than this says nothing."""
 MOST_DEG: Final = {"hips": 5.0, "shoulders": 5.0, "spine": 35.0, "knees": 45.0, "elbows": 80.0, "toes": 45.0}
@@ -82,9 +78,7 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
     for side, sign in SIDES:
         for kind, limb, ahead in (("knees", LEG, X), ("elbows", ARM, Y)):
             bend = body.bend([side + name for name in limb], sign)
-            # A forearm whose bone turns the palm has no axis of the elbow.
-            fixed = limb[:1] if limb is ARM and body.in_line([side + name for name in limb]) else limb[:2]
-            for segment in fixed:
+            for segment in limb[:2]:
                 axis, sure = body.hinge(side + segment, bend)
                 if sure > SURE:
                     off(kind, side + segment, quaternion.rotate(turns[side + segment], axis), ahead)
@@ -137,24 +131,3 @@ def report(found: Sequence[Checked]) -> Message:
         if one.most_deg == MOST_DEG[one.kind]:
             most[one.kind] = max(most[one.kind], one.off_deg)
     return Message("motion.checked", {kind: round(off_deg) for kind, off_deg in most.items()})
-
-
-def stands(body: Captured, rest: Mapping[str, FloatArray], legs: Sequence[FloatArray]) -> bool:
-    """Return whether a zero pose is a standing body, as the motion has it.
-
-    Parameters
-    ----------
-    rest : mapping of str to ndarray, shape (4,)
-        As in `checked`.
-    legs : sequence of ndarray, shape (3,)
-        Direction of each part of the legs in the zero pose.
-    """
-    if any(angle_deg(way, -Y) > STRAIGHT_DEG for way in legs):
-        return False
-    ahead = np.cross(unit(body.hip_line), body.up)
-    for name in ("hips", "spine", "chest", "head"):
-        upright = quaternion.rotate(rest[name], body.mean(name, body.up))
-        facing = quaternion.rotate(rest[name], body.mean(name, ahead))
-        if max(angle_deg(upright, Y), angle_deg(facing, Z)) > ASKEW_DEG:
-            return False
-    return True

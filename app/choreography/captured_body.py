@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from app.arrays import FloatArray
 from app.choreography.anatomy import t_pose
 from app.choreography.body import ENDS, FEET, SEGMENTS
-from app.choreography.body_check import SURE, Checked, checked, stands, unlike
+from app.choreography.body_check import SURE, Checked, checked, unlike
 from app.choreography.captured_joints import ARM, LEG, SIDES, Captured
 from app.choreography.joints_by_lengths import joints_by_lengths
 from app.choreography.raw_skeleton import JOINTS, REQUIRED, BodyError, RawSkeleton, raw_skeleton, zero_pose
@@ -25,7 +25,7 @@ from app.errors import FileError, Message
 from app.formats.bvh.clip import BvhClip
 from app.rig import quaternion
 from app.rig.characters.joint_mapping import JointMapping, corrected, map_joints
-from app.rig.characters.t_pose import facing_ahead, rest_of, turns_to_t_pose, upright
+from app.rig.characters.t_pose import facing_ahead, rest_of, upright
 from app.rig.figure import Figure
 
 UPS: Final = {
@@ -114,20 +114,17 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
 
 def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequence[str], Sequence[str]]:
     """The body that is found by itself, its bones or the likeliest ones, and which joints are wrong or missing."""
-    named = map_joints(motion.figure)
-    wrong: tuple[str, ...] = ()
-    if named.profile and not _missing(named.bones):
-        for body in (motion.by_zero_pose(named, True), motion.by_motion(_by_names(motion.figure), True)):
-            if isinstance(body, CapturedBody):
-                return body, body.found, (), ()
-            wrong = body or wrong
+    named, by_names = map_joints(motion.figure), _by_names(motion.figure)
     by_lengths = motion.by_lengths()
-    if not _missing(by_lengths.bones):
-        for body in (motion.by_zero_pose(by_lengths, False), motion.by_motion(by_lengths, False)):
+    ways = [(by_names, True), (motion.by_zero_pose(), True)] if named.profile else []
+    wrong: tuple[str, ...] = ()
+    for mapping, sided in (*ways, (by_lengths, False)):
+        if not _missing(mapping.bones):
+            body = motion.read(mapping, sided)
             if isinstance(body, CapturedBody):
                 return body, body.found, (), ()
             wrong = wrong or body
-    complete = [one for one in (_by_names(motion.figure), named, by_lengths) if not _missing(one.bones)]
+    complete = [one for one in (by_names, named, by_lengths) if not _missing(one.bones)]
     missing = _missing(named.bones) or _missing(by_lengths.bones)
     return None, complete[0] if complete else named, wrong, missing
 
@@ -138,13 +135,8 @@ def _by_hand(
     """The body of bones of which a user corrected some joints, and which joints are wrong or missing."""
     if missing := _missing(mapping.bones):
         return None, (), missing
-    wrong: tuple[str, ...] = ()
-    named = bool(mapping.profile)
-    for body in (motion.by_zero_pose(mapping, named, kept), motion.by_motion(mapping, named, kept)):
-        if isinstance(body, CapturedBody):
-            return body, (), ()
-        wrong = wrong or body
-    return None, wrong, ()
+    body = motion.read(mapping, bool(mapping.profile), kept)
+    return (body, (), ()) if isinstance(body, CapturedBody) else (None, body, ())
 
 
 class _Motion:
@@ -163,10 +155,17 @@ class _Motion:
         places = quaternion.rotate(turn, self.places[0])
         return raw_skeleton(self._bvh, self._file, found, places, quaternion.multiply(turn, self._rotations[0]))
 
-    def by_zero_pose(
-        self, mapping: JointMapping, named: bool, kept: Collection[str] = ()
-    ) -> CapturedBody | tuple[str, ...]:
-        """The body whose T-pose the zero pose says; what of it is wrong where that is no standing body.
+    def by_zero_pose(self) -> JointMapping:
+        """Joints by names, and by where their bones are in the zero pose where these say nothing."""
+        mapping = map_joints(self.figure)
+        if _missing(mapping.bones):
+            return mapping
+        # Which side is left depends on where ahead is.
+        standing = upright(self.figure, mapping.bones)
+        return map_joints(facing_ahead(standing, mapping.bones, _foot_tips(self._bvh, standing, mapping.bones)))
+
+    def read(self, mapping: JointMapping, named: bool, kept: Collection[str] = ()) -> CapturedBody | tuple[str, ...]:
+        """The body of these bones; what of it is wrong where that is no body.
 
         Parameters
         ----------
@@ -175,42 +174,20 @@ class _Motion:
         kept : collection of str
             Joints that a user corrected.
         """
-        bvh, figure = self._bvh, self.figure
-        standing = upright(figure, mapping.bones)
-        standing = facing_ahead(standing, mapping.bones, _foot_tips(bvh, standing, mapping.bones))
-        if named and not kept and standing is not figure:
-            # Which side is left depends on where ahead is.
-            mapping = map_joints(standing)
-            if _missing(mapping.bones):
-                return ()
-        body, up = self._captured(mapping.bones)
-        rest = rest_of(standing)
-        t_turns = turns_to_t_pose(standing, rest, mapping.bones)
-        zero = {
-            name: quaternion.multiply(t_turns.get(name, quaternion.IDENTITY), rest.rotations[bone])
-            for name, bone in body.segments.items()
-        }
-        legs = [
-            rest.positions_m[mapping.bones[side + end]] - rest.positions_m[mapping.bones[side + start]]
-            for side in ("left", "right")
-            for start, end in (("UpperLeg", "LowerLeg"), ("LowerLeg", "Foot"))
-        ]
-        exchanges = joints_by_side(body, named, kept) != mapping.bones
-        if exchanges or not stands(body, zero, legs):
-            return ()
-        return self._checked(body, up, mapping, zero)
-
-    def by_motion(
-        self, mapping: JointMapping, named: bool, kept: Collection[str] = ()
-    ) -> CapturedBody | tuple[str, ...]:
-        """The body whose T-pose its motion says; what of it is wrong where that is no body. See `by_zero_pose`."""
-        if _missing(mapping.bones):
-            return ()
         body, up = self._captured(mapping.bones)
         joints = joints_by_side(body, named, kept)
         if joints != mapping.bones:
             body, up = self._captured(joints)
-        return self._checked(body, up, mapping, None)
+        turns = t_pose(body)
+        found = checked(body, turns)
+        wrong = {one.joint: f"{one.joint} {one.off_deg:.0f}°" for one in found if one.wrong}
+        wrong = {joint: joint for joint in unlike(body, self._bvh.parents)} | wrong
+        if wrong:
+            return tuple(wrong.values())
+        hanging = {name: _hanging(self._bvh, self.places, self._rotations, body.segments[name]) for name in ENDS}
+        bones = JointMapping(mapping.profile, body.joints, (), mapping.doubtful)
+        guesses = tuple(_by_the_mean(body))
+        return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found, bones)
 
     def by_lengths(self) -> JointMapping:
         """Joints by the lengths of bones, their sides as the names say that are known, or as the motion does."""
@@ -222,25 +199,6 @@ class _Motion:
             sides = [one for one in (bones, exchanged(bones)) if any(one.get(joint) == bone for joint, bone in known)]
             bones = joints_by_side(self._captured(sides[0] if len(sides) == 1 else bones)[0], len(sides) == 1)
         return JointMapping("", bones, (), tuple(bones))
-
-    def _checked(
-        self,
-        body: Captured,
-        up: str,
-        mapping: JointMapping,
-        zero: Mapping[str, FloatArray] | None,
-    ) -> CapturedBody | tuple[str, ...]:
-        turns = t_pose(body, zero)
-        found = checked(body, turns)
-        wrong = {one.joint: f"{one.joint} {one.off_deg:.0f}°" for one in found if one.wrong}
-        wrong = {joint: joint for joint in unlike(body, self._bvh.parents)} | wrong
-        if wrong:
-            return tuple(wrong.values())
-        poses = self.places, self._rotations
-        hanging = {name: _hanging(self._bvh, *poses, body.segments[name]) for name in ENDS}
-        guesses = () if zero is not None else (Message("motion.rest"), *_by_the_mean(body))
-        bones = JointMapping(mapping.profile, body.joints, (), mapping.doubtful)
-        return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found, bones)
 
     def _captured(self, bones: Mapping[str, int]) -> tuple[Captured, str]:
         """Return the body with Y up, and the axis of the file that points up."""
@@ -261,13 +219,13 @@ class _Motion:
 def _by_the_mean(body: Captured) -> list[Message]:
     """Parts whose turn only their mean in the motion says: a head without eyes, hands without fingers, limbs
     that never bend."""
-    parts = [] if {"leftEye", "rightEye"} <= body.joints.keys() else ["head"]
+    parts = [] if {"leftEye", "rightEye"} <= body.joints.keys() or len(body.posed) else ["head"]
     for side, sign in SIDES:
         for limb in ([side + name for name in names] for names in (ARM, LEG)):
             if body.hinge(limb[0], body.bend(limb, sign))[1] < SURE:
                 parts.append(limb[0])
-        fingers = sum(f"{side}{finger}Proximal" in body.joints for finger in ("Index", "Middle", "Ring", "Little"))
-        if fingers < 2 and not body.thumbs[f"{side}Hand"].any():
+        shown = len(body.knuckles(side)) > 1 or body.thumbs[f"{side}Hand"].any() or len(body.posed)
+        if not shown:
             parts.append(f"{side}Hand")
     return [Message("motion.mean_turns", {"joints": ", ".join(parts)})] if parts else []
 

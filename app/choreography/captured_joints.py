@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -24,8 +23,16 @@ ARM: Final = ("UpperArm", "LowerArm", "Hand")
 SIDES: Final = (("left", 1.0), ("right", -1.0))
 BENT_DEG: Final = (8.0, 20.0)
 """A joint that bends less in nine of ten frames says nothing about its hinge, one that bends more says it for sure."""
-IN_LINE_DEG: Final = 3.0
-"""Bones lie along the same of their axes to this."""
+FINGERS: Final = ("Index", "Middle", "Ring", "Little")
+T_POSE_DEG: Final = 25.0
+"""Arms that point aside, legs that hang down and a trunk that is upright to this are those of a T-pose."""
+JUMP_PART: Final = 0.25
+JUMP_TIMES: Final = 3.0
+"""A joint that moves from a frame to the next by more than this part of the way from the hips to the head, and so many
+times farther than in 99 of 100 frames, jumps."""
+SETTLES: Final = 40
+NEAR_PART: Final = 1e-3
+"""Times that a middle is taken again, and the least distance from it that counts, as a part of its own length."""
 FIXED: Final = (0.9, 0.97)
 """Length of the mean of a hinge's unit axes, seen from a bone: less and it is no hinge, more and it is one for sure."""
 
@@ -106,10 +113,10 @@ class Captured:
         sine = min(1.0, float(np.percentile(np.linalg.norm(bend, axis=1), 90)))
         return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
 
-    def in_line(self, limb: Sequence[str]) -> bool:
-        """Return whether both parts of a limb lie along the same axis of their bones, as programs lay them."""
-        upper, lower = (self.mean(start, self.at(end) - self.at(start)) for start, end in pairwise(limb))
-        return angle_deg(upper, lower) < IN_LINE_DEG
+    def knuckles(self, side: str) -> list[FloatArray]:
+        """Places (F, 3) of the first joint of each finger there is, from the index on, without the thumb."""
+        names = [f"{side}{finger}Proximal" for finger in FINGERS]
+        return [self.at(name) for name in names if name in self.joints]
 
     @property
     def up(self) -> FloatArray:
@@ -125,6 +132,30 @@ class Captured:
     def shoulder_line(self) -> FloatArray:
         """Vector from the right to the left shoulder, (F, 3)."""
         return self.at("leftUpperArm") - self.at("rightUpperArm")
+
+    @cached_property
+    def posed(self) -> IntArray:
+        """Frames of a T-pose that was put before or after the motion, which jumps from or to it."""
+        upright = [np.einsum("fi,fi->f", unit(self.top - self.start("hips")), self.up)]
+        for side, sign in SIDES:
+            arm = unit(self.at(f"{side}Hand") - self.at(f"{side}UpperArm"))
+            leg = unit(self.at(f"{side}UpperLeg") - self.at(f"{side}Foot"))
+            upright += [
+                sign * np.einsum("fi,fi->f", arm, unit(self.shoulder_line)),
+                np.einsum("fi,fi->f", leg, self.up),
+            ]
+        t_pose = np.min(upright, axis=0) > np.cos(np.radians(T_POSE_DEG))
+        names = [side + name for side, _ in SIDES for name in (*LEG, *ARM)]
+        ways = np.array([self.at(name) - self.at("hips") for name in ("head", *names)])
+        steps = np.linalg.norm(np.diff(ways, axis=1), axis=2).max(axis=0)
+        far = JUMP_PART * float(np.median(np.linalg.norm(ways[0], axis=1)))
+        if not len(steps):
+            return np.zeros(0, np.int64)
+        jumps = np.flatnonzero(steps > max(far, JUMP_TIMES * float(np.percentile(steps, 99.0))))
+        if not len(jumps):
+            return np.zeros(0, np.int64)
+        before, after = np.arange(jumps[0] + 1), np.arange(jumps[-1] + 1, len(t_pose))
+        return np.concatenate([frames for frames in (before, after) if t_pose[frames].all()] or [before[:0]])
 
     @cached_property
     def top(self) -> FloatArray:
@@ -147,6 +178,16 @@ def unit(vectors: FloatArray) -> FloatArray:
     """Vectors of length 1 (zero ones stay zero)."""
     result: FloatArray = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
     return result
+
+
+def middle(vectors: FloatArray) -> FloatArray:
+    """Point (3,) whose distances to vectors (N, 3) sum up to the least, the same in any axes: their median by component
+    is not."""
+    found: FloatArray = vectors.mean(axis=0)
+    for _ in range(SETTLES):
+        weights = 1.0 / np.maximum(np.linalg.norm(vectors - found, axis=1), NEAR_PART * np.linalg.norm(found) + 1e-12)
+        found = weights @ vectors / weights.sum()
+    return found
 
 
 def angle_deg(a: FloatArray, b: FloatArray) -> float:
