@@ -1,4 +1,4 @@
-"""Times of a piece at which a dance can place accents."""
+"""Times of a piece at which a dance may place accents."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from app.arrays import BoolArray, FloatArray
 from app.choreography.rhythm import Rhythm
 
 WEAK: Final = 0.0
-"""Strength of a beat that is only felt, between those of the piece."""
+"""Strength of an additional beat between the beats of the piece."""
 
 
 @dataclass(frozen=True, eq=False)
 class AccentGrid:
-    """Times at which a dance can place accents.
+    """Times at which a dance may place accents.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class AccentGrid:
         Ascending.
     on_beat : (G,) bool
     written : (G,) bool, optional
-        Beats of the piece itself, where more are felt.
+        Whether each is a beat of the piece itself; by default all beats are.
     """
 
     times_s: FloatArray
@@ -34,19 +34,19 @@ class AccentGrid:
 
     @cached_property
     def strengths(self) -> FloatArray:
-        """(G,) 1 on a beat of the piece, `WEAK` on one that is only felt, 0 between beats."""
+        """Return strengths (G,): 1 on a beat of the piece, `WEAK` on an additional beat, 0 between beats."""
         written = self.on_beat if self.written is None else self.written
         return np.where(written, 1.0, np.where(self.on_beat, WEAK, 0.0))
 
     @cached_property
     def beats(self) -> FloatArray:
-        """(G,) places in beats from the first one."""
+        """Return positions (G,) in beats from the first one."""
         on_beat = np.flatnonzero(self.on_beat)
         return np.asarray(np.interp(np.arange(len(self.times_s)), on_beat, np.arange(len(on_beat))))
 
 
 def grid_of(rhythm: Rhythm) -> AccentGrid:
-    """Beats, and the places between them that divide them as the metre does."""
+    """Return the beats and the places that divide them by the metre."""
     beats = rhythm.beats_s
     if len(beats) < 2:
         return AccentGrid(beats, np.ones(len(beats), bool))

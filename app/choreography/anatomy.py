@@ -23,33 +23,34 @@ from app.choreography.captured_joints import ARM, LEG, SIDES, Captured, X, Y, Z,
 from app.rig import quaternion
 
 LEANS_DEG: Final = {"hips": -3.0, "spine": -2.0, "chest": 2.0}
-"""Lean, ahead positive, of the way to the next joint of the trunk in a body that stands: the mean of rigs whose zero
-pose does (CMU, Mixamo, MakeHuman)."""
+"""Forward lean in degrees of the trunk's bones in a standing body: the mean of rigs with a standing zero pose (CMU,
+Mixamo, MakeHuman).
+"""
 MOST_LEAN_DEG: Final = 20.0
-"""Largest mean angle from upright at which a line between joints is taken to go along the trunk."""
+"""Greatest mean angle in degrees from upright of a line along the trunk."""
 EYES_DEG: Final = 45.0
 """Angle between upright and the way from the head's joint to between the eyes."""
 BALL_DEG: Final = 25.0
 TIP_DEG: Final = 16.0
-"""Angle by which the ways from ankle to ball and to the tip of the toes usually go down in standing zero poses."""
+"""Usual downward angle in degrees from ankle to ball and toes in standing zero poses."""
 USUAL_PART: Final = 0.65
-"""Weight of the usual angle against the one that is seen where the foot stands: soles are not flat, and heels rise."""
+"""Weight of the usual angle against the observed one of a standing foot, since soles are not flat and heels rise."""
 THUMB_DEG: Final = 15.0
-"""Angle by which a thumb is below the plane of the palm in a T-pose."""
+"""Angle in degrees of a thumb below the plane of the palm in a T-pose."""
 PRONATED_DEG: Final = 10.0
 """Turn of the palm, thumb inwards, from where the elbow's axis has it, in the mean of a motion
 (of 250 arms of 7 makers; standard deviation 18)."""
 WRIST_BACK_DEG: Final = 10.0
 """And bend of the wrist, the back of the hand towards the arm (of the same; 10)."""
 SLOW_PART: Final = 3
-"""Share of the frames, the slowest ones, in which a foot is taken to stand."""
+"""Divisor of the number of frames: the slowest frames, in which a foot counts as standing."""
 FLAT_DEG: Final = 8.0
-"""and flat in most of these, to this."""
+"""Angle in degrees within which a foot is flat in most of these frames."""
 SETTLES: Final = 10
-"""Times that the mean of frames in which a foot is flat is taken again, of those that are near to it."""
+"""Iterations of averaging the frames with a flat foot."""
 MOST_STANCES: Final = 400
 EDGE_DEG: Final = 20.0
-"""Soles that stand flat are level to the sides as the knee's hinge is, to this."""
+"""Sideways angle in degrees within which soles agree with the knee's hinge."""
 
 
 def t_pose(body: Captured) -> dict[str, FloatArray]:
@@ -93,7 +94,7 @@ def _trunk(body: Captured) -> dict[str, FloatArray]:
 
 
 def _column(body: Captured, name: str, across: FloatArray, ways: FloatArray) -> FloatArray:
-    """Turn of a part of the trunk: its line is level, and the way to the next joint leans as usual."""
+    """Return the rotation of a part of the trunk: its line is horizontal, and the next joint is at the usual lean."""
     upright = middle(body.within(name, body.up)[body.standing])
     if name != "hips":
         # Not the vertical: who runs leans ahead all the time.
@@ -222,7 +223,9 @@ def _hand(body: Captured, side: str, sign: float, forearm: FloatArray) -> FloatA
 
 
 def _foot(body: Captured, side: str) -> FloatArray:
-    """Turn of a foot: toes ahead, level to the sides as the knee's hinge is, the sole about level where it stands."""
+    """Return the rotation of a foot: toes forward, sideways in agreement with the knee's hinge, sole about horizontal
+    when standing.
+    """
     name = f"{side}Foot"
     has_toes = f"{side}Toes" in body.joints
     toes = body.mean(name, body.at(f"{side}Toes") - body.at(name)) if has_toes else body.tips[name]
@@ -251,7 +254,7 @@ def _foot(body: Captured, side: str) -> FloatArray:
 
 
 def _sole_up(body: Captured, name: str) -> FloatArray:
-    """Up (3,) in a foot's bone, as it has it most often while the foot is slow."""
+    """Return the most frequent up direction (3,) in a foot's bone while the foot is slow."""
     places = body.start(name)
     tips = places + quaternion.rotate(body.rotations[:, body.segments[name]], body.tips[name])
     slow = np.zeros(len(places))
@@ -270,12 +273,12 @@ def _sole_up(body: Captured, name: str) -> FloatArray:
 
 
 def _framed(across: FloatArray, up: FloatArray) -> FloatArray:
-    """Turn that takes a line to +X and what is up, nearly, to +Y."""
+    """Return the rotation that takes a line to +X and approximately an up direction to +Y."""
     return quaternion.conjugate(quaternion.from_frames(unit(across), _beside(up, across)))
 
 
 def _beside(vector: FloatArray, axis: FloatArray) -> FloatArray:
-    """Unit part of a vector at right angles to an axis; any such direction where it has none."""
+    """Return the unit part of a vector orthogonal to an axis; any orthogonal direction if there is none."""
     axis = unit(axis)
     for candidate in (vector, Z, X):
         part = candidate - axis * (candidate @ axis)

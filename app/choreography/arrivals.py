@@ -1,8 +1,8 @@
-"""Arrivals of the body in a dance, and a time map that puts them on the beats.
+"""Arrivals of the body in a dance (minima of its speed), and a time map that puts them on the beats.
 
-A body arrives where the mean speed of its joints has a minimum. Where that is depends on the dance as it is seen: faded
-joins and feet that stand change speeds, and time that goes faster and slower moves their minima. So it is looked up in
-a draft of the dance, and again for every time map that follows.
+A body arrives at a minimum of the mean speed of its joints. Its time depends on the complete dance, since blends and
+standing feet change speeds, and changing time shifts minima. So arrivals are found in a draft of the dance, and again
+for every following time map.
 """
 
 from __future__ import annotations
@@ -21,33 +21,34 @@ from app.choreography.music_offset import speed_minima
 from app.choreography.warp import TimeMap, map_with_arrivals
 
 SMOOTHING_S: Final = 5.0 / 60.0
-"""Standard deviation of the Gaussian over which speed is averaged to find where the body arrives (Li et al., "AI
-Choreographer: Music Conditioned 3D Dance Generation with AIST++", ICCV 2021)."""
+"""Standard deviation in seconds of the Gaussian that smooths speed before arrivals are found (Li et al., "AI
+Choreographer: Music Conditioned 3D Dance Generation with AIST++", ICCV 2021).
+"""
 NEAR_S: Final = 3.0 / 60.0
-"""An arrival meets a beat at about this distance (ibid.)."""
+"""Distance in seconds within which an arrival meets a beat (ibid.)."""
 FPS: Final = 60.0
-"""Arrivals are looked for at this rate."""
+"""Rate in frames per second at which arrivals are found."""
 LEAST_SPEED: Final = 0.3
-"""Least speed of a draft at which its motion is seen well enough."""
+"""Least speed of a draft, relative to the source, at which its motion is useful."""
 FALLS_SHARE: Final = 0.3
-"""Share of footfalls in how well a dance meets the beats."""
+"""Weight of footfalls in how well a dance meets the beats."""
 TRIES: Final = 3
-"""Most time maps that are tried after the first one."""
+"""Greatest number of time maps tried after the first one."""
 
 
 def joint_speed_m_s(clip: MotionClip) -> FloatArray:
-    """(F,) mean speed of the joints of a body of its size."""
+    """Return the mean speed (F,) of the joints, scaled to the body's size."""
     joints = points_m(clip)[:, : len(SEGMENTS)]
     return np.asarray(np.linalg.norm(np.gradient(joints, axis=0), axis=-1).mean(axis=-1) * float(clip.fps))
 
 
 def smoothed(speed_m_s: FloatArray, fps: float) -> FloatArray:
-    """(F,) a speed as arrivals are found in it."""
+    """Return a speed (F,) smoothed for finding arrivals."""
     return np.asarray(gaussian_filter1d(speed_m_s, SMOOTHING_S * fps, mode="nearest"))
 
 
 def arrival_frames(speed_m_s: FloatArray, fps: float) -> IntArray:
-    """Frames in which a body arrives that goes at a speed (F,)."""
+    """Return the frames of arrivals for a speed (F,)."""
     return speed_minima(speed_m_s, fps, SMOOTHING_S)[0]
 
 
@@ -66,20 +67,20 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
 def best_arrival_map(
     draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid, falls: FloatArray
 ) -> TimeMap:
-    """The map by which a dance arrives best, of a few that follow from one another.
+    """Return the best of a few time maps that are derived from one another.
 
     Parameters
     ----------
     draft : MotionClip
-        The dance as it is seen by one map.
+        Dance with one time map.
     first_s : float
-        Time of its frame 0.
+        Time of its frame 0 in seconds.
     shown : TimeMap
-        That map.
+        Time map of the draft.
     plain : TimeMap
         With a knot at each segment's place: see `app.choreography.warp.map_with_arrivals`.
     falls : (N,) float64
-        Times at which feet come down in the draft.
+        Times of footfalls in the draft in seconds.
     """
     along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
     seen = speeds > LEAST_SPEED

@@ -1,4 +1,4 @@
-"""Basic motions: classes of motions whose poses are alike, found by k-means (H2)."""
+"""Basic motions: classes of motions with similar poses, found by k-means (H2)."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from sklearn.cluster import KMeans
 from app.arrays import FloatArray, IntArray
 
 SPREAD: Final = 0.09
-"""Spread for which, unless a number is given, the fewest basic motions suffice: root mean square distance of motions
-from their mean over poses and points of the body, in parts of the body's height (15 cm at 1.7 m). The silhouette does
-not serve: dance is a continuum, and of the CMU clips it prefers two classes, whatever they dance."""
+"""Spread for which the fewest basic motions are chosen, unless a number is given: root mean square distance of motions
+from their mean over poses and points of the body, relative to the body's height (15 cm at 1.7 m). The silhouette is
+unsuitable: dance is a continuum, and of the CMU clips it always prefers two classes.
+"""
 LEAST_MOTIONS: Final = 3
-"""Least number of motions for each basic motion: with fewer there is nothing to count."""
+"""Least number of motions per basic motion, since fewer cannot be counted."""
 STARTS: Final = 8
 """Runs of k-means; the best result counts."""
 
@@ -23,22 +24,22 @@ STARTS: Final = 8
 def classify(
     features: FloatArray, states: int | None, seed: int, proceed: Callable[[], None] = lambda: None
 ) -> IntArray:
-    """The basic motion of each motion.
+    """Return the basic motion of each motion.
 
     Parameters
     ----------
     features : (S, D) float64
         See `app.choreography.features`; in time order.
     states : int or None
-        How many there are; None to choose by `SPREAD` and `LEAST_MOTIONS`.
+        Number of basic motions; None to choose it by `SPREAD` and `LEAST_MOTIONS`.
     proceed : callable
-        Called before each run of k-means; what it raises ends the work.
+        Called before each run of k-means; an exception raised by it stops the work.
 
     Returns
     -------
     (S,) int64
-        Numbered by first appearance; each is used. The same for the same features and seed, to the bit, on however many
-        cores. There are fewer than `states` where fewer motions differ.
+        Numbers in the order of first appearance, all used. Exactly equal for equal features and seed on any number of
+        cores. Fewer than `states` if fewer motions differ.
     """
     differ = len(np.unique(features, axis=0))
     if states is not None:
@@ -58,7 +59,7 @@ def classify(
 
 
 def _k_means(features: FloatArray, states: int, seed: int) -> tuple[IntArray, float]:
-    """Classes by first appearance, and the motions' spread about their means (see `SPREAD`)."""
+    """Return the classes in the order of first appearance, and the spread about their means (see `SPREAD`)."""
     if not len(features):
         return np.zeros(0, np.int64), 0.0
     # NumPy's generator of old, which scikit-learn uses, takes 32 bits.

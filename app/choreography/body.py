@@ -1,4 +1,4 @@
-"""The body of the choreography: 16 segments, each a joint of a normalised skeleton that moves all that is beyond it.
+"""The body of the choreography: 16 segments, each a joint of a normalised skeleton that moves everything beyond it.
 
 Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM" (16 body parts).
 """
@@ -30,21 +30,21 @@ PARENT_OF: Final = {
     "rightLowerLeg": "rightUpperLeg",
     "rightFoot": "rightLowerLeg",
 }
-"""Parent of each segment, both by their VRM 1.0 names."""
+"""Parent of each segment, both by VRM 1.0 names."""
 SEGMENTS: Final = tuple(PARENT_OF)
 ENDS: Final = ("head", "leftHand", "rightHand", "leftFoot", "rightFoot")
-"""Segments that carry none: each has an end (crown, fingertips, toes)."""
+"""Segments without children, each with an end (crown, fingertips, toes)."""
 FEET: Final = ("leftFoot", "rightFoot")
 
 
 def body_skeleton(offsets_m: AnyFloatArray) -> Skeleton:
-    """Skeleton of a body: the root on the floor, then the 16 segments in the order of `SEGMENTS`.
+    """Return the skeleton of a body: the root on the floor, then the 16 segments in the order of `SEGMENTS`.
 
     Parameters
     ----------
     offsets_m : (16, 3)
-        From the proximal joint of the carrying segment to that of each segment, in the T-pose facing +Z; the hips'
-        offset is from the floor below them.
+        Offset of each segment's proximal joint from its parent's in the T-pose facing +Z; the hips' offset is from the
+        floor below them.
     """
     names = ("root", *SEGMENTS)
     parents = (-1, *(names.index(parent) for parent in PARENT_OF.values()))

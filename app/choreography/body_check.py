@@ -1,4 +1,4 @@
-"""The check that every reading of a captured body ends in: what of it is not as a body is in the T-pose."""
+"""Check of a captured body's T-pose for implausible angles and bones."""
 
 from __future__ import annotations
 
@@ -15,21 +15,23 @@ from app.errors import Message
 from app.rig import quaternion
 
 SURE: Final = 0.5
-"""A hinge less sure than this says nothing."""
+"""Least reliability of a hinge to be considered."""
 MOST_DEG: Final = {"hips": 5.0, "shoulders": 5.0, "spine": 35.0, "knees": 45.0, "elbows": 80.0, "toes": 45.0}
-"""The lines of hips and shoulders agree with +X to this in the T-pose, the trunk with +Y, knees and toes with ahead."""
+"""Greatest angles in degrees in the T-pose between the lines of hips and shoulders and +X, the trunk and +Y, knees and
+toes and the forward direction.
+"""
 MOST_TURNED_DEG: Final = {"shoulders": 60.0, "knees": 75.0, "toes": 75.0}
-"""And in the mean of the motion, as the hips have them."""
+"""Greatest same angles in degrees in the mean of the motion, relative to the hips."""
 LEVEL: Final = np.array([1.0, 0.0, 1.0])
 UNLIKE: Final = 0.4
-"""Less than this part of the other, and a bone is no upper or lower part of a limb."""
+"""Least length of a part of a limb relative to the other part."""
 CHANGES: Final = 0.4
-"""Nor is one whose length changes by more than this part of it."""
+"""Greatest relative change of a part's length."""
 
 
 @dataclass(frozen=True)
 class Checked:
-    """An angle by which the T-pose of a captured body is off.
+    """An angle of a captured body's T-pose, with its limit.
 
     Attributes
     ----------
@@ -47,7 +49,7 @@ class Checked:
 
     @property
     def wrong(self) -> bool:
-        """True if a body is not like this."""
+        """True if the angle exceeds the limit."""
         return self.off_deg > self.most_deg
 
 
@@ -94,13 +96,13 @@ def checked(body: Captured, turns: Mapping[str, FloatArray]) -> tuple[Checked, .
 
 
 def unlike(body: Captured, parents: Sequence[int]) -> tuple[str, ...]:
-    """Joints of limbs that belong to no limb: a part much shorter or longer than the other or of changing length, or a
-    bone that hangs from the limb of the other side.
+    """Return the joints that belong to no limb: a part much shorter or longer than the other or of changing length, or
+    a bone attached to the limb of the other side.
 
     Parameters
     ----------
     parents : sequence of int
-        Of each bone, -1 for none.
+        Parent of each bone, -1 for none.
     """
     wrong = []
     for side, other in (("left", "right"), ("right", "left")):

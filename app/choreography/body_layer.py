@@ -1,10 +1,9 @@
-"""The part of a dance that a wind player can do while playing: hips, trunk and head, around the player's place.
+"""The part of a dance that a wind player can perform while playing: hips, trunk and head around the player's place.
 
-A dancer walks, turns round and looks everywhere; a player stands and has a mouthpiece at the lips. So the motion is
-taken relative to itself: speeds are seen from where the dancer faces, those of spins are cut, and what is slower than
-a phrase (the way over the stage, the facing, the usual bearing) is left out. What remains is made smaller until it is
-within `MOST`, phrase by phrase, so that a large motion does not make those long before and after it small, and the rare
-extremes end softly.
+A dancer walks and turns around; a player stands with a mouthpiece at the lips. So the motion is taken relative to the
+dancer's facing, spins are limited, and motion slower than a phrase (path, facing, posture) is removed. The rest is
+scaled down to `MOST` phrase by phrase, so that a large motion does not reduce distant ones, and rare extremes are
+limited softly.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from app.rig.skeleton import forward
 from app.rig.sole import SIDES
 
 FPS: Final = Fraction(30)
-"""Sampling rate of a layer: its motion is below 4 Hz."""
+"""Sampling rate of a layer in frames per second; its motion is below 4 Hz."""
 MOST: Final = {
     "side_m": 0.11,
     "ahead_m": 0.045,
@@ -41,34 +40,36 @@ MOST: Final = {
     "head_turn_rad": float(np.deg2rad(16.0)),
     "head_left_rad": float(np.deg2rad(8.0)),
 }
-"""Most that a player at full amount moves to either side: on feet that stay, and with a bell that rises and sinks by no
-more than the trunk nods."""
+"""Greatest motion of a player at full amount to either side, for feet that stay in place and a bell that moves no more
+than by nodding.
+"""
 FASTEST_M_S: Final = 0.8
 FASTEST_TURN_RAD_S: Final = 2.5
 FASTEST_LEAN_RAD_S: Final = 1.3
-"""Limits of the dancer's speed: faster motion, such as a spin, counts as this fast."""
+"""Greatest considered speeds of the dancer; faster motion such as a spin counts as this fast."""
 SLOW_S: Final = 1.5
-"""Width (the standard deviation) of the window whose mean is taken for the place, the facing and the bearing."""
+"""Standard deviation in seconds of the window whose mean is removed as place, facing and posture."""
 SMOOTH_S: Final = 0.04
-"""Length of the window that removes the tremor of a capture, in seconds: a bell half a metre from the lips would
-show it."""
+"""Length in seconds of the window that removes the tremor of a capture, which a bell half a metre from the lips would
+magnify.
+"""
 USUAL: Final = 0.95
-"""Share of the motion that is within ..."""
+"""Share of the motion that is within `USUAL_SHARE`."""
 USUAL_SHARE: Final = 0.85
-"""... this share of `MOST`."""
+"""Share of `MOST` within which the usual motion is."""
 PHRASE_S: Final = 2.0
-"""Standard deviation of the window whose motion is made smaller alike."""
+"""Standard deviation in seconds of the window over which motion is scaled equally."""
 
 
 def body_layer(motion: Motion, character: Character, feet: DancedFeet | None = None) -> BodyLayer:
-    """The layer of a dance.
+    """Return the layer of a dance.
 
     Parameters
     ----------
     motion : Motion
-        Of a dancer of the same body (`app.choreography.retarget`).
+        Motion of a dancer with the same body (`app.choreography.retarget`).
     feet : DancedFeet, optional
-        What the player's feet do to it.
+        Feet of the player, which influence the layer.
     """
     fps, skeleton = float(motion.fps), character.skeleton
     chest = skeleton.parents[skeleton.index("leftShoulder")]
@@ -104,13 +105,13 @@ def _middle_m(motion: Motion, character: Character) -> FloatArray:
 
 
 def _facing_rad(hips: FloatArray) -> FloatArray:
-    """(F,) which way the hips face, counted on through turns."""
+    """Return the facing (F,) of the hips in radians, continuous through turns."""
     _, twist = quaternion.swing_twist(hips, np.array([0.0, 1.0, 0.0]))
     return np.unwrap(2.0 * np.arctan2(twist[:, 1], twist[:, 3]))
 
 
 def _path(hips_m: FloatArray, facing: FloatArray) -> dict[str, FloatArray]:
-    """Return where the hips go, by channel: every step as it is seen from where the dancer faces then."""
+    """Return the path of the hips by channel: every step relative to the dancer's facing at that time."""
     steps = np.diff(hips_m, axis=0)
     middle = 0.5 * (facing[1:] + facing[:-1])
     side = np.cos(middle) * steps[:, 0] - np.sin(middle) * steps[:, 2]
@@ -126,7 +127,7 @@ def _fastest(channel: str) -> float:
 
 
 def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArray:
-    """Band-pass filter: removes what is faster than a player moves, and what is slow."""
+    """Return values after a band-pass filter, which removes motion that is too fast for a player, and slow motion."""
     speeds = np.diff(values) * fps
     kept = np.concatenate(([0.0], np.cumsum(within(speeds, fastest, fastest)))) / fps
     smooth = gaussian_filter1d(kept, SMOOTH_S * fps, mode="nearest")
@@ -135,8 +136,9 @@ def _about_its_mean(values: FloatArray, fps: float, fastest: float) -> FloatArra
 
 
 def _held(values: FloatArray, most: float, fps: float) -> FloatArray:
-    """Made smaller phrase by phrase until it is usually well within its bound, which the rest keeps softly; never
-    larger."""
+    """Return values scaled down phrase by phrase until they are usually within a bound, with extremes limited softly;
+    never scaled up.
+    """
     sizes = np.sqrt(gaussian_filter1d(np.square(values), PHRASE_S * fps, mode="nearest"))
     if not sizes.all():
         return values

@@ -1,4 +1,4 @@
-"""Parts of a moving body, how fast each is from frame to frame, and spans of frames."""
+"""Parts of a moving body, their speeds from frame to frame, and spans of frames."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 
 PLACE: Final = len(SEGMENTS)
-"""Number of the hips' place among the tracks of a clip, after its segments."""
+"""Index of the hips' place among the tracks of a clip, after its segments."""
 PARTS: Final = (*SEGMENTS, "place")
 
 
@@ -31,6 +31,6 @@ def angle(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def runs(of: BoolArray) -> list[tuple[int, int]]:
-    """Half-open spans in which a condition holds."""
+    """Return the half-open spans in which a condition is true."""
     edges = np.flatnonzero(np.diff(of.astype(np.int8), prepend=0, append=0))
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

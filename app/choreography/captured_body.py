@@ -1,6 +1,6 @@
-"""The body in a captured skeleton: its joints, and how each of its bones is turned in the T-pose.
+"""The body in a captured skeleton: its joints, and the rotation of each bone in the T-pose.
 
-Joints are found by `app.rig.characters.joint_mapping`, by their names, or by `app.choreography.joints_by_lengths`;
+Joints are found by `app.rig.characters.joint_mapping` from names, or by `app.choreography.joints_by_lengths`;
 `app.choreography.anatomy` finds the T-pose, and `app.choreography.body_check` checks it.
 """
 
@@ -36,33 +36,33 @@ UPS: Final = {
     "+X": Rotation.from_euler("z", 90.0, degrees=True),
     "-X": Rotation.from_euler("z", -90.0, degrees=True),
 }
-"""Turns that take an axis of a file to +Y."""
+"""Rotations that take an axis of a file to +Y."""
 TURNS: Final = 1e-4
-"""Change of a quaternion's numbers beyond which a joint turns."""
+"""Change of a quaternion's components above which a joint counts as rotating."""
 THUMB: Final = ("Metacarpal", "Proximal", "Distal")
 
 
 @dataclass(frozen=True, eq=False)
 class CapturedBody:
-    """A body and its T-pose.
+    """A body with its T-pose.
 
     Attributes
     ----------
     profile : str
-        Table of bone names; empty where the joints were found by shape.
+        Table of bone names; empty if the joints were found by shape.
     doubtful : tuple of str
-        Joints whose bones were guessed.
+        Joints with guessed bones.
     t_pose : mapping of str to ndarray, shape (4,)
         Rotation of each segment's bone in the T-pose.
     hanging : mapping of str to ndarray, shape (N, 3)
-        Points that hang from each of `app.choreography.body.ENDS`, in its bone's axes; the joint itself is the first.
+        Points attached to each of `app.choreography.body.ENDS` in its bone's axes; the first is the joint itself.
     up : str
-        Axis of the file that points up, e.g. ``"+Z"``.
+        Axis of the file that points up, such as ``"+Z"``.
     guesses : tuple of Message
     checked : tuple of Checked
-        By how much the T-pose is off.
+        Deviations of the T-pose.
     found : JointMapping
-        Its bones, or those that were found before a user corrected them.
+        Bones found automatically, before the user's corrections.
     """
 
     body: Captured
@@ -77,24 +77,22 @@ class CapturedBody:
 
 
 def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = None) -> CapturedBody:
-    """Find the body in a clip.
+    """Return the body in a clip.
 
     Parameters
     ----------
     file : str
         For messages.
     joints : mapping of str to str
-        A user's corrections, see `RawSkeleton.corrected`. Legs, arms and eyes of which one is corrected keep the sides
-        that the corrections say; others are exchanged as without corrections.
+        The user's corrections, see `RawSkeleton.corrected`. Corrected pairs of legs, arms and eyes keep the sides of
+        the corrections; others are exchanged as without corrections.
 
     Raises
     ------
     BodyError
-        ``motion.incomplete`` if a leg, an arm, the hips or the head cannot be found; ``motion.misread`` if what was
-        found is no body.
+        A leg, an arm, the hips or the head cannot be found, or the result is no body.
     FileError
-        ``motion.no_size`` if all of it is at one place; ``figure.no_joint`` or ``figure.no_bone`` if a correction names
-        what there is not.
+        All joints are at one place, or a correction refers to an unknown joint or bone.
     """
     motion = _Motion(bvh, file)
     body, found, wrong, missing = _automatic(motion)
@@ -113,7 +111,7 @@ def captured_body(bvh: BvhClip, file: str, joints: Mapping[str, str] | None = No
 
 
 def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequence[str], Sequence[str]]:
-    """The body that is found by itself, its bones or the likeliest ones, and which joints are wrong or missing."""
+    """Return the automatically found body, its bones or the likeliest ones, and the wrong and missing joints."""
     named, by_names = map_joints(motion.figure), _by_names(motion.figure)
     by_lengths = motion.by_lengths()
     ways = [(by_names, True), (motion.by_zero_pose(), True)] if named.profile else []
@@ -132,7 +130,7 @@ def _automatic(motion: _Motion) -> tuple[CapturedBody | None, JointMapping, Sequ
 def _by_hand(
     motion: _Motion, mapping: JointMapping, kept: Collection[str]
 ) -> tuple[CapturedBody | None, Sequence[str], Sequence[str]]:
-    """The body of bones of which a user corrected some joints, and which joints are wrong or missing."""
+    """Return the body of bones with the user's corrections, and the wrong and missing joints."""
     if missing := _missing(mapping.bones):
         return None, (), missing
     body = motion.read(mapping, bool(mapping.profile), kept)
@@ -140,7 +138,7 @@ def _by_hand(
 
 
 class _Motion:
-    """A clip in its own space, and ways of finding the body in it."""
+    """A clip in its own space, with methods of finding the body in it."""
 
     def __init__(self, bvh: BvhClip, file: str) -> None:
         self._bvh = bvh
@@ -149,7 +147,7 @@ class _Motion:
         self._file = file
 
     def skeleton(self, found: JointMapping, bones: Mapping[str, int]) -> RawSkeleton:
-        """The first frame, Y up as far as these bones say where up is."""
+        """Return the first frame, with Y up as far as the bones show the up direction."""
         known = {"head", *FEET} <= bones.keys()
         turn = np.asarray(UPS[_up(self.places, bones) if known else "+Y"].as_quat(), np.float64)
         places = quaternion.rotate(turn, self.places[0])
@@ -190,7 +188,7 @@ class _Motion:
         return CapturedBody(body, mapping.profile, mapping.doubtful, turns, hanging, up, guesses, found, bones)
 
     def by_lengths(self) -> JointMapping:
-        """Joints by the lengths of bones, their sides as the names say that are known, or as the motion does."""
+        """Return joints by the lengths of bones, with sides by known names or by the motion."""
         ends = {joint: float(np.linalg.norm(end)) for joint, end in self._bvh.end_sites_cm.items()}
         turning = set(np.flatnonzero(np.ptp(self._bvh.rotations_xyzw, axis=0).max(axis=1) > TURNS).tolist())
         bones = joints_by_lengths(self._bvh.parents, self.places, ends, turning)
@@ -217,8 +215,9 @@ class _Motion:
 
 
 def _by_the_mean(body: Captured) -> list[Message]:
-    """Parts whose turn only their mean in the motion says: a head without eyes, hands without fingers, limbs
-    that never bend."""
+    """Return notes about parts whose rotation follows only from their mean in the motion: a head without eyes, hands
+    without fingers, limbs that never bend.
+    """
     parts = [] if {"leftEye", "rightEye"} <= body.joints.keys() or len(body.posed) else ["head"]
     for side, sign in SIDES:
         for limb in ([side + name for name in names] for names in (ARM, LEG)):
@@ -231,7 +230,7 @@ def _by_the_mean(body: Captured) -> list[Message]:
 
 
 def _with_sides_said(body: CapturedBody, figure: Figure) -> CapturedBody:
-    """The body with a guess that names the limbs whose bones are called after the other side."""
+    """Return the body with a note about limbs whose bones are named after the other side."""
     against = called_after_the_other_side(body.found.bones, figure.bone_names)
     if not against:
         return body
@@ -242,7 +241,7 @@ def _with_sides_said(body: CapturedBody, figure: Figure) -> CapturedBody:
 
 
 def _by_names(figure: Figure) -> JointMapping:
-    """Joints by names alone: a figure without size has no shape that could gainsay them."""
+    """Return joints by names only, since a figure without size has no shape to check them."""
     mapping = map_joints(replace(figure, translations_m=np.zeros_like(figure.translations_m)))
     bones = {joint: bone for joint, bone in mapping.bones.items() if joint not in mapping.doubtful}
     return replace(mapping, bones=bones, doubtful=())
@@ -253,7 +252,7 @@ def _missing(bones: Mapping[str, int]) -> list[str]:
 
 
 def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[str, FloatArray]:
-    """Return where feet without toes end: at their end sites or at the farthest of what hangs from them."""
+    """Return the ends of feet without toes: their end sites, or the farthest attached point."""
     rest = rest_of(figure)
     tips = {}
     for side in ("left", "right"):
@@ -268,7 +267,7 @@ def _foot_tips(bvh: BvhClip, figure: Figure, bones: Mapping[str, int]) -> dict[s
 
 
 def _world(bvh: BvhClip) -> tuple[FloatArray, FloatArray]:
-    """Places (F, J, 3) and rotations (F, J, 4) of the file's joints in its own space."""
+    """Return positions (F, J, 3) and rotations (F, J, 4) of the file's joints in its own space."""
     rotations = np.array(bvh.rotations_xyzw, np.float64)
     positions = np.empty((*rotations.shape[:2], 3))
     for joint, parent in enumerate(bvh.parents):
@@ -283,7 +282,7 @@ def _world(bvh: BvhClip) -> tuple[FloatArray, FloatArray]:
 
 
 def _up(positions: FloatArray, bones: Mapping[str, int]) -> str:
-    """Axis along which heads are above feet most of the time."""
+    """Return the axis along which heads are usually above feet."""
     feet = 0.5 * (positions[:, bones["leftFoot"]] + positions[:, bones["rightFoot"]])
     way = np.median(positions[:, bones["head"]] - feet, axis=0)
     axis = int(np.argmax(np.abs(way)))
@@ -291,8 +290,9 @@ def _up(positions: FloatArray, bones: Mapping[str, int]) -> str:
 
 
 def _segment_bones(parents: Sequence[int], bones: Mapping[str, int]) -> dict[str, int]:
-    """The bone of each segment; the chest is that which both arms hang from, the spine the first between it and the
-    hips, whatever bones of the trunk are called."""
+    """Return the bone of each segment; the chest is the bone that both arms are attached to, the spine the first
+    between it and the hips, regardless of names.
+    """
     hips = bones["hips"]
     carriers = _above(parents, bones["leftUpperArm"])
     right = set(_above(parents, bones["rightUpperArm"]))
@@ -306,7 +306,7 @@ def _segment_bones(parents: Sequence[int], bones: Mapping[str, int]) -> dict[str
 
 
 def _above(parents: Sequence[int], bone: int) -> list[int]:
-    """Bones above one, the nearest first."""
+    """Return the ancestors of a bone, the nearest first."""
     found = []
     while (bone := parents[bone]) >= 0:
         found.append(bone)
@@ -314,7 +314,7 @@ def _above(parents: Sequence[int], bone: int) -> list[int]:
 
 
 def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray, rotations: FloatArray) -> FloatArray:
-    """See `Captured.thumbs`."""
+    """Return the value for `Captured.thumbs`."""
     parts = [bones[name] for part in THUMB if (name := f"{side}Thumb{part}") in bones]
     if not parts:
         return np.zeros_like(places[:, 0])
@@ -325,7 +325,7 @@ def _thumb(bvh: BvhClip, bones: Mapping[str, int], side: str, places: FloatArray
 
 
 def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatArray:
-    """See `Captured.tips`."""
+    """Return the value for `Captured.tips`."""
     hand = name.endswith("Hand")
     nexts = [joint for joint, parent in enumerate(bvh.parents) if parent == bone and not (hand and joint in thumbs)]
     ways: FloatArray = np.array(
@@ -337,7 +337,9 @@ def _tip(bvh: BvhClip, name: str, bone: int, thumbs: Collection[int]) -> FloatAr
 
 
 def _hanging(bvh: BvhClip, places: FloatArray, rotations: FloatArray, bone: int) -> FloatArray:
-    """Points (N, 3) at and below a joint, in the mean of poses (P, J, 3) and (P, J, 4): from it, in its bone's axes."""
+    """Return points (N, 3) at and below a joint in the mean of poses (P, J, 3) and (P, J, 4): relative to it in its
+    bone's axes.
+    """
     below = {bone}
     for joint, parent in enumerate(bvh.parents):
         if parent in below:

@@ -1,6 +1,6 @@
-"""A captured body in the world: where its joints are, and what about its bones no zero pose changes.
+"""A captured body in the world: joint positions, and properties of bones that are independent of the zero pose.
 
-A knee or an elbow bends about an axis that is fixed in the bones beside it.
+A knee or an elbow bends about an axis that is fixed in the adjacent bones.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
 ARM: Final = ("UpperArm", "LowerArm", "Hand")
 SIDES: Final = (("left", 1.0), ("right", -1.0))
 BENT_DEG: Final = (8.0, 20.0)
-"""A joint that bends less in nine of ten frames says nothing about its hinge, one that bends more says it for sure."""
+"""Bend in degrees in nine of ten frames below which a joint's hinge is unknown, and above which it is certain."""
 FINGERS: Final = ("Index", "Middle", "Ring", "Little")
 T_POSE_DEG: Final = 25.0
 """Arms that point aside, legs that hang down and a trunk that is upright to this are those of a T-pose."""
@@ -34,7 +34,9 @@ SETTLES: Final = 40
 NEAR_PART: Final = 1e-3
 """Times that a middle is taken again, and the least distance from it that counts, as a part of its own length."""
 FIXED: Final = (0.9, 0.97)
-"""Length of the mean of a hinge's unit axes, seen from a bone: less and it is no hinge, more and it is one for sure."""
+"""Length of the mean of a hinge's unit axes, relative to a bone: below the first value it is no hinge, above the second
+certainly one.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +51,10 @@ class Captured:
     segments : mapping of str to int
         Bones by segment.
     tips : mapping of str to ndarray, shape (3,)
-        From the joint of each of `app.choreography.body.ENDS` to the next joint or the end of its bone, in the bone's
-        own axes: of a hand to the middle of these but the thumb, of the others to the farthest; zero where there is
-        none.
+        Vector from the joint of each of `app.choreography.body.ENDS` to the next joint or the end of its bone, in the
+        bone's axes: for a hand to the mean of these without the thumb, else to the farthest; zero if there is none.
     thumbs : mapping of str to ndarray, shape (F, 3)
-        From each hand's joint to the end of its thumb, in the world; zero where there is none.
+        Vector from each hand's joint to the end of its thumb, in the world; zero if there is none.
     """
 
     positions: FloatArray
@@ -69,7 +70,7 @@ class Captured:
         return places
 
     def start(self, segment: str) -> FloatArray:
-        """Places (F, 3) of a segment's own joint."""
+        """Return positions (F, 3) of a segment's joint."""
         places: FloatArray = self.positions[:, self.segments[segment]]
         return places
 
@@ -83,33 +84,35 @@ class Captured:
         return mean
 
     def bend(self, limb: Sequence[str], sign: float) -> FloatArray:
-        """Axis (F, 3) that the middle joint of a limb bends about, as long as the sine of the bend; in the T-pose +X of
-        legs, +Y of arms.
+        """Return the axis (F, 3) about which the middle joint of a limb bends, with the sine of the bend as length; in
+        the T-pose +X for legs, +Y for arms.
 
         Parameters
         ----------
         limb : sequence of str
-            Its three joints.
+            Names of its three joints.
         sign : float
-            1 of a left limb, -1 of a right one.
+            1 for a left limb, -1 for a right one.
         """
         upper, lower, end = (self.at(name) for name in limb)
         axes = np.cross(unit(lower - upper), unit(end - lower))
         return axes if limb[0].endswith("Leg") else -sign * axes
 
     def hinge(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
-        """Return the axis (3,) of a hinge in a bone, and how sure it is, 0 to 1."""
+        """Return the axis (3,) of a hinge in a bone, and its reliability, 0..1."""
         total, fixed = self.axis(segment, bend)
         return unit(total), min(self.bent(bend), _share(fixed, FIXED))
 
     def axis(self, segment: str, bend: FloatArray) -> tuple[FloatArray, float]:
-        """Return the sum (3,) of a bend's axes in a bone, and its length as a share of theirs: 1 if they are one."""
+        """Return the sum (3,) of a bend's axes in a bone, and its length relative to the sum of theirs: 1 if all are
+        equal.
+        """
         axes = self.within(segment, bend)
         total: FloatArray = axes.sum(axis=0)
         return total, float(np.linalg.norm(total) / max(np.linalg.norm(axes, axis=1).sum(), 1e-12))
 
     def bent(self, bend: FloatArray) -> float:
-        """Return how surely a joint bends at all, 0 to 1."""
+        """Return how certain it is that a joint bends at all, 0..1."""
         sine = min(1.0, float(np.percentile(np.linalg.norm(bend, axis=1), 90)))
         return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
 
@@ -164,7 +167,7 @@ class Captured:
 
     @cached_property
     def standing(self) -> IntArray:
-        """Frames in which the head is as high as in the upper half of them: the body stands up."""
+        """Return the frames with the head in the upper half of its heights, in which the body stands upright."""
         height = self.at("head")[:, 1]
         frames: IntArray = np.flatnonzero(height >= np.median(height))
         return frames
@@ -175,7 +178,7 @@ def _share(value: float, bounds: tuple[float, float]) -> float:
 
 
 def unit(vectors: FloatArray) -> FloatArray:
-    """Vectors of length 1 (zero ones stay zero)."""
+    """Return vectors of length 1 (zero ones stay zero)."""
     result: FloatArray = vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
     return result
 

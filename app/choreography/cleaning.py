@@ -1,4 +1,4 @@
-"""A capture made fit to be danced: frames that were held, rest poses at its ends, damage."""
+"""Cleaning of a capture for dancing: repeated frames, rest poses at its ends, damage."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from app.choreography.mending import mended
 from app.errors import Message
 
 HELD_PART: Final = 0.95
-"""Part of all changes that come at every so manieth frame only, if frames are held."""
+"""Share of all changes that occur only at every n-th frame if frames are repeated."""
 NAMED: Final = 6
-"""Most places that a message names; it says how many more there are."""
+"""Greatest number of places listed in a message, which adds the number of others."""
 
 
 @dataclass(frozen=True, eq=False)
 class CleanedClip:
-    """A clip, and what was taken from it and changed in it.
+    """A clip with a description of its changes.
 
     Attributes
     ----------
     clip : MotionClip
         The motion proper, mended.
     held : int
-        Number of frames of the file for which each frame was held, which are one now.
+        Number of file frames for which each frame was repeated; only one of them remains.
     lead_in, trail : int
-        Frames (once they are not held) of rest poses that were left out at the start and at the end.
+        Frames of rest poses removed at the start and at the end.
     idle : tuple of int
         Frames at the start and at the end of the clip in which the body stands idle.
     mended, left_out : tuple of Damage
@@ -50,12 +50,12 @@ class CleanedClip:
 
     @property
     def start_s(self) -> float:
-        """Time of the uncleaned clip at which this begins."""
+        """Start time of the clip within the original one in seconds."""
         return float(self.lead_in / self.clip.fps)
 
     @property
     def unfit(self) -> tuple[tuple[int, int], ...]:
-        """Spans of the clip (start, stop) from which no motion is to be taken, ascending."""
+        """Return the ascending spans (start, stop) of the clip that must not be learned from."""
         start, end = self.idle
         spans = [(one.start, one.stop) for one in self.left_out]
         spans += [(0, start)] if start else []
@@ -64,7 +64,7 @@ class CleanedClip:
 
 
 def cleaned(clip: MotionClip) -> CleanedClip:
-    """Clean a clip; one without damage stays as it is."""
+    """Clean a clip; one without damage is unchanged."""
     count = held(clip)
     clip = without_held(clip, count)
     start, stop = proper(clip)
@@ -73,7 +73,7 @@ def cleaned(clip: MotionClip) -> CleanedClip:
 
 
 def held(clip: MotionClip) -> int:
-    """Number of frames for which each is held, as by a converter to a higher rate: 1 of nearly every capture."""
+    """Return the number of frames for which each is repeated, as by a converter to a higher rate; usually 1."""
     changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1))
     if len(changed) < 3:
         return 1
@@ -82,7 +82,7 @@ def held(clip: MotionClip) -> int:
 
 
 def without_held(clip: MotionClip, count: int) -> MotionClip:
-    """The first of every group of equal frames, at the frame rate of these."""
+    """Return the first of every group of equal frames, at the rate of the groups."""
     if count == 1:
         return clip
     changed = np.flatnonzero((part_speeds(clip) > 0.0).any(axis=1)) + 1
@@ -92,7 +92,7 @@ def without_held(clip: MotionClip, count: int) -> MotionClip:
 
 
 def remarks(done: CleanedClip) -> tuple[Message, ...]:
-    """Describe what was taken from a clip and changed in it; times are those of the file."""
+    """Return notes about removals and changes in a clip; times are those of the file."""
     found = []
     if done.held > 1:
         found.append(Message("motion.held", {"n": done.held, "rate": str(done.clip.fps)}))

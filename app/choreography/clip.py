@@ -1,4 +1,4 @@
-"""A motion of the 16 segments, as it was captured or generated; written as a BVH file."""
+"""A captured or generated motion of the 16 segments, with export as a BVH file."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from app.rig.skeleton import JointTransforms, forward
 
 @dataclass(frozen=True, eq=False)
 class BodyShape:
-    """Size of a body in the T-pose facing +Z, metres.
+    """Size of a body in the T-pose facing +Z in metres.
 
     Attributes
     ----------
     offsets_m : (16, 3) float64
         See `app.choreography.body.body_skeleton`.
     ends_m : (5, 3) float64
-        From the joint of each of `app.choreography.body.ENDS` to its end.
+        Vector from the joint of each of `app.choreography.body.ENDS` to its end.
     skeleton : Skeleton
         The root, then the segments.
     """
@@ -36,21 +36,21 @@ class BodyShape:
 
     @classmethod
     def of(cls, offsets_m: FloatArray, ends_m: FloatArray) -> BodyShape:
-        """Shape of these offsets, with its skeleton."""
+        """Return the shape with these offsets, and its skeleton."""
         return cls(offsets_m, ends_m, body_skeleton(offsets_m))
 
 
 @dataclass(frozen=True, eq=False)
 class MotionClip:
-    """A motion of a body. Frame ``n`` is at ``n / fps``; metres, Y up.
+    """A motion of a body. Frame ``n`` is at ``n / fps`` seconds; metres, Y up.
 
     Attributes
     ----------
     hips_m : (F, 3) float64
         Place of the hips in the world; the floor is at Y = 0.
     rotations : (F, 16, 4) float64
-        Of each segment relative to the one that carries it (the hips': to the world), xyzw, unit, each frame on the
-        same side as the one before; the identity in the T-pose.
+        Rotation of each segment relative to its parent (for the hips: to the world), unit quaternions xyzw, each frame
+        in the hemisphere of the previous one; the identity in the T-pose.
     """
 
     shape: BodyShape
@@ -59,7 +59,7 @@ class MotionClip:
     rotations: FloatArray
 
     def __len__(self) -> int:
-        """Number of frames."""
+        """Return the number of frames."""
         return len(self.hips_m)
 
     @property
@@ -72,7 +72,7 @@ class MotionClip:
         return MotionClip(self.shape, self.fps, self.hips_m[start:stop], self.rotations[start:stop])
 
     def mirrored(self) -> MotionClip:
-        """The motion as a mirror shows it."""
+        """Return the mirrored motion."""
         swapped = [
             SEGMENTS.index(name.replace("left", "right") if name.startswith("left") else name.replace("right", "left"))
             for name in SEGMENTS

@@ -1,7 +1,7 @@
-"""Beginning and end of a capture that are no dance: rest poses and standing idle.
+"""Detection of rest poses and idle standing at the beginning and end of a capture.
 
-Many files begin or end with their rest pose or with a T-pose, for a frame or for seconds, which the body leaves within
-a frame or by lowering its arms.
+Many files begin or end with their rest pose or a T-pose, for a frame or for seconds, which the body leaves within a
+frame or by lowering its arms.
 """
 
 from __future__ import annotations
@@ -21,37 +21,39 @@ from app.rig import quaternion
 
 HELD_RAD: Final = 0.05
 HELD_M: Final = 0.02
-"""A pose is held while no segment and no place is farther from it."""
+"""Greatest distance in metres of segments and place from a held pose."""
 JUMP_RAD_S: Final = 20.0
 JUMP_M_S: Final = 8.0
-"""A body that leaves the pose or the place that it began with faster than this was put there."""
+"""Speed in metres per second above which a body that leaves the initial pose or place was moved artificially."""
 LEAD_S: Final = 0.15
-"""Swings that the jump to the motion leaves are over within this time."""
+"""Longest time in seconds of filter oscillations after such a jump."""
 AFTER_S: Final = 0.5
 CALM: Final = 2.0
 CALM_RAD_S: Final = 1.0
-"""It is over when the body is no faster than this many times its median speed in the time after it, or than that."""
+"""Speed below which the oscillations have ended: multiple of the median speed of the following time, or this value."""
 T_POSE_RAD: Final = 0.5
-"""Trunk, arms and legs of the T-pose are nearer than this to it."""
+"""Angle in radians from the T-pose within which trunk, arms and legs count as in it."""
 EXACT_RAD: Final = 0.02
-"""Bound of one that no body took."""
+"""Same angle for an artificial T-pose."""
 STILL_RAD_S: Final = 0.35
 STILL_M_S: Final = 0.12
-"""A body whose trunk and limbs are slower than this over `STILL_OVER_S` stands; hands, feet and head may move."""
+"""Speed in metres per second of trunk and limbs over `STILL_OVER_S` below which a body stands; hands, feet and head may
+move.
+"""
 STILL_OVER_S: Final = 0.2
 T_POSE_S: Final = 0.1
-"""A T-pose is held for this time and `STILL_OVER_S` at least, if it is not left by a jump."""
+"""Least duration in seconds of a T-pose, in addition to `STILL_OVER_S`, unless it is left by a jump."""
 LOWERS_S: Final = 1.5
-"""Time within which arms are lowered from it."""
+"""Time in seconds within which arms are lowered from it."""
 DOWN_RAD: Final = 0.8
 SLOWER: Final = 0.5
-"""Arms farther from it than this have been lowered once they are slower than this part of how fast they were."""
+"""Share of their greatest speed below which lowered arms have arrived."""
 IDLE_S: Final = 1.0
-"""A body that stands for this long at an end is idle."""
+"""Time in seconds of standing at an end from which the body is idle."""
 REST_S: Final = LONGEST_REST_S
-"""The rest of it is one of the dance's."""
+"""Time in seconds of the standing that is kept as a rest of the dance."""
 LEAST_S: Final = 1.0
-"""And nothing is cut off of a clip of which no more than this would be left."""
+"""Least length in seconds of the remaining clip; otherwise nothing is cut."""
 
 _TRUNK: Final = ("hips", "spine", "chest")
 _LIMBS: Final = tuple(
@@ -60,18 +62,18 @@ _LIMBS: Final = tuple(
 _ABOUT: Final = {"hips": (0.0, 1.0, 0.0)} | {
     limb: (1.0, 0.0, 0.0) if limb.endswith("Arm") else (0.0, 1.0, 0.0) for limb in _LIMBS
 }
-"""Axes that parts of the T-pose may be turned about."""
+"""Axes about which parts of the T-pose may be rotated."""
 _BODY: Final = [SEGMENTS.index(name) for name in (*_TRUNK, *_LIMBS)]
 
 
 def proper(clip: MotionClip) -> tuple[int, int]:
-    """Frames (start, stop) of the motion proper; all of a clip that does not move."""
+    """Return the frames (start, stop) of the actual motion; all of a clip without motion."""
     start, stop = _lead(clip), len(clip) - _lead(_backwards(clip))
     return (start, stop) if (stop - start) / float(clip.fps) >= LEAST_S else (0, len(clip))
 
 
 def idle(clip: MotionClip) -> tuple[int, int]:
-    """Frames at the start and before the end in which the body stands idle, but for a rest beside its motion."""
+    """Return the numbers of frames at the start and at the end in which the body stands idle, except for a rest."""
     over_s, rest = IDLE_S * float(clip.fps), round(REST_S * float(clip.fps))
     start, stop = (_first_run(_still(one)) for one in (clip, _backwards(clip)))
     if max(start, stop) >= len(clip) - 1:
@@ -109,7 +111,9 @@ def _lead(clip: MotionClip) -> int:
 
 
 def _settled(clip: MotionClip, frame: int) -> int:
-    """Frame at which the motion is what it is after, where a pose is left by a jump after a frame; otherwise that."""
+    """Return the frame from which the motion is regular again if a pose is left by a jump after a frame; otherwise that
+    frame.
+    """
     fps = float(clip.fps)
     steps, later = round(LEAD_S * fps), round((LEAD_S + AFTER_S) * fps)
     some = clip.rotations[frame : frame + later + 1]
@@ -130,8 +134,9 @@ def _in_t_pose(clip: MotionClip, within_rad: float = T_POSE_RAD) -> BoolArray:
 
 
 def _off_t_pose(rotations: FloatArray, segments: Sequence[int]) -> FloatArray:
-    """(F, S) angles of segments from the T-pose. A turn of the hips about +Y and of a limb about itself is none: where
-    a body faces is no pose, and of straight limbs it is not known."""
+    """Return the angles (F, S) of segments from the T-pose, ignoring turns of the hips about +Y and twists of limbs,
+    since facing is no pose and twists of straight limbs are unknown.
+    """
     found = np.zeros((len(rotations), len(segments)))
     for at, segment in enumerate(segments):
         turns = rotations[:, segment]
@@ -142,7 +147,7 @@ def _off_t_pose(rotations: FloatArray, segments: Sequence[int]) -> FloatArray:
 
 
 def _still(clip: MotionClip) -> BoolArray:
-    """(F,) whether a body stands from a frame on."""
+    """Return whether a body stands from each frame on (F,)."""
     over = max(1, round(STILL_OVER_S * float(clip.fps)))
     later = np.minimum(np.arange(len(clip)) + over, len(clip) - 1)
     turns = angle(clip.rotations[:, _BODY], clip.rotations[later][:, _BODY]).max(axis=1)
@@ -151,13 +156,15 @@ def _still(clip: MotionClip) -> BoolArray:
 
 
 def _first_run(of: BoolArray) -> int:
-    """Number of frames from the first on in which a condition holds."""
+    """Return the number of initial frames in which a condition is true."""
     spans = runs(of)
     return spans[0][1] if spans and spans[0][0] == 0 else 0
 
 
 def _arms_down(clip: MotionClip, frame: int) -> int:
-    """Frame at which both arms, lowered from the T-pose after a frame, slow down; 0 if they are not lowered."""
+    """Return the frame at which both arms, lowered from the T-pose after a frame, slow down; 0 if they are not
+    lowered.
+    """
     fps = float(clip.fps)
     arms = [SEGMENTS.index("leftUpperArm"), SEGMENTS.index("rightUpperArm")]
     some = clip.rotations[frame : frame + round(LOWERS_S * fps) + 1, arms]

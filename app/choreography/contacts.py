@@ -1,4 +1,4 @@
-"""Contacts of the feet of a motion with the floor."""
+"""Contacts of the feet with the floor in a motion."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from app.rig import quaternion
 from app.rig.skeleton import JointTransforms
 
 STANDS_M_S: Final = 0.20
-"""A foot whose tip is slower than this stands ..."""
+"""Speed in metres per second of its tip below which a foot starts to stand."""
 LEAVES_M_S: Final = 0.29
-"""... until it is faster than this."""
+"""Speed in metres per second above which a standing foot leaves."""
 NEAR_M: Final = 0.03
-"""And is no higher than this over where it is lowest within `AROUND_S`."""
+"""Greatest height in metres of a standing foot above its lowest height within `AROUND_S`."""
 AROUND_S: Final = 2.0
 LEAST_S: Final = 0.07
-"""A foot that stands stands this long."""
+"""Least duration of a stand in seconds."""
 SMOOTH_S: Final = 0.025
-"""Standard deviation of the Gaussian over the speed: one frame of noise is no step."""
+"""Standard deviation in seconds of the Gaussian that smooths speed, so that a frame of noise is no step."""
 
 
 def tips_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray:
-    """(F, 2, 3) places of the tips of the left and the right foot, in the world (that of the clip, where given)."""
+    """Return positions (F, 2, 3) of the tips of the left and right foot in the world (that of the clip, if given)."""
     world = clip.world() if world is None else world
     joints = [1 + SEGMENTS.index(foot) for foot in FEET]
     ends = clip.shape.ends_m[[ENDS.index(foot) for foot in FEET]]
@@ -35,7 +35,7 @@ def tips_m(clip: MotionClip, world: JointTransforms | None = None) -> FloatArray
 
 
 def foot_contacts(clip: MotionClip) -> BoolArray:
-    """(F, 2) whether the left and the right foot stand, by speed and height of their tips, with hysteresis."""
+    """Return whether the left and the right foot stand (F, 2), by speed and height of their tips, with hysteresis."""
     fps, tips = float(clip.fps), tips_m(clip)
     if len(clip) < 2:
         return np.ones((len(clip), 2), bool)
@@ -58,7 +58,7 @@ def foot_contacts(clip: MotionClip) -> BoolArray:
 
 
 def _hysteresis(begins: BoolArray, goes_on: BoolArray) -> BoolArray:
-    """Stretches of ``goes_on`` that hold a frame of ``begins``."""
+    """Return the spans of ``goes_on`` that contain a frame of ``begins``."""
     spans, _ = label(goes_on)
     held = np.unique(spans[begins & goes_on])
     return np.asarray(np.isin(spans, held[held > 0]))

@@ -1,4 +1,4 @@
-"""Distance of a motion from the cubic that joins two of its moments at their speeds."""
+"""Distance of a motion from the cubic that joins two of its moments with their speeds."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from app.rig import quaternion
 
 MOST_WINDOWS: Final = 8
 MOST_INSIDE: Final = 8
-"""Lengths of windows, and frames inside of each, where the frame rate has more of them."""
+"""Greatest number of window lengths, and of compared frames in each, at high frame rates."""
 FAR_S: Final = 0.1
-"""Bounds of distances hold for windows of this time; in shorter ones they are less."""
+"""Time in seconds for which the bounds of distances are given; shorter windows have lower bounds."""
 LEAST_PART: Final = 0.45
-"""But never less than this part of them."""
+"""Least share of the bounds for short windows."""
 GROWS: Final = 1.2
-"""Exponent of the time by which they grow."""
+"""Exponent of the time in the growth of bounds."""
 
 
 def between(
     before: FloatArray, after: FloatArray, slopes: tuple[FloatArray, FloatArray], share: float | FloatArray
 ) -> FloatArray:
-    """Cubic from the one value to the other at a share of the way, with slopes per whole way."""
+    """Return a cubic between two values at a share of the way, with slopes per whole way."""
     square, cube = share * share, share**3
     return np.asarray(
         (2.0 * cube - 3.0 * square + 1.0) * before
@@ -41,7 +41,7 @@ def window_lengths(fps: float, most_s: float) -> list[int]:
 
 
 def part_of_bound(length_s: float) -> float:
-    """Return the bound of a window of a time as a part of that of `FAR_S`."""
+    """Return the bound of a window of a time relative to that for `FAR_S`."""
     return float(max(LEAST_PART, (length_s / FAR_S) ** GROWS))
 
 
@@ -57,7 +57,7 @@ def turns_off(rotations: FloatArray, start: IntArray, part: IntArray, length: in
 
 
 def moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
-    """The same of places (F, 3), metres."""
+    """Return the distances of positions (F, 3) from the cubic in metres, as for rotations."""
     ends = [places[start + step] for step in (-1, 0, length, length + 1)]
     slopes = length * (ends[1] - ends[0]), length * (ends[3] - ends[2])
     off = np.zeros(len(start))
@@ -68,5 +68,5 @@ def moves_off(places: FloatArray, start: IntArray, length: int) -> FloatArray:
 
 
 def _inside(length: int) -> list[int]:
-    """Frames of a window that are compared."""
+    """Return the compared frames of a window."""
     return sorted({round(one) for one in np.linspace(1, length - 1, min(MOST_INSIDE, length - 1))})

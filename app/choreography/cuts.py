@@ -1,8 +1,8 @@
 """Cuts of a motion into basic motions: minimum, maximum, minimum of the angular acceleration of the whole body.
 
 Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM". Weights, filters, floor and
-prominence are ours; all are stated in seconds and radians and are local, so that a cut depends neither on the frame
-rate nor on what the clip holds some seconds away.
+prominence are specific to this program; all are in seconds and radians and local, so that a cut depends neither on the
+frame rate nor on distant parts of the clip.
 """
 
 from __future__ import annotations
@@ -21,24 +21,26 @@ from app.rig import quaternion
 
 SIDES: Final = ("left", "right")
 CUT_OFF_HZ: Final = 4.0
-"""Rotations are low-pass filtered before they are differentiated twice. Voluntary human motion is below 6 Hz
-(D. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, chapter 3); at 4 Hz white noise of
-0.5 degrees at 60 frames per second leaves an acceleration of about 1 rad/s^2."""
+"""Cut-off in Hz of the low-pass filter applied to rotations before two differentiations. Voluntary human motion is
+below 6 Hz (D. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, chapter 3); at 4 Hz white noise
+of 0.5 degrees at 60 frames per second leaves an acceleration of about 1 rad/s^2.
+"""
 ORDER: Final = 2
 """Order of the Butterworth filter, which runs forwards and backwards: no delay, twice the order."""
 SPREAD_S: Final = 0.065
-"""Standard deviation of the Gaussian over which the squares of the accelerations are averaged: speeding up and slowing
-down of one quick move are one motion."""
+"""Standard deviation in seconds of the Gaussian that averages squared accelerations, so that acceleration and
+deceleration of a quick movement are one motion.
+"""
 FLOOR_RAD_S2: Final = 3.0
-"""Acceleration below which the body rests: noise of the capture, breathing. Dancers are at 12 to 23 rad/s^2 half of the
-time."""
+"""Acceleration below which the body rests (noise, breathing). Dancers' median is 12 to 23 rad/s^2."""
 PROMINENCE: Final = 1.15
-"""A maximum counts that is this many times the higher of the minima beside it (measured: fewer are lost to noise with a
-ratio than with a difference)."""
+"""Least ratio of a maximum to the higher of the adjacent minima (measured: fewer are lost to noise with a ratio than
+with a difference).
+"""
 LEAST_SPAN_S: Final = 0.2
-"""Least distance of maxima; the higher of two nearer ones counts."""
+"""Least distance of maxima in seconds; of nearer ones the higher is used."""
 LONGEST_REST_S: Final = 0.5
-"""A motion takes no more than this of a rest before or after it; what is left between two motions belongs to none."""
+"""Longest rest in seconds included in a motion before or after it; the remainder belongs to no motion."""
 WEIGHTS: Final = {
     "hips": 2.0,
     "spine": 1.0,
@@ -51,15 +53,16 @@ WEIGHTS: Final = {
     **{f"{side}LowerLeg": 1.0 for side in SIDES},
     **{f"{side}Foot": 0.25 for side in SIDES},
 }
-"""Weights of the segments' accelerations in the mean: roughly the mass of the body beyond the joint; hands and feet,
-which the capture knows worst, count little."""
+"""Weights of the segments' accelerations in the mean: roughly the mass of the body beyond the joint; low for hands and
+feet, whose capture is least exact.
+"""
 
 
 @dataclass(frozen=True, order=True)
 class Cut:
-    """Frames of a minimum, of the maximum after it, and of the next minimum.
+    """Frames of a minimum, of the following maximum, and of the next minimum.
 
-    ``start`` to ``end`` (half-open) is the motion; the next cut starts at ``end`` or, after a long rest, later.
+    The motion is ``start`` to ``end`` (half-open); the next cut starts at ``end``, or later after a long rest.
     """
 
     start: int
@@ -69,7 +72,7 @@ class Cut:
 
 @dataclass(frozen=True, eq=False)
 class Segmentation:
-    """A curve and where it cuts a clip.
+    """A curve of acceleration, and the cuts of a clip.
 
     Attributes
     ----------
@@ -84,7 +87,9 @@ class Segmentation:
 
 
 def segment(clip: MotionClip) -> Segmentation:
-    """Cut a clip; what is before its first and after its last minimum belongs to no cut, and a still clip has none."""
+    """Return the cuts of a clip. Frames before the first and after the last minimum belong to no cut, and a motionless
+    clip has none.
+    """
     curve = angular_acceleration(clip)
     fps = float(clip.fps)
     height = np.log(np.maximum(curve, FLOOR_RAD_S2))
@@ -103,12 +108,12 @@ def segment(clip: MotionClip) -> Segmentation:
 
 
 def angular_acceleration(clip: MotionClip) -> FloatArray:
-    """Weighted root mean square of the segments' angular accelerations, each relative to what carries it.
+    """Return the weighted root mean square of the segments' angular accelerations relative to their parents.
 
     Returns
     -------
     (F,) float64
-        rad/s^2, filtered; zero where the clip is too short to have an acceleration.
+        Filtered values in rad/s^2; zero if the clip is too short.
     """
     if len(clip) < 3:
         return np.zeros(len(clip))
@@ -125,7 +130,9 @@ def angular_acceleration(clip: MotionClip) -> FloatArray:
 
 
 def _minimum(height: FloatArray, first: int, last: int, rest: int) -> tuple[int, int]:
-    """Return where the motion before a minimum ends, and the motion after it starts: one frame, but for a long rest."""
+    """Return the end of the motion before a minimum and the start of the one after it: one frame, except for a long
+    rest.
+    """
     part = height[first : last + 1]
     lowest = first + np.flatnonzero(part == part.min())
     middle = int(lowest[len(lowest) // 2])
@@ -133,7 +140,9 @@ def _minimum(height: FloatArray, first: int, last: int, rest: int) -> tuple[int,
 
 
 def _low_pass(rotations: FloatArray, fps: float) -> FloatArray:
-    """Butterworth filter over the frames, without delay; nothing where the frame rate holds no such frequency."""
+    """Return rotations after a Butterworth filter over the frames without delay; unfiltered if the frame rate is too
+    low.
+    """
     if 0.45 * fps <= CUT_OFF_HZ:
         return rotations
     from scipy.signal import butter, sosfiltfilt  # heavy, as above

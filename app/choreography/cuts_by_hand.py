@@ -1,7 +1,7 @@
-"""Cuts of a motion that a user sets: moved, added, deleted, read from a file, and checked before they are learned from.
+"""Cuts of a motion set by the user: moved, added, deleted, read from a file, and checked before learning.
 
-A *bound* is a frame at which a motion starts or ends; motions that meet share one. Every edit gives cuts that can be
-learned from: ascending, without overlap, each with its accent between its bounds.
+A *bound* is a frame at which a motion starts or ends; adjacent motions share one. Every edit gives valid cuts:
+ascending, without overlap, each with its accent between its bounds.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ MOST_FILE_BYTES: Final = 2**20
 
 
 def check_cuts(cuts: Sequence[Cut], frames: int, motion: str) -> None:
-    """Refuse cuts that are no segmentation of a clip of this length.
+    """Refuse invalid cuts of a clip of a length.
 
     Raises
     ------
     UsageError
-        ``cuts.wrong``: of the first cut that is not in order, has its accent outside, or leaves the clip.
+        A cut is out of order, has its accent outside, or exceeds the clip.
     """
     free = 0
     for cut in cuts:
@@ -50,9 +50,10 @@ def bounds(cuts: Sequence[Cut]) -> tuple[int, ...]:
 
 
 def moved_bound(cuts: Cuts, bound: int, to: int, frames: int) -> Cuts:
-    """Move a bound, at most up to the accents and bounds beside it, and within a clip of so many frames.
+    """Return the cuts with a bound moved, limited by the adjacent accents and bounds, and by the clip's number of
+    frames.
 
-    Bounds of different motions never meet: two that do could not be distinguished any more.
+    Bounds of different motions stay apart, since equal ones could not be distinguished.
     """
     accents = [cut.accent for cut in cuts]
     fixed = sorted({*accents, *bounds(cuts)} - {bound})
@@ -68,18 +69,18 @@ def moved_bound(cuts: Cuts, bound: int, to: int, frames: int) -> Cuts:
 
 
 def moved_accent(cuts: Cuts, accent: int, to: int) -> Cuts:
-    """Move an accent, at most up to the bounds of its motion."""
+    """Return the cuts with an accent moved, limited by the bounds of its motion."""
     return tuple(
         replace(cut, accent=min(max(to, cut.start + 1), cut.end - 1)) if cut.accent == accent else cut for cut in cuts
     )
 
 
 def added_bound(cuts: Cuts, frame: int, curve_rad_s2: FloatArray) -> Cuts:
-    """Cut at a frame.
+    """Return the cuts with a bound added at a frame.
 
-    Inside a motion it makes two of it: the one with the accent keeps it, the other gets its own at its maximum.
-    Outside it adds the motion between the frame and the nearest bound, or the end of a clip that has none. Where there
-    is no room for an accent the cuts stay.
+    Within a motion it makes two: the one with the accent keeps it, the other's accent is at its maximum. Outside it
+    adds the motion between the frame and the nearest bound, or the end of the clip. Without room for an accent the cuts
+    are unchanged.
     """
     for at, cut in enumerate(cuts):
         if cut.start <= frame <= cut.end:
@@ -99,8 +100,9 @@ def added_bound(cuts: Cuts, frame: int, curve_rad_s2: FloatArray) -> Cuts:
 
 
 def removed_bound(cuts: Cuts, bound: int) -> Cuts:
-    """Delete a bound: motions that meet there become one, with the accent of the longer one's; a motion that stands
-    alone there is deleted."""
+    """Return the cuts with a bound deleted: adjacent motions become one with the accent of the longer one; a single
+    motion is deleted.
+    """
     before = next((cut for cut in cuts if cut.end == bound), None)
     after = next((cut for cut in cuts if cut.start == bound), None)
     rest = [cut for cut in cuts if cut is not before and cut is not after]
@@ -111,14 +113,14 @@ def removed_bound(cuts: Cuts, bound: int) -> Cuts:
 
 
 def automatic_accent(cuts: Cuts, accent: int, curve_rad_s2: FloatArray) -> Cuts:
-    """Put the accent of a motion where the acceleration is greatest."""
+    """Return the cuts with the accent of a motion at the greatest acceleration."""
     return tuple(
         replace(cut, accent=_accent(curve_rad_s2, cut.start, cut.end)) if cut.accent == accent else cut for cut in cuts
     )
 
 
 def extrema(curve_rad_s2: FloatArray) -> tuple[IntArray, IntArray]:
-    """Frames of all local minima and of all local maxima, ends included; of equal ones the first."""
+    """Return the frames of all local minima and maxima including the ends; the first of equal ones."""
     rises = np.diff(curve_rad_s2) > 0.0
     falls = np.diff(curve_rad_s2) < 0.0
     none = np.ones(1, np.bool_)
@@ -128,7 +130,7 @@ def extrema(curve_rad_s2: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 def read_times(path: Path) -> tuple[tuple[float, ...], ...]:
-    """Times of bounds in a text file: one in each line, in seconds of the motion's file; an empty line is a rest.
+    """Read the times of bounds in a text file: one per line in seconds of the motion file; an empty line is a rest.
 
     Returns
     -------
@@ -138,8 +140,7 @@ def read_times(path: Path) -> tuple[tuple[float, ...], ...]:
     Raises
     ------
     FileError
-        The file cannot be read; a line is no time (``cuts.line``); times do not ascend, or one stands alone
-        (``cuts.order``).
+        The file cannot be read, a line is no time, or times do not ascend or are single.
     """
     groups: list[list[float]] = [[]]
     last, number = -math.inf, 0
@@ -169,12 +170,12 @@ def _require_group(group: Sequence[float], path: Path, line: int) -> None:
 
 
 def cuts_at(times_s: Sequence[Sequence[float]], fps: Fraction, curve_rad_s2: FloatArray, motion: str) -> Cuts:
-    """Cuts with bounds at times of a clip, in groups without rests, and accents where the acceleration is greatest.
+    """Return cuts with bounds at times of a clip, in groups without rests, with accents at the greatest acceleration.
 
     Raises
     ------
     UsageError
-        ``cuts.wrong``: times outside of the clip, or so near to each other that no frame is between them.
+        Times are outside of the clip, or too close to have a frame between them.
     """
     cuts = []
     for group in times_s:
@@ -186,6 +187,6 @@ def cuts_at(times_s: Sequence[Sequence[float]], fps: Fraction, curve_rad_s2: Flo
 
 
 def _accent(curve_rad_s2: FloatArray, start: int, end: int) -> int:
-    """The frame of the maximum strictly between two frames; the first one where there is none between."""
+    """Return the frame of the maximum strictly between two frames; the first one if there is none between."""
     between = curve_rad_s2[start + 1 : end]
     return start + 1 + int(np.argmax(between)) if len(between) else start

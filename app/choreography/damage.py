@@ -1,13 +1,13 @@
-"""Damage of a capture: places where a segment moves as no body does, for a few frames or for longer.
+"""Damage of a capture: spans in which a segment moves impossibly, for a few frames or longer.
 
-What a body does between two moments follows from how it moves at both; where damage is, it does not. Between every two
-frames up to `WINDOW_S` apart the way is compared with the cubic that joins them at their speeds: a spin and a throw are
-near to it, a flip, a swapped marker, a jump and a place that is lost are not. Speed alone says nothing, and neither
-does what is as fast before or after.
+Motion between two moments normally follows from the motion at both; damaged motion does not. Between every two frames
+up to `WINDOW_S` apart, the motion is compared with the cubic that joins them at their speeds: spins and throws are near
+it, flips, swapped markers, jumps and lost places are not. Speed alone is no indication, nor is motion as fast as that
+before or after.
 
-The bounds were measured on clean captures of four makers (CMU, Bandai Namco, Mixamo-like ones of Meta's, at 30, 60 and
-120 frames a second: dances, kicks, punches, jumps, waving): each is 1.2 to 1.5 times what is farthest from the cubic
-in any of them.
+The bounds were measured on clean captures from four sources (CMU, Bandai Namco, Mixamo-like ones by Meta, at 30, 60 and
+120 frames a second: dances, kicks, punches, jumps, waving): each is 1.2 to 1.5 times the greatest distance from the
+cubic in any of them.
 """
 
 from __future__ import annotations
@@ -29,46 +29,49 @@ from app.choreography.twitches import twitches
 from app.rig import quaternion
 
 WINDOW_S: Final = 0.12
-"""Longest time over which a way is compared."""
+"""Longest time in seconds over which motion is compared."""
 TRUNK_WINDOW_S: Final = 0.24
-"""Length of the window for hips, trunk and head, which do not go far and back in it: shorter windows show nothing
-there."""
+"""Same time for hips, trunk and head, whose slower motion shorter windows cannot judge."""
 BESIDE: Final = 1.5
 BESIDE_RAD_S: Final = 2.0
 BESIDE_M_S: Final = 0.2
-"""Speed in metres per second by which, on top of the factor `BESIDE`, a step within damage is faster than the steps
-before and after it."""
+"""Speed in metres per second by which, in addition to the factor `BESIDE`, a damaged step is faster than adjacent
+steps.
+"""
 _FAR_DEG: Final = {
     "hips": 9.5, "spine": 8.0, "chest": 8.0, "head": 16.0, "UpperArm": 42.0, "LowerArm": 45.0, "Hand": 72.0,
     "UpperLeg": 34.0, "LowerLeg": 45.0, "Foot": 50.0,
 }  # fmt: skip
-"""Distance from the cubic over `FAR_S` of `app.choreography.cubic_distance` beyond which there is damage; in shorter
-times it is less."""
+"""Greatest angles in degrees from the cubic over `FAR_S` of `app.choreography.cubic_distance`; less for shorter
+times.
+"""
 FAR_M: Final = 0.05
-"""Bound for the place of the hips, in metres."""
+"""Share of the bounds for two steps much faster than adjacent steps."""
 SUDDEN: Final = 4.0
 SUDDEN_PART: Final = 0.6
 """Share of the bounds that applies over two steps that are much faster than the steps around them."""
 FASTEST_RAD_S: Final = 45.0
-"""No joint of a dancer turns faster: elbows of boxers and pitchers reach 43 rad/s (G. Fleisig and others, "Kinetics of
-baseball pitching", 1995), knees of kicks 35, and the fastest clean capture 35."""
+"""Greatest rotation speed of a joint in radians per second: elbows of boxers and pitchers reach 43 (G. Fleisig and
+others, "Kinetics of baseball pitching", 1995), knees of kicks 35, and the fastest clean capture 35.
+"""
 FASTEST_HIPS_RAD_S: Final = 15.0
-"""Hips do so in spins only, which last: a jump is shorter than `SPIN_S` or turns by less than `SPIN_RAD`."""
+"""Same for hips outside of spins: a jump is shorter than `SPIN_S` or turns by less than `SPIN_RAD`."""
 FASTEST_TRUNK_RAD_S: Final = 13.0
 FASTEST_HEAD_RAD_S: Final = 32.0
 """Bounds of spine and chest, and of the head: half as fast again as the fastest of 240 clean captures of 8 makers."""
 SPIN_S: Final = 0.125
 SPIN_RAD: Final = 2.5
 BEGINS: Final = 0.5
-"""Share of the bounds from which such a turn is taken to begin."""
+"""Share of the bounds at which such a turn begins."""
 MOST_BENT_DEG: Final = {"spine": 120.0, "chest": 120.0, "head": 130.0}
-"""No neck bends farther from the T-pose, nor does a back: a head that hangs upside down was captured wrongly, however
-slowly it got there. Of 70 captures of six makers the farthest neck that may be right is at 104."""
+"""Greatest angles in degrees of neck and back from the T-pose: a head hanging upside down was captured wrongly. Among
+70 captures from six sources the farthest plausible neck is at 104.
+"""
 MOST_WRONG: Final = 0.5
-"""A clip that is bent like that for a longer part of its time was read or made so."""
+"""Share of a clip's time above which such bends indicate a wrongly read clip."""
 
 MOST_AT_ONCE: Final = 1_000_000
-"""Numbers that are compared at a time: noise is damage everywhere."""
+"""Greatest number of values compared at a time, since noise is damaged everywhere."""
 
 
 def _far(name: str) -> float:
@@ -88,12 +91,12 @@ _FASTEST: FloatArray = np.array([*(_OF_TRUNK.get(name, FASTEST_RAD_S) for name i
 
 @dataclass(frozen=True, order=True)
 class Damage:
-    """Frames of a clip between two that are sound.
+    """A damaged span between two sound frames.
 
     Attributes
     ----------
     start, stop : int
-        The last sound frame before the damage and the first one after it.
+        Last sound frame before the damage and first one after it.
     parts : tuple of str
         Of `PARTS`, in their order.
     """
@@ -104,14 +107,14 @@ class Damage:
 
 
 def damage(clip: MotionClip, tolerance: float = 1.0, *, captured: bool = True) -> tuple[Damage, ...]:
-    """Damage of a clip, ascending; what overlaps in time is one.
+    """Return the damage of a clip in ascending order, with spans that overlap in time joined.
 
     Parameters
     ----------
     tolerance : float
-        Of distances from the cubic, as a multiple of those of captures.
+        Factor of the distances from the cubic relative to captures.
     captured : bool
-        False for a motion that was generated, in which a leg that stands may be quite still.
+        False for a generated motion, in which a standing leg may be motionless.
     """
     if len(clip) < 5:
         return ()
@@ -137,7 +140,7 @@ def damage(clip: MotionClip, tolerance: float = 1.0, *, captured: bool = True) -
 def _unknown(
     spans: Iterable[tuple[int, int, int]], found: Iterable[tuple[int, int, int]], frames: int
 ) -> Iterator[tuple[int, int, int]]:
-    """Spans in which and at whose ends no damage of the same part was found."""
+    """Yield the spans without damage of the same part within them and at their ends."""
     edges = np.zeros((len(PARTS), frames + 1), np.int64)
     for start, stop, part in found:
         edges[part, start] += 1
@@ -151,7 +154,7 @@ def _unknown(
 def _off_the_cubic(
     clip: MotionClip, speeds: FloatArray, length: int, tolerance: float
 ) -> Iterator[tuple[int, int, int]]:
-    """Spans (start, stop, part) that are far from a cubic fitted over a window of steps."""
+    """Yield the spans (start, stop, part) far from a cubic fitted over a window of steps."""
     count = len(speeds) - length - 1
     if count < 1:
         return
@@ -181,7 +184,7 @@ def _off_the_cubic(
 
 
 def _too_fast(speeds: FloatArray, fps: float) -> Iterator[tuple[int, int, int]]:
-    """Joints that turn faster than any does; hips that turn fast and do not spin."""
+    """Yield the spans of joints that rotate too fast, and of hips that turn fast without spinning."""
     for part in np.flatnonzero((speeds > _FASTEST).any(axis=0)).tolist():
         # Such a turn is followed to where it begins and ends, and so is a spin.
         for start, stop in runs(speeds[:, part] > _FASTEST[part] * BEGINS):
@@ -192,7 +195,7 @@ def _too_fast(speeds: FloatArray, fps: float) -> Iterator[tuple[int, int, int]]:
 
 
 def _too_far_bent(clip: MotionClip) -> Iterator[tuple[int, int, int]]:
-    """Spans in which the trunk or the neck is bent as no body can be."""
+    """Yield the spans in which the trunk or neck is bent impossibly."""
     for name, most_deg in MOST_BENT_DEG.items():
         part = SEGMENTS.index(name)
         swing, _ = quaternion.swing_twist(clip.rotations[:, part], (0.0, 1.0, 0.0))
@@ -203,7 +206,7 @@ def _too_far_bent(clip: MotionClip) -> Iterator[tuple[int, int, int]]:
 
 
 def _merged(found: Iterable[tuple[int, int, int]]) -> Iterator[Damage]:
-    """Spans of single parts that overlap or touch, as one of all of these parts."""
+    """Yield spans of single parts that overlap or touch, joined to one with all their parts."""
     start, stop, parts = 0, -1, set[int]()
     for one_start, one_stop, part in sorted(found):
         if one_start <= stop:

@@ -1,4 +1,4 @@
-"""A dance as a value: how a dancer dances, which segments when, and the motion of it."""
+"""A dance as a value: style, segments with times, and motion."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ class Manner:
     Attributes
     ----------
     seed : int
-        Another seed is another dance to the same music.
+        Seed; another seed gives another dance to the same music.
     source : int or None
-        Number of the model's source whose motion is preferred.
+        Index of the model's source whose motion is preferred.
     size : float
         Of trunk and arms about their usual pose, 1 as captured.
     melody : float
-        0..1: how much melody, bass and accents count beside percussion.
+        Weight of melody, bass and accents relative to percussion, 0..1.
     weight : float
-        -1 to 1: how light or heavy it is danced; knees bend by
-        `app.choreography.standing_feet.DEEPER` of a leg more at 1.
+        Weight of the dance, -1 (light) to 1 (heavy): at 1 knees bend more by `app.choreography.standing_feet.DEEPER` of
+        a leg.
     """
 
     seed: int = 0
@@ -45,7 +45,7 @@ class SegmentStep:
     segment : int
         In the model.
     place : int
-        Of its accent in the grid of beats and their divisions.
+        Index of its accent in the grid of beats and their divisions.
     start_s, accent_s, end_s : float
         In the piece.
     """
@@ -65,13 +65,13 @@ class Dance:
     Attributes
     ----------
     clip : MotionClip
-        Its frame 0 is at ``first_s``.
+        Motion whose frame 0 is at ``first_s``.
     speeds : (T,) float64
-        Of the source's time, by frame: 1 as captured, 0 at rest.
+        Speed of the source's time in each frame: 1 as captured, 0 at rest.
     seams : tuple of int
-        Frames at which motion begins that does not follow in the capture on what was before.
+        Frames at which motion begins that does not continue the capture before it.
     standing : tuple of FootPlant
-        Where feet stand.
+        Stands of the feet.
     """
 
     clip: MotionClip

@@ -1,6 +1,6 @@
-"""Visible flaws of a dance: joins that jerk, jolts anywhere else, and standing feet that slide.
+"""Visible flaws of a dance: jerks at joins, jolts elsewhere, and sliding feet.
 
-Judged on the captured body, before the dance is put onto a character.
+Measured on the captured body, before the dance is transferred to a character.
 """
 
 from __future__ import annotations
@@ -20,29 +20,31 @@ from app.choreography.standing_feet import FootPlant
 from app.rig import quaternion
 
 JERKS: Final = 1.25
-"""A join shows whose largest change of angular velocity is this many times what is usual in the capture."""
+"""Ratio to the usual change of angular velocity above which a join shows."""
 USUAL_PERCENTILE: Final = 99.9
 AROUND: Final = (-1, 2)
-"""First and last frame about a seam that are looked at; a change is seen in the frame before and the one after."""
+"""First and last examined frame about a seam; a change is visible in the frames before and after."""
 NEAR_S: Final = 0.1
-"""A jolt no farther from a seam than this is that of the seam."""
+"""Distance in seconds within which a jolt is attributed to a seam."""
 TOLERANCE: Final = 2.0
-"""Factor by which a dance may be farther from even motion than its captures: it is danced up to 1.75 times as fast
-for a moment."""
+"""Factor by which a dance may deviate more from even motion than captures, since it is sped up to 1.75 times for a
+moment.
+"""
 SLIDES_M_S: Final = 0.005
-"""A standing foot whose tip goes faster than this slides."""
+"""Speed in metres per second of its tip above which a standing foot slides."""
 
 
 def usual_change_rad_s(clips: Sequence[MotionClip], fps: Fraction) -> float:
-    """Return how much the angular velocity of a segment changes from frame to frame at a frame rate, at the most but
-    for one frame in a thousand; 0 without motion."""
+    """Return the change of angular velocity from frame to frame that all but one in a thousand frames keep within; 0
+    without motion.
+    """
     changes = [_changes(resampled(clip, fps).rotations[None], fps).ravel() for clip in clips]
     every = np.concatenate(changes) if changes else np.zeros(0)
     return float(np.percentile(every, USUAL_PERCENTILE)) if len(every) else 0.0
 
 
 def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) -> tuple[int, ...]:
-    """The seams (frames) of a dance at which a jerk shows.
+    """Return the seams (frames) of a dance with a visible jerk.
 
     Parameters
     ----------
@@ -58,7 +60,7 @@ def jerking_seams(clip: MotionClip, seams: Sequence[int], usual_rad_s: float) ->
 
 
 def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
-    """Places anywhere in a dance, but at its seams, where a body moves as none does."""
+    """Return the places of impossible motion in a dance, except at its seams."""
     apart = round(NEAR_S * float(clip.fps))
     return tuple(
         one
@@ -68,7 +70,7 @@ def jolts(clip: MotionClip, seams: Sequence[int]) -> tuple[Damage, ...]:
 
 
 def sliding_stands(clip: MotionClip, standing: Sequence[FootPlant]) -> tuple[FootPlant, ...]:
-    """The stands of a dance during which the foot slides over the floor."""
+    """Return the stands of a dance during which the foot slides."""
     tips = tips_m(clip)[..., [0, 2]]
     speeds = np.linalg.norm(np.diff(tips, axis=0), axis=-1) * float(clip.fps)
     return tuple(

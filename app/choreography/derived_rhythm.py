@@ -1,4 +1,4 @@
-"""The rhythm of a piece without percussion: melody, bass and accents stand for the sounds of a drum kit.
+"""Rhythm of a piece without percussion: melody, bass and accents replace the sounds of a drum kit.
 
 The future work of K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM". The mapping is
 that of a drummer who plays along:
@@ -14,8 +14,9 @@ Open hi-hat (46)     Another note of the melody that lasts a beat or more.
 Closed hi-hat (42)   Another note of the melody.
 ==================  =======================================================================================
 
-The melody is the highest note that sounds ("skyline": A. Uitdenbogerd, J. Zobel, "Manipulation of Music for Melody
-Matching", ACM Multimedia 1998). Every hit is at the onset of a note and as strong as the loudest that begins there.
+The melody is the highest sounding note ("skyline": A. Uitdenbogerd, J. Zobel, "Manipulation of Music for Melody
+Matching", ACM Multimedia 1998). Every hit is at the onset of a note, with the strength of the loudest note beginning
+there.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ BASS, ACCENT, PHRASE, LEAP_UP, LEAP_DOWN, LONG, SHORT = (
     SYMBOLS.index(sound) for sound in (36, 38, 49, 50, 45, 46, 42)
 )  # fmt: skip
 TOGETHER_S: Final = 0.03
-"""Notes that begin within this time begin together."""
+"""Time in seconds within which notes begin together."""
 FIFTH: Final = 7
 LEAP: Final = 5
 AROUND_BEATS: Final = 4.0
@@ -42,12 +43,15 @@ AROUND_BEATS: Final = 4.0
 LOUDER: Final = 1.25
 FULLER: Final = 2.0
 LONGER: Final = 2.0
-"""Times the mean around it: each of them alone makes an accent, and two make one with half of each (as logarithms)."""
+"""Ratio to the surrounding mean: one quantity with this ratio is an accent, or two with half of it each (as
+logarithms).
+"""
 
 
 def audible_rhythm(score: Score) -> Rhythm:
-    """The rhythm a dancer follows in a piece: its percussion with its melody, or without any what `derived_rhythm`
-    finds."""
+    """Return the rhythm that a dancer follows: percussion with melody, or the result of `derived_rhythm` if there is no
+    percussion.
+    """
     rhythm, melody = score_rhythm(score), derived_rhythm(score)
     if not len(rhythm.hits_s):
         return melody
@@ -55,7 +59,7 @@ def audible_rhythm(score: Score) -> Rhythm:
 
 
 def derived_rhythm(score: Score) -> Rhythm:
-    """Beats of a piece, and hits that stand for melody, bass and accents of its parts; its percussion is not used."""
+    """Return the beats of a piece, and hits for melody, bass and accents of its parts, ignoring its percussion."""
     beats = score_rhythm(score)
     moments = _Moments(score)
     hits: list[tuple[int, int]] = []
@@ -84,19 +88,19 @@ def derived_rhythm(score: Score) -> Rhythm:
 
 
 class _Moments:
-    """Times at which notes begin, ascending.
+    """Moments at which notes begin, in ascending order.
 
     Attributes
     ----------
     times_s : (M,) float64
     velocities : (M,) float64
-        Of the loudest note that begins.
+        Velocity of the loudest note that begins.
     counts : (M,) float64
-        Notes that begin.
+        Number of notes that begin.
     lengths_s : (M,) float64
-        Of the longest note that begins.
+        Length in seconds of the longest note that begins.
     silence_s : (M,) float64
-        For how long nothing sounded before; endless before the first.
+        Length in seconds of the silence before; infinite before the first.
     """
 
     def __init__(self, score: Score) -> None:
@@ -123,7 +127,7 @@ class _Moments:
         self.silence_s = self.times_s - np.concatenate([[-np.inf], self._sounded_s])[self._first]
 
     def melody(self, beat_s: FloatArray) -> IntArray:
-        """(M,) the symbol of the note of the melody that begins at each moment; -1 where none does."""
+        """Return the symbol (M,) of the melody note that begins at each moment; -1 if none."""
         found = np.full(len(self.times_s), -1, np.int64)
         last_pitch: int | None = None
         for moment, (time_s, highest) in enumerate(zip(self.times_s, self._begun(np.maximum), strict=True)):
@@ -150,7 +154,7 @@ class _Moments:
         return found
 
     def accents(self, beat_s: FloatArray) -> BoolArray:
-        """(M,) whether a moment is an accent, and none within half a beat is a greater one."""
+        """Return whether each moment (M,) is an accent, with no greater one within half a beat."""
         salience = np.zeros(len(self.times_s))
         reach_s = AROUND_BEATS * beat_s
         start = np.searchsorted(self.times_s, self.times_s - reach_s)
@@ -168,11 +172,11 @@ class _Moments:
         return np.asarray((salience >= 1.0) & greatest)
 
     def _begun(self, which: np.ufunc) -> IntArray:
-        """(M,) the highest or lowest pitch that begins."""
+        """Return the highest or lowest pitch (M,) that begins at each moment."""
         return np.asarray(which.reduceat(self._pitches, self._first), np.int64)
 
     def _sounding(self, time_s: float) -> IntArray:
-        """Pitches of the notes that sound at a time."""
+        """Return the pitches of the notes that sound at a time."""
         # All that began before the first of these has ended.
         start = np.searchsorted(self._sounded_s, time_s, side="right")
         stop = np.searchsorted(self._starts_s, time_s, side="right")
@@ -180,7 +184,7 @@ class _Moments:
 
 
 def _beat_at(beats_s: FloatArray, times_s: FloatArray) -> FloatArray:
-    """(M,) length of the beat in which each time is."""
+    """Return the length (M,) of the beat at each time."""
     if len(beats_s) < 2:
         return np.ones(len(times_s))
     lengths_s = np.diff(beats_s)

@@ -1,8 +1,7 @@
-"""Dancers by their drums: whose captured dances are danced to a piece, beat by beat.
+"""Choice of dancers by their drums: the captured dancers whose dances suit a piece, beat by beat.
 
-Where drums are like those that dancers were captured or learned with, the sounds decide. Other drums decide nothing:
-each of many hits that no dancer heard as often would speak a little for one and the same dancer, and only that one
-would dance. There everyone dances, each as much as there is of their dances.
+If the piece's drums are similar to those of some captures, the sounds decide. Otherwise they do not, since many
+unfamiliar hits would all favour the same dancer; then all dancers are used in proportion to their material.
 """
 
 from __future__ import annotations
@@ -17,38 +16,39 @@ from app.arrays import FloatArray, IntArray
 from app.choreography.rhythm import SYMBOLS, Rhythm
 
 WINDOW_BEATS: Final = 16
-"""Sounds are compared over so many beats, half of them before each."""
+"""Number of beats over which sounds are compared, half of them before each beat."""
 LIKE: Final = 0.18
-"""Relative entropy, in natural units a hit, of drums from the nearest mixture of those of the dancers, at which they
-are taken for half unlike. Other takes of the drums that were learned from are at 0.05 to 0.15, other pieces of their
-styles at 0.25, other drums at 0.5 to 2.5."""
+"""Relative entropy, in natural units per hit, between drums and the nearest mixture of the dancers' drums at which they
+count as half unlike. Other takes of the learned drums have 0.05 to 0.15, other pieces of their styles 0.25, other drums
+0.5 to 2.5.
+"""
 STEEP: Final = 4.0
 TELLING: Final = 0.1
-"""Relative entropy by which drums are farther from those of one dancer than of another who dances e times as much."""
+"""Difference of relative entropy between two dancers at which one is used e times as much as the other."""
 OF_ALL: Final = 2.0
-"""Weight of the drums of all dancers in those of each, in sounds: few were heard, and others may come."""
+"""Weight of all dancers' drums in each dancer's, as a number of sounds, to allow for sounds that were not heard."""
 _ROUNDS: Final = 40
 
 
 @dataclass(frozen=True, eq=False)
 class DancersDrums:
-    """Sounds that the dancers of a model were learned with.
+    """Sounds to which the dancers of a model were captured.
 
     Attributes
     ----------
     shares : (K, 47) float64
-        Of each dancer's (each clip's) sounds; 0 of those that none heard.
+        Share of each sound for each dancer (clip); 0 for sounds that no dancer heard.
     """
 
     shares: FloatArray
 
     def likeness(self, rhythm: Rhythm) -> tuple[FloatArray, FloatArray]:
-        """Return by beat how alike a piece's sounds are to those of the dancers, and how unlike to those of each.
+        """Return by beat the similarity of a piece's sounds to the dancers', and the dissimilarity to each dancer's.
 
         Returns
         -------
         like : (N,) float64
-            0..1; 0 where nothing sounds that a dancer heard.
+            Similarity 0..1; 0 without familiar sounds.
         unlike : (N, K) float64
             Relative entropies.
         """
@@ -68,7 +68,7 @@ class DancersDrums:
 
 
 def drums_of(clips: IntArray, symbols: Sequence[Sequence[int]], count: int) -> DancersDrums:
-    """Return what the dancers heard: the sounds of each segment, and its clip, of so many."""
+    """Return the sounds of each dancer from the sounds and the clip of each segment."""
     counts = np.zeros((count, len(SYMBOLS)))
     for clip, sounding in zip(clips.tolist(), symbols, strict=True):
         np.add.at(counts[clip], list(sounding), 1.0)
@@ -81,14 +81,14 @@ def drums_of(clips: IntArray, symbols: Sequence[Sequence[int]], count: int) -> D
 
 @dataclass(frozen=True, eq=False)
 class TakeShares:
-    """Takes of a model, and how much of each is danced when.
+    """Takes of a model, and the share of each over time.
 
     Attributes
     ----------
     takes : (S,) int64
         Clip of each segment.
     shares : (G, K) float64
-        Of each take, at each place of a grid; rows sum to 1.
+        Share of each take at each place of a grid; rows sum to 1.
     """
 
     takes: IntArray
@@ -98,12 +98,12 @@ class TakeShares:
 def take_shares(
     drums: DancersDrums, rhythm: Rhythm, times_s: FloatArray, takes: IntArray, lasting: FloatArray
 ) -> TakeShares:
-    """Return how much of each take is to be danced at some times.
+    """Return the share of each take at given times.
 
     Parameters
     ----------
     lasting : (S,) float64
-        Of each segment, how long it is.
+        Length of each segment.
     """
     captured = np.bincount(takes, lasting, len(drums.shares))
     if len(rhythm.beats_s) < 2:
@@ -116,12 +116,12 @@ def take_shares(
 
 
 def beats_at(rhythm: Rhythm, times_s: FloatArray) -> IntArray:
-    """Numbers of the beats during which times are."""
+    """Return the index of the beat at each time."""
     return np.clip(np.searchsorted(rhythm.beats_s, times_s + 1e-6, side="right") - 1, 0, len(rhythm.beats_s) - 1)
 
 
 def _around(rhythm: Rhythm) -> FloatArray:
-    """(N, 47) how often each sound is struck about each beat."""
+    """Return the number of hits (N, 47) of each sound around each beat."""
     counts = np.zeros((len(rhythm.beats_s) + 1, len(SYMBOLS)))
     np.add.at(counts, (1 + beats_at(rhythm, rhythm.hits_s), rhythm.symbols), 1.0)
     summed = np.cumsum(counts, axis=0)

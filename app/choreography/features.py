@@ -1,9 +1,9 @@
-"""Features for the likeness of motions: the poses at their minimum, maximum and minimum, as in the paper.
+"""Features for the similarity of motions: poses at minimum, maximum and minimum of acceleration, as in the paper.
 
-A pose is where its joints and ends are, over the floor below the hips, seen from where the body faces at the accent,
-and in parts of the body's height. So it depends neither on where the body dances nor where it looks nor how tall it is,
-distances between poses are distances between points of the body, and no angle can wrap; a turn of the body during the
-motion stays in it.
+A pose consists of the positions of its joints and ends relative to the floor below the hips, oriented by the body's
+facing at the accent, and relative to the body's height. So it is independent of place, direction and size, distances
+between poses are distances between points of the body, and no angle can wrap; a turn of the body during the motion is
+preserved.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ from app.rig import quaternion
 from app.rig.skeleton import rest_positions
 
 POSES: Final = 3
-"""Number of poses of a motion that are compared: at its start, its accent and its end."""
+"""Number of compared poses of a motion: at its start, accent and end."""
 LEAST_HEIGHT_M: Final = 0.1
 SIDES: Final = ("left", "right")
 ANKLE_PART: Final = 0.29
-"""Height of an ankle over the sole, as a part of the way from it to the tip of the toes."""
+"""Height of an ankle above the sole relative to the distance from it to the tip of the toes."""
 _UP = (0.0, 1.0, 0.0)
 _HEAD = SEGMENTS.index("head")
 _ALONG: Final = {
     ENDS.index("head"): (_HEAD, SEGMENTS.index("chest")),
     **{ENDS.index(f"{side}Hand"): tuple(map(SEGMENTS.index, (f"{side}Hand", f"{side}LowerArm"))) for side in SIDES},
 }
-"""By end: the joint that it hangs from and the one before it."""
+"""Joint that each end is attached to, and the joint before it."""
 
 
 def features(clip: MotionClip, cuts: Sequence[Cut]) -> FloatArray:
-    """Features of motions of a clip.
+    """Return features of motions of a clip.
 
     Returns
     -------
     (C, 3 * 21 * 3) float64
-        Of each cut the three poses, of each pose the `joint_points_m` of the body over its `size_m`.
+        For each cut the three poses, for each pose the `joint_points_m` of the body divided by its `size_m`.
     """
     if not cuts:
         return np.zeros((0, POSES * (len(SEGMENTS) + len(ENDS)) * 3))
@@ -55,7 +55,7 @@ def features(clip: MotionClip, cuts: Sequence[Cut]) -> FloatArray:
 
 
 def facing(clip: MotionClip) -> FloatArray:
-    """(F, 4) turn about +Y from +Z to where the hips face; their lean and roll are left out."""
+    """Return the rotation (F, 4) about +Y from +Z to the hips' facing, without lean and roll."""
     _, twist = quaternion.swing_twist(clip.rotations[:, 0], _UP)
     return twist
 
@@ -69,8 +69,9 @@ def points_m(clip: MotionClip) -> FloatArray:
 
 
 def joint_points_m(clip: MotionClip) -> FloatArray:
-    """(F, 21, 3) the places that `points_m` has, as joints alone show them: a hand along its forearm, a crown along its
-    neck. So what is decided by them does not depend on how a head or a hand without further bones was read."""
+    """Return the positions (F, 21, 3) of `points_m` derived from joints only: a hand along its forearm, a crown along
+    its neck. So decisions based on them are independent of how a head or hand without further bones was read.
+    """
     points = points_m(clip)
     for end, (joint, before) in _ALONG.items():
         way = points[:, joint] - points[:, before]
@@ -81,7 +82,7 @@ def joint_points_m(clip: MotionClip) -> FloatArray:
 
 
 def size_m(clip: MotionClip) -> float:
-    """Length of the bones from sole to crown, about the height of the body; it depends on no pose."""
+    """Return the length of the bones from sole to crown in metres, about the body's height in any pose."""
     offsets, ends = clip.shape.offsets_m, clip.shape.ends_m
     column = [np.linalg.norm(offsets[SEGMENTS.index(name)]) for name in ("spine", "chest", "head")]
     legs = [np.linalg.norm(offsets[SEGMENTS.index(side + name)]) for side in SIDES for name in ("LowerLeg", "Foot")]
@@ -91,6 +92,8 @@ def size_m(clip: MotionClip) -> float:
 
 
 def height_m(clip: MotionClip) -> float:
-    """Height from the floor to the crown in the T-pose; at least `LEAST_HEIGHT_M`, also where bones have no length."""
+    """Return the height from the floor to the crown in the T-pose in metres; at least `LEAST_HEIGHT_M`, even if bones
+    have no length.
+    """
     crown_m = rest_positions(clip.shape.skeleton)[1 + _HEAD, 1] + clip.shape.ends_m[ENDS.index("head"), 1]
     return max(LEAST_HEIGHT_M, float(crown_m))

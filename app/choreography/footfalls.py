@@ -1,6 +1,6 @@
-"""Footfalls on the beats: a foot leaves the floor and comes down a little earlier or later than the body has it.
+"""Footfalls on the beats: a foot leaves the floor and lands slightly earlier or later than in the capture.
 
-A step takes as long as the captured dancers took for theirs.
+Steps have the duration of the captured dancers' steps.
 """
 
 from __future__ import annotations
@@ -19,32 +19,34 @@ from app.choreography.accent_grid import AccentGrid
 from app.choreography.standing_feet import SAME_M, FootPlant
 
 REACH_S: Final = 0.12
-"""A footfall is moved no farther than this."""
+"""Greatest shift of a footfall in seconds."""
 ON_BEAT: Final = 1.0
 BETWEEN: Final = -1.0
 """Worth of a footfall on a beat, and on a place between beats."""
 MOVED: Final = 0.5
-"""Cost of a footfall that is moved by `REACH_S`; by the square for less."""
+"""Cost of a footfall shifted by `REACH_S`; quadratic for less."""
 APART_S: Final = 0.15
-"""Two footfalls one after the other stay apart by this at least, and closer ones as they are."""
+"""Least distance in seconds between consecutive footfalls, unless the capture has less."""
 LEAST_STAND_S: Final = 0.15
 LEAST_SWING_S: Final = 0.25
-"""A foot stands, and is off the floor for a step, no shorter than this; unless the motion has it so."""
+"""Least duration in seconds of a stand and of a step, unless the capture has less."""
 STEP_SHARE: Final = 0.95
-"""A step takes no less than this share of the usual time, if both feet have time."""
+"""Least duration of a step relative to the usual one, if there is time."""
 FASTEST_M_S: Final = 5.0
-"""A foot that goes faster kicks, and comes down as the body has it: a moment later its place is far from the body's."""
+"""Speed in metres per second above which a foot kicks and lands as captured, since its place would be far from the body
+a moment later.
+"""
 NEVER: Final = -1e9
 
 
 @dataclass(frozen=True, eq=False)
 class Footfalls:
-    """Stands of the feet, and which moment of the motion each foot shows meanwhile.
+    """Stands of the feet, and the moment of the motion that each foot has between them.
 
     Attributes
     ----------
     shown : (F, 2) float64
-        Of each frame, the frame of the motion that the left and the right foot show; ascending.
+        For each frame, the frames of the motion used for the left and right foot; ascending.
     """
 
     standing: tuple[FootPlant, ...]
@@ -60,16 +62,16 @@ def on_beats(
     step_s: float,
     speeds_m_s: FloatArray | None = None,
 ) -> Footfalls:
-    """Stands that begin on places of the grid where one is near.
+    """Return the stands shifted to begin on nearby places of the grid.
 
     Parameters
     ----------
     standing : sequence of FootPlant
-        By their starts, see `app.choreography.standing_feet.stands`.
+        Stands by start, see `app.choreography.standing_feet.stands`.
     frames : int
         Of the motion.
     first_s : float
-        Time of its frame 0.
+        Time of frame 0 in seconds.
     step_s : float
         Usual time of a step.
     speeds_m_s : (F, 2) float64, optional
@@ -110,7 +112,7 @@ def on_beats(
 
 
 def _kicked(standing: Sequence[FootPlant], speeds_m_s: FloatArray) -> set[int]:
-    """Numbers of the stands to which a foot comes down from a kick."""
+    """Return the indices of the stands at which a foot lands after a kick."""
     found, left = set(), [0, 0]
     for at, stand in enumerate(standing):
         if speeds_m_s[left[stand.foot] : stand.start, stand.foot].max(initial=0.0) > FASTEST_M_S:
@@ -128,9 +130,9 @@ def _leaves(
     fps: float,
     step_s: float,
 ) -> int:
-    """Return the frame in which a foot leaves the floor that came down in one frame and comes down again in another.
+    """Return the frame in which a foot leaves the floor between two landings.
 
-    It does not leave before the other foot has come down, if the motion has them in this order.
+    It does not leave before the other foot has landed, if the motion has them in this order.
     """
     swing = after.start - before.stop
     way_m = float(np.linalg.norm(np.subtract(after.place_m, before.place_m)))
@@ -146,9 +148,9 @@ def _leaves(
 def _chosen(
     falls: Sequence[FootPlant], fps: float, first_s: float, grid: AccentGrid, bounds_s: Sequence[tuple[float, float]]
 ) -> list[float]:
-    """Frames in which feet come down: the worthiest choice for all, by dynamic programming over pairs in a row.
+    """Return the frames of landings with the greatest total value, by dynamic programming over consecutive pairs.
 
-    ``bounds_s`` are the first and the last time that each can be moved to.
+    ``bounds_s`` are the first and last possible time of each.
     """
     times = [first_s + fall.start / fps for fall in falls]
     alone = [_options(time_s, grid, *bounds) for time_s, bounds in zip(times, bounds_s, strict=True)]
@@ -182,7 +184,7 @@ def _chosen(
 
 
 def _options(time_s: float, grid: AccentGrid, earliest_s: float, latest_s: float) -> list[tuple[float, float]]:
-    """Times at which a foot can come down, and their worth; the time of the motion is the first."""
+    """Return the possible times of a landing with their value; the first is the time in the motion."""
     found = [(time_s, 0.0)]
     reach_s = max(time_s - REACH_S, earliest_s), min(time_s + REACH_S, latest_s)
     for at in range(*np.searchsorted(grid.times_s, reach_s).tolist()):
@@ -199,7 +201,7 @@ def _along(
     options: Sequence[Sequence[tuple[float, float]]],
     bounds_s: Sequence[tuple[float, float]],
 ) -> list[tuple[float, float]]:
-    """Times at which a foot can come down along with the other one that lands a moment before or after it."""
+    """Return the possible times of a landing together with the other foot's a moment before or after."""
     found = []
     for other in (at - 1, at + 1):
         if not 0 <= other < len(falls) or falls[other].foot == falls[at].foot:
@@ -215,7 +217,7 @@ def _along(
 def _possible(
     falls: Sequence[FootPlant], times: Sequence[float], one: int, other: int, earlier: FloatArray, later: FloatArray
 ) -> np.ndarray:
-    """(E, L) whether a fall can be at the one time and a later fall at the other."""
+    """Return whether (E, L) one landing can be at the first times and a later one at the second times."""
     way_s = times[other] - times[one]
     least_s = APART_S if falls[one].foot != falls[other].foot else LEAST_STAND_S + LEAST_SWING_S
     gap_s = later[None, :] - earlier[:, None]

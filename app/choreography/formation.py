@@ -1,4 +1,4 @@
-"""Several dancers to one piece: what they have in common, and where they stand."""
+"""Several dancers to one piece: common properties and places."""
 
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ FORMATIONS: Final[tuple[Formation, ...]] = get_args(Formation)
 CANON_BEATS: Final = 4.0
 """Felt beats between the starts of two dancers in canon."""
 APART_M: Final[dict[Formation, float]] = {"unison": 2.0, "canon": 3.0, "mirror": 3.0, "individual": 3.6}
-"""From dancer to dancer in the row: those who dance alike at a time do not meet however far they go, the others keep
-about `app.choreography.stitch.STAGE_M` near to their places."""
+"""Distance in metres between neighbouring dancers: those who dance alike simultaneously do not collide, others keep
+within about `app.choreography.stitch.STAGE_M` of their places.
+"""
 ENDS_S: Final = 2.0
-"""Seconds after the last followed beat within which all dancers come to rest."""
+"""Seconds after the last beat within which all dancers come to rest."""
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,9 @@ class Role:
     Attributes
     ----------
     delay_beats : float
-        The dance begins so many felt beats after the music.
+        Start of the dance in felt beats after the music.
     x_m : float
-        The dancer's place in the row, towards the left of one who faces the audience.
+        Place in the row, towards the left of a dancer facing the audience.
     """
 
     manner: Manner
@@ -43,15 +44,15 @@ class Role:
 
 
 def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> tuple[Role, ...]:
-    """The roles of dancers in a row, from the audience's left.
+    """Return the roles of dancers in a row from the audience's left.
 
     Parameters
     ----------
     formation : {"unison", "canon", "mirror", "individual"}
-        All dance the same; the same one after the other; the same, every other one as in a mirror; or each a dance of
-        its own, with a seed, a preferred source and a size of its own.
+        Same dance; same dance one after another; same dance with every other one mirrored; or different dances with
+        different seed, preferred source and size.
     manner : Manner
-        Of the first, from which those of the others follow.
+        Style of the first dancer, from which the others' are derived.
     sources : int
         Of the model.
     """
@@ -76,7 +77,7 @@ def roles(formation: Formation, dancers: int, manner: Manner, sources: int) -> t
 def dance_together(
     choreographer: Choreographer, rhythm: Rhythm, cast: tuple[Role, ...], fps: Fraction
 ) -> tuple[Dance, ...]:
-    """The dances of some roles, each at its place, all of one length. The same arguments give identical results."""
+    """Return the dances of roles at their places with equal length. Equal arguments give identical results."""
     rhythms = [delayed(rhythm, role.delay_beats) if role.delay_beats else rhythm for role in cast]
     end_s = max((float(one.beats_s[-1]) for one in rhythms if len(one.beats_s)), default=0.0) + ENDS_S
     return tuple(

@@ -1,8 +1,7 @@
-"""Segments that stand as if they were cut out while the body moves: markers that were lost, frames that were held.
+"""Detection of frozen segments while the body moves, caused by lost markers or repeated frames.
 
-A captured joint is never quite still, and it begins and ends its rests smoothly: a rest that begins or ends within a
-frame at the joint's speed is damage, all of it. An elbow or a knee that is stretched as far as the rig lets it may stop
-within a frame.
+A captured joint is never motionless, and its rests begin and end smoothly; so a rest that begins or ends abruptly is
+damage as a whole. A stretched elbow or knee at the rig's limit may stop abruptly.
 """
 
 from __future__ import annotations
@@ -19,25 +18,26 @@ from app.choreography.clip import MotionClip
 from app.rig import quaternion
 
 EXACT: Final = 1e-6
-"""Speed (rad/s, m/s) of what does not move: a body that is read has other roundings in every frame."""
+"""Speed (rad/s, m/s) below which a part is motionless, since rounding differs in every frame."""
 FROZEN: Final = 2
-"""Steps without any motion, of a body that moves by more than `STARTS_RAD_S` before or after them, are lost frames."""
+"""Number of motionless steps that indicate lost frames, if the body moves by more than `STARTS_RAD_S` before or
+after.
+"""
 STARTS_RAD_S: Final = 1.5
 MOST_FROZEN: Final = 0.25
-"""A clip that rests longer than this part of its time was made so."""
+"""Share of a clip's time above which its rests are considered intended."""
 NEARLY_RAD_S: Final = 2e-3
-"""Speed of a constant joint whose file has few decimals."""
+"""Speed in radians per second of a constant joint in a file with few decimals."""
 NEARLY_S: Final = 0.1
-"""Least time for which it is constant."""
+"""Least time in seconds for which it is constant."""
 LONG_S: Final = 0.25
-"""Time from which on a ball joint, or two neighbouring joints, that rest without beginning and ending smoothly are
-frozen."""
+"""Time in seconds from which a ball joint, or two neighbouring joints, that rest abruptly are frozen."""
 LEAST_RAD_S: Final = 0.1
-"""Least speed of a joint that stops abruptly."""
+"""Least speed in radians per second of a joint that stops abruptly."""
 SMOOTH: Final = 0.55
-"""Largest share of the second step that the first one has where a joint sets off smoothly: it has a third of it."""
+"""Largest ratio of the first step to the second if a joint starts smoothly; usually it is a third."""
 STRETCHED_RAD: Final = 0.02
-"""An elbow or a knee is stretched if it is bent by so little more than it ever is."""
+"""Angle in radians above the least bend within which an elbow or knee counts as stretched."""
 _HINGES: Final = tuple(at for at, name in enumerate(SEGMENTS) if "Lower" in name)
 _BALLS: Final = tuple(
     at for at, name in enumerate(SEGMENTS) if "Lower" not in name and at and name[-4:] not in ("Hand", "Foot")
@@ -45,7 +45,7 @@ _BALLS: Final = tuple(
 
 
 def frozen(clip: MotionClip, speeds: FloatArray) -> Iterator[tuple[int, int, int]]:
-    """Spans (start, stop, part) between sound frames in which the body or a part of it is frozen.
+    """Yield spans (start, stop, part) between sound frames in which the body or a part is frozen.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def frozen(clip: MotionClip, speeds: FloatArray) -> Iterator[tuple[int, int, int
 
 
 def with_held(speeds: FloatArray, found: set[tuple[int, int, int]]) -> set[tuple[int, int, int]]:
-    """Spans, each with what it is the edge of: frames in which the segment is held where it jumped to, or was held."""
+    """Return the spans extended by adjacent frames in which the segment is held."""
     still = speeds <= EXACT
     long = [
         [run for run in runs(still[:, part]) if run[1] - run[0] >= FROZEN] if _is_seldom(still[:, part]) else []
@@ -76,7 +76,7 @@ def with_held(speeds: FloatArray, found: set[tuple[int, int, int]]) -> set[tuple
 
 
 def _bodies(speeds: FloatArray) -> Iterator[tuple[int, int]]:
-    """Spans in which a body that moves stands as if it were cut out."""
+    """Yield the spans in which a moving body is frozen as a whole."""
     still = np.asarray((speeds <= EXACT).all(axis=1))
     if not _is_seldom(still):
         return
@@ -88,7 +88,7 @@ def _bodies(speeds: FloatArray) -> Iterator[tuple[int, int]]:
 
 
 def _rests(clip: MotionClip, speeds: FloatArray, part: int) -> list[tuple[int, int]]:
-    """Steps within the clip in which a segment is constant."""
+    """Return the spans of steps in which a segment is constant."""
     found = []
     for most, least in ((EXACT, FROZEN), (NEARLY_RAD_S, max(FROZEN, round(NEARLY_S * float(clip.fps))))):
         still = np.asarray(speeds[:, part] <= most)

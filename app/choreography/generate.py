@@ -1,4 +1,4 @@
-"""A dance to a piece: segments of a model in the order that suits the music, on its beats, joined without a seam."""
+"""Generation of a dance: segments of a model in an order that suits the music, on its beats, joined smoothly."""
 
 from __future__ import annotations
 
@@ -50,24 +50,24 @@ from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from app.rig import quaternion
 
 DRAFT_FPS: Final = Fraction(30)
-"""Frame rate of the draft in which arrivals are looked for."""
+"""Frame rate of the draft in which arrivals are found."""
 DRAFTS: Final = 4
-"""Most drafts, each by the best time map that follows from the one before."""
+"""Greatest number of drafts, each with the best time map of the previous one."""
 _LEAST_S: Final = 0.01
-"""Beyond the first start and the last end; a segment may meet its beat at either."""
+"""Margin in seconds beyond the first start and the last end, since a segment's beat may be at either."""
 STANDING: Final = 4.0
-"""Log odds of a first and a last segment between feet that both stand, against one that hangs in the air."""
+"""Log odds of a first and last segment with both feet on the floor against none."""
 PREFERRED: Final = 12.0
-"""Log odds of a segment of the source that is preferred."""
+"""Log odds of a segment of the preferred source."""
 BEAT_S: Final = 0.5
-"""Time from one footfall to the next, for a capture without steps."""
+"""Time in seconds between footfalls for a capture without steps."""
 WANDERS_S: Final = 1.2
-"""Standard deviation in time of what of a path is a way, and not sway and steps."""
+"""Standard deviation in seconds that separates a path from sway and steps."""
 LEAST_ROOM: Final = 0.4
-"""Least share of the stage that stays free for ways, however much a dancer sways."""
+"""Least share of the stage that stays free for paths, however large the sway."""
 ARM: Final = ("UpperArm", "LowerArm", "Hand")
 UPPER_BODY: Final = ("spine", "chest", "head", *(f"left{part}" for part in ARM), *(f"right{part}" for part in ARM))
-"""Joints whose motion `Manner.size` scales: steps stay steps."""
+"""Joints whose motion `Manner.size` scales; steps are unchanged."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +77,9 @@ class _Plan:
     Attributes
     ----------
     times : TimeMap or None
-        None without steps.
+        Time map; None without segments.
     hits_s : (N,) float64
-        Of each step, how far along all motions it meets its place.
+        Position of each segment's accent along all motions in seconds.
     """
 
     steps: tuple[SegmentStep, ...]
@@ -88,7 +88,7 @@ class _Plan:
 
 
 class _Motion(NamedTuple):
-    """Stitched motion, moved to be on its stage; when its feet stand in the capture, its seams, how fast it goes."""
+    """Stitched motion within its stage, with captured stands of the feet, seams and speeds."""
 
     clip: MotionClip
     moved_m: FloatArray
@@ -98,12 +98,12 @@ class _Motion(NamedTuple):
 
 
 class Choreographer:
-    """A model prepared for generating: what depends on no piece is worked out once.
+    """A model prepared for generating, with everything independent of a piece computed once.
 
     Parameters
     ----------
     model : ChoreographyModel
-        With at least one segment.
+        Model with at least one segment.
     """
 
     def __init__(self, model: ChoreographyModel) -> None:
@@ -118,18 +118,18 @@ class Choreographer:
 
     @cached_property
     def _beat_s(self) -> float:
-        """Usual time from one footfall to the next in the capture."""
+        """Return the usual time in seconds between footfalls in the capture."""
         gaps_s = np.concatenate([np.diff(falls) for falls in self._falls_s])
         return own_beat_s(gaps_s) if len(gaps_s) else BEAT_S
 
     @cached_property
     def _stands(self) -> list[tuple[FootPlant, ...]]:
-        """Stands of the feet in each clip."""
+        """Return the stands of the feet in each clip."""
         return [stands(*pair) for pair in zip(self.model.clips, self._stitcher.contacts, strict=True)]
 
     @cached_property
     def _falls_s(self) -> list[FloatArray]:
-        """Times at which feet come down in each clip, ascending."""
+        """Return the times of footfalls in each clip, ascending."""
         return [
             np.array(sorted({stand.start / float(clip.fps) for stand in standing}), np.float64)
             for clip, standing in zip(self.model.clips, self._stands, strict=True)
@@ -141,18 +141,18 @@ class Choreographer:
 
     @cached_property
     def _arrivals(self) -> list[IntArray]:
-        """Frames of each clip in which the body arrives."""
+        """Return the frames of arrivals in each clip."""
         return [arrival_frames(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
 
     @cached_property
     def _hits_s(self) -> FloatArray:
-        """(S,) time in its clip of the moment of each segment that is put on the beat."""
+        """Return the time (S,) in its clip of each segment's moment that is put on the beat."""
         slow = [smoothed(speed, fps) for speed, fps in zip(self._speeds, self._fps, strict=True)]
         return accents_s(self.model.segments, self._fps, slow, self._arrivals, self._falls_s)
 
     @cached_property
     def _idle(self) -> FloatArray:
-        """See `app.choreography.idling.idling_odds`."""
+        """Return the result of `app.choreography.idling.idling_odds`."""
         return idling_odds(self.model.segments, self._speeds, self._fps)
 
     @cached_property
@@ -165,7 +165,7 @@ class Choreographer:
 
     @cached_property
     def candidates(self) -> SegmentCandidates:
-        """The model's segments, compared with one another."""
+        """Return the model's segments with their mutual comparisons."""
         model, segments = self.model, self.model.segments
         fps = self._fps
         states = np.array([one.state for one in segments], np.int64)
@@ -185,7 +185,7 @@ class Choreographer:
 
     @cached_property
     def hearing(self) -> Hearing:
-        """Sounds of its segments."""
+        """Return the sounds of the model's segments."""
         return hearing(self.model, trust_in(self.model))
 
     def dance(
@@ -199,13 +199,14 @@ class Choreographer:
         first_s: float = 0.0,
         end_s: float | None = None,
     ) -> Dance:
-        """Dance to a piece. The same arguments give the same motion to the bit.
+        """Return a dance to a piece. Equal arguments give bitwise equal motion.
 
         Parameters
         ----------
         constraints : Constraints, optional
         first_s, end_s : float
-            The motion's first frame and its end; by default from the first tick to `REST_S` after the last step.
+            Time of the first frame and of the end in seconds; by default from the first tick to `REST_S` after the last
+            step.
         """
         rhythm = self.felt(rhythm)
         plan, body = self._planned(rhythm, manner, constraints, weights), manner.source or 0
@@ -239,17 +240,17 @@ class Choreographer:
     def steps(
         self, rhythm: Rhythm, manner: Manner, *, constraints: Constraints | None = None, weights: Weights | None = None
     ) -> tuple[SegmentStep, ...]:
-        """Return which segments are danced when."""
+        """Return the danced segments with their times."""
         return self._planned(self.felt(rhythm), manner, constraints, weights).steps
 
     def felt(self, rhythm: Rhythm) -> Rhythm:
-        """The rhythm as dancers of this model feel it; the places of its grid are those of the constraints."""
+        """Return the rhythm as dancers of this model feel it; constraints refer to the places of its grid."""
         return felt_at(rhythm, self._beat_s)
 
     def _planned(
         self, rhythm: Rhythm, manner: Manner, constraints: Constraints | None, weights: Weights | None
     ) -> _Plan:
-        """Return which segments are danced when, and how time goes meanwhile."""
+        """Return the danced segments with their times and time map."""
         candidates, grid, segments = self.candidates, grid_of(rhythm), self.model.segments
         initial = np.log(self.model.initial * self.model.states)[candidates.states]
         preferred = PREFERRED * np.array([one.clip == manner.source for one in segments], np.float64)
@@ -269,13 +270,15 @@ class Choreographer:
         return self._timed(chosen, grid, manner.source or 0)
 
     def _take_shares(self, rhythm: Rhythm, grid: AccentGrid) -> TakeShares:
-        """See `app.choreography.drums_of_dancers.take_shares`."""
+        """Return the result of `app.choreography.drums_of_dancers.take_shares`."""
         takes = np.array([one.clip for one in self.model.segments], np.int64)
         lasting = self.candidates.before_s + self.candidates.after_s
         return take_shares(self.hearing.percussion.drums, rhythm, grid.times_s, takes, lasting)
 
     def _standing(self, frames: Sequence[int]) -> FloatArray:
-        """Log odds of beginning or ending at frames of the segments' clips: both feet stand, one does, none does."""
+        """Return the log odds of beginning or ending at frames of the segments' clips, by the number of standing
+        feet.
+        """
         return np.asarray(0.5 * STANDING * (self._stitcher.feet_standing(frames) - 2.0))
 
     def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int) -> _Plan:
@@ -322,8 +325,9 @@ class Choreographer:
     def _draft(
         self, plan: _Plan, body: int, times_s: FloatArray, grid: AccentGrid
     ) -> tuple[MotionClip, FloatArray, FloatArray]:
-        """A plan in motion at `DRAFT_FPS`, feet on the beats, and when they would come down by the plan alone and do
-        come down."""
+        """Return the motion of a plan at `DRAFT_FPS` with feet on the beats, and the footfalls before and after this
+        adjustment.
+        """
         draft = self._motion(plan, body, DRAFT_FPS, times_s)
         standing = stands(draft.clip, draft.contacts, draft.moved_m)
         falls = self._on_beats(draft.clip, standing, float(times_s[0]), grid)
@@ -334,12 +338,12 @@ class Choreographer:
     def _on_beats(
         self, clip: MotionClip, standing: tuple[FootPlant, ...], first_s: float, grid: AccentGrid
     ) -> Footfalls:
-        """See `app.choreography.footfalls.on_beats`."""
+        """Return the result of `app.choreography.footfalls.on_beats`."""
         speeds_m_s = foot_speeds_m_s(clip) if len(clip) > 1 else None
         return on_beats(standing, len(clip), float(clip.fps), first_s, grid, self._step_s, speeds_m_s)
 
     def _arrivals_s(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """Return how far along all motions the body arrives: minima of the speed of segments laid end to end."""
+        """Return the positions of arrivals along all motions: speed minima of the concatenated segments."""
         ends = hits + self.candidates.after_s[segments]
         first = hits[0] - float(self.candidates.before_s[segments[0]])
         along = np.arange(first, ends[-1], 1.0 / FPS)
@@ -352,7 +356,7 @@ class Choreographer:
         return np.asarray(along[arrival_frames(speed, FPS)])
 
     def _falls_along(self, segments: IntArray, hits: FloatArray) -> FloatArray:
-        """Return how far along all motions feet come down in segments laid end to end."""
+        """Return the positions of footfalls along all motions of the concatenated segments."""
         found = []
         for segment, hit, hit_s in zip(segments.tolist(), hits, self._hits_s[segments], strict=True):
             one = self.model.segments[segment]
@@ -375,8 +379,7 @@ class Choreographer:
 
 
 def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:
-    """The path (F, 3) with its ways shortened, so that all of it is within `STAGE_M` of the place; sway, steps and
-    heights as they were."""
+    """Return the path (F, 3) scaled to within `STAGE_M` of the place, with sway, steps and heights unchanged."""
     way = gaussian_filter1d(hips_m, WANDERS_S * fps, axis=0, mode="nearest") * (1.0, 0.0, 1.0)
     sway = np.linalg.norm((hips_m - way) * (1.0, 0.0, 1.0), axis=1)
     wide = 2 * round(2.5 * WANDERS_S * fps) + 1

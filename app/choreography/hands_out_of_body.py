@@ -1,7 +1,7 @@
-"""Hands stay out of the body: where a dance would put one into trunk, head or thighs, its arm is bent away.
+"""Keeps hands out of the body: an arm whose hand would enter trunk, head or thighs is bent away.
 
-The body is a few capsules, for only its segments are known; how deep a hand is in them is smoothed over time, so that
-a hand goes round the body and does not snap to its surface.
+The body is a few capsules, since only segments are known; the depth of a hand is smoothed over time, so that it moves
+around the body without snapping to its surface.
 """
 
 from __future__ import annotations
@@ -27,28 +27,28 @@ CAPSULES: Final = (
     ("rightUpperLeg", "rightLowerLeg", 0.035),
     ("head", "crown", 0.050),
 )
-"""From joint to joint, with the radius in parts of the body's height. Captured hands lie on the body: their wrists are
-no nearer to its middle than this but for one frame in a hundred."""
+"""Joints at the ends of each capsule, and its radius relative to the body's height: captured wrists are nearer to the
+middle in only one of a hundred frames.
+"""
 ALONG: Final = (0.0, 0.5, 1.0)
-"""Points of a hand that are looked at, from the wrist to the fingertips."""
+"""Examined points of a hand, from the wrist (0) to the fingertips (1)."""
 AHEAD_M: Final = 0.03
 """A point in the middle of the body is pushed to the front."""
 SMOOTH_S: Final = 0.08
-"""Standard deviation in time of how far a hand is pushed."""
+"""Standard deviation in seconds of the smoothing of the push's distance."""
 TURNS_S: Final = 0.16
-"""Time over which the direction of the push is smoothed: a hand that goes through the body is not thrown from one
-side to the other."""
+"""Time in seconds over which the push's direction is smoothed, so that a hand crossing the body does not jump."""
 PASSES: Final = 2
-"""A hand that is pushed out of one part may come into another."""
+"""Number of passes, since a hand pushed out of one part may enter another."""
 LEAST_M: Final = 0.002
 NEAR_M: Final = 0.001
-"""Rounding, when hands are left out that are farther from a part of the body than they are long."""
+"""Margin in metres for rounding when distant hands are skipped."""
 ELBOW: Final = (0.0, 0.0, -1.0)
 """Direction of an elbow, in the frame of the upper arm."""
 
 
 def out_of_body(clip: MotionClip) -> MotionClip:
-    """The motion with its hands outside of its body; the same value where they are."""
+    """Return the motion with hands outside of the body; the same object if they are."""
     for _ in range(PASSES):
         clip = _pushed(clip)
     return clip
@@ -72,13 +72,13 @@ def _pushed(clip: MotionClip) -> MotionClip:
 
 
 def depths_m(clip: MotionClip) -> FloatArray:
-    """(F, 2) how deep the left and the right hand are in the body; 0 outside."""
+    """Return the depth (F, 2) in metres of the left and right hand in the body; 0 outside."""
     world = clip.world()
     return np.stack([np.linalg.norm(_deepest_m(clip, world, side), axis=1) for side in ("left", "right")], axis=1)
 
 
 def _push_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
-    """(F, 3) by how much a hand is moved: at least as far as it is inside, and smooth."""
+    """Return the smooth displacement (F, 3) of a hand, at least its depth."""
     fps = float(clip.fps)
     deepest = _deepest_m(clip, world, side)
     depth = np.linalg.norm(deepest, axis=1)
@@ -93,7 +93,7 @@ def _push_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
 
 
 def _deepest_m(clip: MotionClip, world: JointTransforms, side: str) -> FloatArray:
-    """(F, 3) the shortest way out of the body for the point of a hand that is deepest in it; 0 outside."""
+    """Return the shortest way (F, 3) out of the body for the deepest point of a hand; 0 outside."""
     hand = 1 + SEGMENTS.index(f"{side}Hand")
     along = quaternion.rotate(world.rotations[:, hand], clip.shape.ends_m[ENDS.index(f"{side}Hand")])
     ahead = quaternion.rotate(world.rotations[:, 1 + SEGMENTS.index("chest")], np.array((0.0, 0.0, AHEAD_M)))

@@ -1,6 +1,6 @@
-"""The hidden Markov model of basic motions: its probabilities, counted.
+"""The hidden Markov model of basic motions: probabilities by counting.
 
-Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM": while learning, the states
+Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM": during learning the states
 are visible, so that transition, emission and initial probabilities are counted (`app.choreography.sequence` solves).
 """
 
@@ -17,20 +17,18 @@ from app.choreography.rhythm import SYMBOLS
 def count(
     states: Sequence[IntArray], symbols_per_segment: Sequence[Sequence[IntArray]], n_states: int, *, smoothing: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Transition, emission and initial probabilities of the state sequences that were seen.
+    """Return transition, emission and initial probabilities counted in state sequences.
 
     Parameters
     ----------
     states : sequence of (S,) int
-        Of each clip, the state of each segment in time order; a clip may be empty. No transition is counted from one
-        clip to the next.
+        State of each segment in time order, by clip; a clip may be empty. Transitions between clips are not counted.
     symbols_per_segment : sequence of sequences of (H,) int
-        Of each clip, the percussion symbols that sound in each segment; a segment may have none, or one symbol
-        several times.
+        Percussion symbols during each segment, by clip; a segment may have none, or a symbol several times.
     smoothing : float
-        Number of observations added to every distribution, shared equally by its outcomes (additive smoothing), so
-        that its weight depends neither on the number of states nor on the number of symbols. Greater than 0: an
-        unseen outcome stays possible, and a state that was never left has a uniform row.
+        Number of observations added to every distribution, divided equally among its outcomes (additive smoothing), so
+        that its weight is independent of the numbers of states and symbols. Greater than 0, so that unseen outcomes
+        stay possible, and a state without successors has a uniform row.
 
     Returns
     -------
@@ -42,7 +40,7 @@ def count(
     Raises
     ------
     ValueError
-        If `smoothing` is not greater than 0, or the clips or segments of the two sequences differ in number.
+        `smoothing` is not greater than 0, or the two sequences differ in their number of clips or segments.
     """
     if not smoothing > 0.0:
         raise ValueError(f"smoothing must be greater than 0: {smoothing}")

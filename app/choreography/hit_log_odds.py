@@ -1,4 +1,4 @@
-"""Music as the segments of a choreography hear it: log odds of every hit in each of them."""
+"""Log odds of every hit in the music during each segment of a choreography."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app.choreography.model import ChoreographyModel
 from app.choreography.rhythm import SYMBOLS, Rhythm
 
 OF_ALL: Final = 2.0
-"""Weight of what a basic motion sounded to with all dancers, in sounds of its own with one."""
+"""Weight of a basic motion's sounds with all dancers in those with one dancer, as a number of sounds."""
 SAME_S: Final = 1e-6
 
 
@@ -28,18 +28,18 @@ class HeardHits:
     times_s : (H,) float64
         Ascending.
     summed : (H + 1, S) float64
-        Log odds of all hits before each one, if they sounded during the segment.
+        Cumulative log odds of all hits before each one, if they sounded during the segment.
     """
 
     times_s: FloatArray
     summed: FloatArray
 
     def before(self, at_s: FloatArray | float) -> IntArray:
-        """Numbers of hits before some times; a hit at a time, but for rounding, is not before it."""
+        """Return the number of hits before given times; a hit at a time is not before it, within rounding."""
         return np.asarray(np.searchsorted(self.times_s, np.asarray(at_s) - SAME_S))
 
     def between(self, start_s: FloatArray | float, stop_s: FloatArray | float) -> FloatArray:
-        """(S,) log odds of the hits in a span of each segment, or in one span."""
+        """Return the log odds (S,) of the hits in a span of each segment, or in one span."""
         first, stop = self.before(start_s), self.before(stop_s)
         segments = np.arange(self.summed.shape[1])
         return np.asarray(self.summed[stop, segments] - self.summed[first, segments])
@@ -47,14 +47,14 @@ class HeardHits:
 
 @dataclass(frozen=True, eq=False)
 class SoundOdds:
-    """Log odds of a sound during each segment of a model, in two parts that add up.
+    """Log odds of a sound during each segment of a model, as the sum of two parts.
 
     Attributes
     ----------
     of_dancers : (S, 47) float64
-        The mean of the segments of each clip: what its dancer was heard to dance to.
+        Mean over the segments of each clip: the sounds to which its dancer danced.
     of_motions : (S, 47) float64
-        What each motion sounded to beyond that.
+        Additional log odds of each motion.
     drums : DancersDrums
     """
 
@@ -63,8 +63,9 @@ class SoundOdds:
     drums: DancersDrums
 
     def of_hits(self, rhythm: Rhythm, *, any_dancer: bool) -> FloatArray:
-        """(H, S) log odds of each hit: where a dancer is to be found by sounds like those that one was learned with,
-        those of the dancers too."""
+        """Return the log odds (H, S) of each hit, including those of dancers if the dancer is to be chosen by
+        sounds.
+        """
         found = self.of_motions[:, rhythm.symbols].T
         if not any_dancer or len(rhythm.beats_s) < 2:
             return found
@@ -74,27 +75,27 @@ class SoundOdds:
 
 @dataclass(frozen=True, eq=False)
 class Hearing:
-    """Log odds of a sound during each segment of a model, against how often it sounds at all.
+    """Log odds of a sound during each segment of a model, relative to its frequency.
 
     Attributes
     ----------
     percussion, melody : SoundOdds
-        Melody, bass and accents stand for drums (`app.choreography.derived_rhythm`): those of a piece without
-        percussion count as percussion, those beside percussion as ``melody``.
+        Melody, bass and accents replace drums (`app.choreography.derived_rhythm`): in a piece without percussion they
+        count as percussion, otherwise as ``melody``.
     """
 
     percussion: SoundOdds
     melody: SoundOdds
 
     def hits(self, rhythm: Rhythm, melody: float, *, any_dancer: bool = True) -> HeardHits:
-        """The hits of a piece, each counted by its strength wherever in a segment it is, as when they are learned.
+        """Return the hits of a piece, weighted by strength, regardless of their place within a segment as in learning.
 
         Parameters
         ----------
         melody : float
-            How much melody, bass and accents count beside percussion.
+            Weight of melody, bass and accents relative to percussion.
         any_dancer : bool
-            The sounds say whose motions are danced, not only which of one dancer's.
+            Whether sounds decide about the dancer and not only about the motion.
         """
         struck = self.percussion.of_hits(rhythm, any_dancer=any_dancer)
         times_s, scores = rhythm.hits_s, rhythm.strengths[:, None] * struck
@@ -108,13 +109,12 @@ class Hearing:
 
 
 def hearing(model: ChoreographyModel, trust: float = 1.0) -> Hearing:
-    """Learn how segments sound; a model without melodies hears them as the percussion that they stand for.
+    """Return the sounds of a model's segments; a model without melodies uses the percussion that they replace.
 
     Parameters
     ----------
     trust : float
-        Weight of what a motion sounded to beyond what its dancer did
-        (`app.choreography.music_motion_dependence.trust_in`).
+        Weight of a motion's own sounds beyond its dancer's (`app.choreography.music_motion_dependence.trust_in`).
     """
     percussion = _odds(model, [one.sounds for one in model.segments], model.emission, learned_symbols(model), trust)
     melodies = [one.melody for one in model.segments]
@@ -134,10 +134,11 @@ def _odds(
     known: Sequence[int],
     trust: float,
 ) -> SoundOdds:
-    """Log odds of each symbol during each segment.
+    """Return the log odds of each symbol during each segment.
 
-    A basic motion of several dancers sounded to the drums of each: those of its own dancer count most. A symbol that
-    was never heard tells nothing; smoothing alone would have it of the motions that heard least.
+    A basic motion of several dancers was danced to the drums of each; those of its own dancer have most weight. A
+    symbol that was never heard gives no information, although smoothing alone would favour the motions with fewest
+    sounds.
     """
     states = np.array([one.state for one in model.segments], np.int64)
     clips = np.array([one.clip for one in model.segments], np.int64)
@@ -155,7 +156,8 @@ def _odds(
 
 
 def learned_symbols(model: ChoreographyModel) -> tuple[int, ...]:
-    """Percussion symbols that were counted with some state: those that are more probable in it than by smoothing alone,
-    which is what the least probable symbol of a state has."""
+    """Return the percussion symbols that were counted with some state: those with a probability above the least of a
+    state, which results from smoothing only.
+    """
     least = model.emission.min(axis=1, keepdims=True)
     return tuple(np.flatnonzero((model.emission > least * (1.0 + 1e-9)).any(axis=0)).tolist())

@@ -1,4 +1,4 @@
-"""Motion of a capture in which its body idles or moves little, and how far it is avoided while music sounds."""
+"""Detection of idle or small motion in a capture, which is avoided while music sounds."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from app.arrays import FloatArray
 from app.choreography.model import MotionSegment
 
 IDLE: Final = 10.0
-"""Log odds a second against a segment in which the body idles."""
+"""Log odds per second against a segment in which the body idles."""
 HELD_S: Final = 0.3
-"""A body that is slow for less holds a pose within its motion."""
+"""Longest time in seconds for which a slow body counts as holding a pose."""
 IDLE_SHARE: Final = 0.4
-"""A body idles that is slower than this share of the median speed of its clip ..."""
+"""Share of its clip's median speed below which a body idles."""
 IDLE_S: Final = 0.25
-"""... averaged by a Gaussian of this standard deviation."""
+"""Standard deviation in seconds of the Gaussian that averages this speed."""
 THIN: Final = 8.0
-"""Log odds a second against a segment in which the body hardly moves; of one that moves little, by how little."""
+"""Log odds per second against a segment without motion; proportionally less for small motion."""
 THIN_SHARE: Final = 0.8
-"""A body moves little that is slower than this share of the median speed of all clips."""
+"""Share of the median speed of all clips below which motion is small."""
 
 
 def idling_odds(segments: Sequence[MotionSegment], speeds: Sequence[FloatArray], rates: Sequence[float]) -> FloatArray:
-    """(S,) log odds against each segment.
+    """Return the log odds (S,) against each segment.
 
     Parameters
     ----------
     speeds, rates : sequence
-        By clip: mean speed of the joints in each frame, and frames per second.
+        Mean speed of the joints in each frame, and frames per second, by clip.
     """
     means = [gaussian_filter1d(speed, IDLE_S * fps, mode="nearest") for speed, fps in zip(speeds, rates, strict=True)]
     of_all = float(np.median(np.concatenate(means)))

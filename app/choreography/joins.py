@@ -1,10 +1,9 @@
-"""Joins between motions: which can follow one another, and a blend that shows no seam (H6).
+"""Joins between motions: which motions can follow each other, and a blend without a visible seam (H6).
 
-Two motions are compared at a join as clouds of points of the body, shortly before, at and shortly after it, so that
-poses and velocities both count; the second is turned about the vertical and moved over the floor to where it fits best
-(L. Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002). What is left between them is carried on and fades
-out with the velocity it had (D. Bollo, "Inertialization", GDC 2018): the quintic that starts with a given value and
-slope and ends at rest.
+Two motions are compared at a join as point clouds of the body shortly before, at and shortly after it, so that poses
+and velocities both count; the second is rotated about the vertical and moved over the floor for the best fit (L. Kovar,
+M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002). The remaining difference fades out from its initial velocity
+(D. Bollo, "Inertialization", GDC 2018): a quintic with given initial value and slope that ends at rest.
 """
 
 from __future__ import annotations
@@ -20,15 +19,15 @@ from app.choreography.clip import MotionClip
 from app.choreography.features import joint_points_m, size_m
 
 AROUND_S: Final = (-0.1, 0.0, 0.1)
-"""Times about a join at which bodies are compared."""
+"""Times in seconds about a join at which bodies are compared."""
 _HEAVY: Final = {"leftFoot": 2.0, "rightFoot": 2.0, "leftHand": 0.7, "rightHand": 0.7, "head": 0.7}
-"""Weights of parts in a difference: it shows most at feet, which stand; hands may be anywhere."""
+"""Weights of parts in a difference, which shows most at standing feet and least at hands."""
 FADE_S: Final = 0.45
-"""Within this time what is left between two motions has faded."""
+"""Time in seconds within which the difference of two motions fades out."""
 
 
 class Clouds:
-    """Bodies about some frames, to be compared with one another.
+    """Bodies about some frames for comparison.
 
     Parameters
     ----------
@@ -61,7 +60,9 @@ _WEIGHTS /= _WEIGHTS.sum()
 
 
 def distances_m(before: Clouds, after: Clouds) -> FloatArray:
-    """(N, M) root mean square distance of the bodies' points, each pair laid over one another as well as can be."""
+    """Return the root mean square distance (N, M) in metres of the bodies' points, for the best alignment of each
+    pair.
+    """
     turned = np.abs((before.flat.conj() * _WEIGHTS) @ after.flat.T)
     flat = _square(np.abs(before.flat), np.abs(after.flat)) - 2.0 * turned
     high = _square(before.height, after.height) - 2.0 * (before.height * _WEIGHTS) @ after.height.T
@@ -74,24 +75,24 @@ def _square(before: FloatArray, after: FloatArray) -> FloatArray:
 
 
 def best_turn_rad(before: ComplexArray, after: ComplexArray) -> float:
-    """Turn about +Y that lays one body over another, both as `Clouds.flat` has them (P,)."""
+    """Return the rotation about +Y in radians that aligns one body with another, both as in `Clouds.flat` (P,)."""
     return float(np.angle((after.conj() * before) @ _WEIGHTS))
 
 
 def fading_difference(value: FloatArray, slope: FloatArray, times_s: FloatArray, fade_s: float = FADE_S) -> FloatArray:
-    """A difference that fades out.
+    """Return a difference that fades out.
 
     Parameters
     ----------
     value, slope : (...)
-        At time 0, and its rate of change per second.
+        Value at time 0, and its rate of change per second.
     times_s : (T,) float64
         From 0 on.
 
     Returns
     -------
     (T, ...) float64
-        The quintic with this value and slope and no bend at 0, and nothing of all three from ``fade_s`` on.
+        Quintic with this value and slope and no curvature at 0, and all three 0 from ``fade_s`` on.
     """
     u = np.clip(times_s / fade_s, 0.0, 1.0).reshape(-1, *(1,) * np.ndim(value))
     rest = 1.0 - u

@@ -1,8 +1,8 @@
-"""Joints of a captured body whose bones have no known names: by the lengths of bones, which no pose changes.
+"""Joints of a captured body with unknown bone names, found by the lengths of bones, which are independent of poses.
 
-Limbs are the two pairs of branches that are alike and have no large branches of their own; the pair with the longer
-bones are the legs. A limb's two parts are the two bones, one after the other, that are longest together. Sides are
-arbitrary here: `app.choreography.sides` finds them in the motion.
+Limbs are the two pairs of similar branches without large branches of their own; the pair with longer bones are the
+legs. A limb's two parts are the two consecutive bones of greatest length. Sides are arbitrary here:
+`app.choreography.sides` finds them in the motion.
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ from app.arrays import FloatArray
 from app.rig.characters.joints_by_shape import Tree, fingers, spread_spine, tree_of
 
 POSES: Final = 25
-"""Poses, evenly over the motion, that are looked at."""
+"""Number of examined poses, evenly over the motion."""
 ALIKE: Final = 0.12
-"""Branches whose lengths differ by less than this part are alike."""
+"""Relative difference of lengths below which branches are similar."""
 SIDE_BRANCH: Final = 0.4
-"""Branches shorter than this part of a limb are fingers, toes and heels."""
+"""Length relative to a limb below which branches are fingers, toes and heels."""
 PARTS_ALIKE: Final = 0.5
-"""The shorter part of a limb is longer than this part of the other."""
+"""Least ratio of the shorter part of a limb to the longer."""
 LIMB_PART: Final = 0.5
-"""The two parts of a limb make more than this part of it; where they do not, bones are split."""
+"""Least share of a limb that its two parts take; otherwise bones are split."""
 STRAIGHT: Final = 0.03
 """Sine of the bend up to which a joint is within a bone."""
 
 
 @dataclass(frozen=True)
 class _Limb:
-    """A limb from the joint it hangs from: joints down to the end, and those that its two parts lie between."""
+    """A limb from the joint that it is attached to: joints to the end, and those that bound its two parts."""
 
     root: int
     path: tuple[int, ...]
@@ -47,16 +47,16 @@ def joints_by_lengths(
     end_lengths: Mapping[int, float],
     turning: Collection[int] = (),
 ) -> dict[str, int]:
-    """Bones by VRM 1.0 joint; empty where there is no body.
+    """Return bones by VRM 1.0 joint; empty if there is no body.
 
     Parameters
     ----------
     positions : ndarray, shape (F, J, 3)
         Joints in the world.
     end_lengths : mapping of int to float
-        Length of the bones that end nowhere, by joint.
+        Length of the bones without a child joint, by joint.
     turning : collection of int
-        Joints that turn: the last one above the neck is a head then, and no crown.
+        Joints that rotate: the last one above the neck is then a head and not a crown.
     """
     frames = np.linspace(0, len(positions) - 1, min(POSES, len(positions))).round().astype(int)
     poses = positions[frames]
@@ -65,7 +65,7 @@ def joints_by_lengths(
 
 
 class _Body:
-    """Lengths of the bones of a tree, and what they make of it."""
+    """Lengths of the bones of a tree, and the joints derived from them."""
 
     def __init__(
         self, tree: Tree, poses: FloatArray, end_lengths: Mapping[int, float], turning: Collection[int]
@@ -103,7 +103,7 @@ class _Body:
         return found
 
     def _pair(self, joint: int) -> tuple[_Limb, _Limb] | None:
-        """The two longest branches of a joint that are limbs alike."""
+        """Return the two longest branches of a joint that are similar limbs."""
         limbs = [limb for child in self._tree.children[joint] if (limb := self._limb(joint, child)) is not None]
         alike = [pair for pair in combinations(limbs, 2) if self._alike(*(limb.path[0] for limb in pair))]
         return max(alike, key=lambda pair: pair[0].length + pair[1].length, default=None)
@@ -145,7 +145,7 @@ class _Body:
         return float(np.median(np.linalg.norm(self._poses[:, one] - self._poses[:, other], axis=1)))
 
     def _unsplit(self, path: Sequence[int]) -> list[int]:
-        """The path without joints at which it never bends."""
+        """Return the path without joints at which it never bends."""
         kept = [path[0]]
         for joint, after in pairwise(path[1:]):
             before, behind = (self._poses[:, one] - self._poses[:, joint] for one in (kept[-1], after))
@@ -155,7 +155,9 @@ class _Body:
         return [*kept, path[-1]]
 
     def _named(self, limb: _Limb, names: Sequence[str]) -> dict[str, int]:
-        """Joints of a limb; the first and the last of the names are of what is before and behind it, empty: of none."""
+        """Return the joints of a limb; the first and last names are for the joints before and after it, empty for
+        none.
+        """
         before = limb.path[: limb.path.index(limb.joints[0])]
         behind = limb.path[limb.path.index(limb.joints[2]) + 1 :]
         joints = [before[-1] if before else None, *limb.joints, behind[0] if behind else None]
@@ -166,7 +168,9 @@ class _Body:
         }
 
     def _head(self, chest: int, arms: set[int], hips: int) -> list[int]:
-        """Joints from the chest to the head; the last that has something beyond it, or turns."""
+        """Return the joints from the chest to the head, which is the last one that has something beyond it or
+        rotates.
+        """
         children = [one for one in self._tree.children[chest] if one not in arms and one not in self._tree.above[hips]]
         if hips not in self._tree.above[chest]:
             children = [one for one in children if one != hips]

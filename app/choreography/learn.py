@@ -1,8 +1,8 @@
-"""Learn a choreography from pairs of motion and music.
+"""Learning of a choreography from pairs of motion and music.
 
 Source: K. Kameda, I. Watanabe, M. Yamamoto, "Music Driven Computer Animation Based On HMM": motions are cut
-(`app.choreography.cuts`) and classified (`app.choreography.basic_motions`), then the states are visible and their
-probabilities are counted (`app.choreography.hidden_markov`).
+(`app.choreography.cuts`) and classified (`app.choreography.basic_motions`); the states are then visible and their
+probabilities counted (`app.choreography.hidden_markov`).
 """
 
 from __future__ import annotations
@@ -37,21 +37,21 @@ SMOOTHING: Final = 1.0
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """A motion and the music that it was danced to.
+    """A motion and the music to which it was danced.
 
     Attributes
     ----------
     motion_name : str
         Of the file, without folders.
     offset_s : float or None
-        The music's first tick is at this time of the motion; None to find it.
+        Time of the motion at the music's first tick in seconds; None to find it.
     credits : str
         See `app.choreography.model.TrainingPair`.
     cuts : tuple of Cut or None
-        Frames of the motion at `FPS`, as a user set them; None to cut it (`app.choreography.cuts.segment`).
+        Cuts in frames of the motion at `FPS` set by the user; None to find them (`app.choreography.cuts.segment`).
     unfit : tuple of (start, stop)
-        Spans of the motion's frames from which nothing is learned (`app.choreography.cleaning.CleanedClip.unfit`), also
-        where a user cuts it.
+        Spans of the motion's frames not to learn from (`app.choreography.cleaning.CleanedClip.unfit`), even if the
+        user's cuts include them.
     """
 
     motion: MotionClip
@@ -66,18 +66,18 @@ class Pair:
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """Analysis of a pair before a model learns from it.
+    """Analysis of a pair before learning.
 
     Attributes
     ----------
     clip : MotionClip
-        The motion as a model holds it, at `FPS`.
+        Motion in the form of a model, at `FPS`.
     segmentation : Segmentation
-        Of this clip; what is unfit belongs to no cut.
+        Cuts of this clip, without those in unfit spans.
     unfit : tuple of (start, stop)
-        Frames of this clip from which nothing is learned.
+        Frames of this clip not to learn from.
     offset : MusicOffset
-        Where the music begins; found, also where the pair says it.
+        Start of the music as found automatically, even if the pair has one.
     """
 
     clip: MotionClip
@@ -87,7 +87,7 @@ class Analysis:
 
 
 def analyse(pair: Pair) -> Analysis:
-    """Cut the motion of a pair, and find where its music begins."""
+    """Return the cuts of a pair's motion, and the start of its music."""
     clip = stored(pair.motion)
     found, unfit = segment(clip), _unfit(pair)
     fit = replace(found, cuts=_fit(found.cuts, unfit))
@@ -95,8 +95,9 @@ def analyse(pair: Pair) -> Analysis:
 
 
 def require_usable(pair: Pair) -> None:
-    """Raise UsageError if nothing can be learned from a pair: nothing moves, music and motion do not meet, or its cuts
-    are none of its motion."""
+    """Raise UsageError if nothing can be learned from a pair: there is no motion, music and motion do not overlap, or
+    its cuts do not fit its motion.
+    """
     clip = stored(pair.motion)
     cuts = _cuts(pair, clip)
     if not cuts:
@@ -112,22 +113,22 @@ def learn(
     name: str,
     progress: Callable[[float, str], None] = lambda fraction, label: None,
 ) -> ChoreographyModel:
-    """Basic motions and their grammar.
+    """Return a model of basic motions and their probabilities.
 
     Parameters
     ----------
     states : int or None
         Number of basic motions; None to choose it (`app.choreography.basic_motions.SPREAD`).
     seed : int
-        Of k-means. The same pairs, states and seed give the same model, to the bit.
+        Seed of k-means. Equal pairs, states and seed give a bitwise equal model.
     progress : callable
-        Called with the share of the work that is done, and with what is done now; what it raises ends the work.
+        Called with the completed share of the work and the current step; an exception raised by it stops the work.
 
     Raises
     ------
     UsageError
-        If nothing moves, there are fewer motions than states, music and motion of a pair do not meet, or its cuts are
-        none of its motion.
+        There is no motion, there are fewer motions than states, music and motion of a pair do not overlap, or its cuts
+        do not fit its motion.
     """
     clips, sources, cuts = [], [], []
     for number, pair in enumerate(pairs):
@@ -171,7 +172,7 @@ def learn(
 
 
 def summary(model: ChoreographyModel, file: Path) -> Message:
-    """Return how much was learned."""
+    """Return a message about the size of a learned model."""
     return Message(
         "learn.done",
         {
@@ -185,7 +186,7 @@ def summary(model: ChoreographyModel, file: Path) -> Message:
 
 
 def stored(motion: MotionClip) -> MotionClip:
-    """A motion as a file keeps it (at `FPS`, float32), so that a model is the same before it is written and after."""
+    """Return a motion as a file stores it (at `FPS`, float32), so that a model is equal before and after writing."""
     clip = resampled(motion, FPS)
     return replace(
         clip,
@@ -201,13 +202,13 @@ def _cuts(pair: Pair, clip: MotionClip) -> tuple[Cut, ...]:
 
 
 def _unfit(pair: Pair) -> tuple[tuple[int, int], ...]:
-    """Frames at `FPS` from which nothing is learned."""
+    """Return the frames at `FPS` not to learn from."""
     rate = FPS / pair.motion.fps
     return tuple((math.floor(start * rate), math.ceil(stop * rate)) for start, stop in pair.unfit)
 
 
 def _fit(cuts: Sequence[Cut], unfit: Sequence[tuple[int, int]]) -> tuple[Cut, ...]:
-    """Cuts that touch nothing unfit."""
+    """Return the cuts that do not touch unfit spans."""
     return tuple(cut for cut in cuts if all(cut.end <= start or stop <= cut.start for start, stop in unfit))
 
 
@@ -220,7 +221,7 @@ def _source(pair: Pair, clip: MotionClip) -> TrainingPair:
 
 
 def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment]) -> list[MotionSegment]:
-    """The motions of a clip with the symbols that sound during each."""
+    """Return the motions of a clip with the symbols during each."""
     spans = [(one.start, one.end) for one in segments]
     sounds = _sounds(pair.rhythm, source, spans)
     _require_sounds(pair, sounds)
@@ -229,7 +230,7 @@ def _sounding(pair: Pair, source: TrainingPair, segments: Sequence[MotionSegment
 
 
 def _sounds(rhythm: Rhythm, source: TrainingPair, spans: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
-    """Symbols that sound during spans of a clip's frames."""
+    """Return the symbols during spans of a clip's frames."""
     bounds = np.array(spans, np.float64).reshape(-1, 2) / float(FPS)
     symbols = rhythm.symbols.tolist()
     within = np.searchsorted(rhythm.hits_s, bounds - source.offset_s).tolist()

@@ -1,4 +1,4 @@
-"""Legs and arms of a motion whose ends are somewhere else."""
+"""Legs and arms of a motion with moved ends."""
 
 from __future__ import annotations
 
@@ -17,15 +17,14 @@ from app.rig.sole import SIDES
 
 STRAIGHT: Final = 0.03
 BENT: Final = 0.09
-"""Bend of a knee that is off its straight leg by less than the one part of the leg's length, and more than the other.
-"""
+"""Limits of the bend of a nearly straight knee, relative to the leg's length."""
 STRETCHED_RAD: Final = 0.15
-"""A knee that would bend backwards, as where two motions fade into one another, stays within this of straight."""
+"""Greatest angle in radians of a knee that would bend backwards, as in a blend of two motions."""
 _ACROSS: Final = (1.0, 0.0, 0.0)
 
 
 def unbroken(clip: MotionClip) -> MotionClip:
-    """The motion without knees that bend backwards."""
+    """Return the motion without knees that bend backwards."""
     rotations = clip.rotations.copy()
     for side in SIDES:
         shank = rotations[:, SEGMENTS.index(f"{side}LowerLeg")]
@@ -44,23 +43,23 @@ def bend(
     ahead: tuple[float, float, float],
     rotations: FloatArray,
 ) -> None:
-    """Turn thigh and shank, or upper and lower arm, by as little as brings the ankle or the wrist to a place.
+    """Rotate thigh and shank, or upper and lower arm, minimally so that the ankle or wrist reaches a place.
 
-    The foot keeps its turn in the world, the knee stays in the plane it was in, and a leg whose ankle is there already
-    is left as it is. So with arms.
+    The foot keeps its rotation in the world, the knee stays in its plane, and a leg whose ankle is in place is
+    unchanged. Arms are treated equally.
 
     Parameters
     ----------
     world : JointTransforms
         Of the clip.
     limb : tuple of str
-        Segments: what carries the limb, its two parts, and its foot or hand.
+        Names of the segments: parent of the limb, its two parts, and its foot or hand.
     ankle : (F, 3) float64
         The place.
     ahead : 3 floats
-        Where the knee of a straight limb points, of its upper part.
+        Direction of a straight limb's knee, relative to its upper part.
     rotations : (F, 16, 4) float64
-        Where the limb's new rotations are written.
+        Array that receives the limb's new rotations.
     """
     hip_at, thigh_at, shank_at, foot_at = (1 + SEGMENTS.index(name) for name in limb)
     hip, knee, was = (world.positions_m[:, at] for at in (thigh_at, shank_at, foot_at))
@@ -102,7 +101,7 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _softly(distance: FloatArray, longest: float) -> FloatArray:
-    """Full extension is approached, so that the knee does not snap."""
+    """Return distances limited softly near full extension, so that the knee does not snap."""
     band = SOFT_SHARE * longest
     over = np.maximum(distance - (longest - band), 0.0)
     return np.asarray(np.where(over > 0.0, longest - band * np.exp(-over / band), distance))

@@ -1,7 +1,7 @@
-"""Mending of a damaged capture: short damage is replaced, the body goes on after a jump, the rest is left out.
+"""Repair of a damaged capture: short damage is replaced, jumps are removed, the rest is excluded.
 
-Left out means that no motion is taken from there (`app.choreography.learn`). The frames stay, bridged: what is worked
-out over many frames, as filters and splines are, does not see the damage.
+Excluded spans are not learned from (`app.choreography.learn`). Their frames are bridged, so that filters and splines
+over many frames are not influenced by the damage.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ from app.choreography.damage import Damage, damage
 from app.rig import quaternion
 
 LONGEST_S: Final = 0.125
-"""Longer damage is left out: what a body does in an eighth of a second and more follows from nothing."""
+"""Longest damage in seconds that is replaced; the motion during a longer time cannot be inferred."""
 ROUNDS: Final = 2
-"""Rounds of mending after which damage that still shows is left out."""
+"""Number of rounds after which remaining damage is excluded."""
 JUMP_RAD: Final = 0.5
-"""A segment farther than this from where its motion led has jumped, and is not back."""
+"""Angle in radians from its extrapolated motion beyond which a segment has jumped."""
 HIPS_JUMP_RAD: Final = 0.1
 JUMP_M: Final = 0.03
 MOST_LEAN_RAD: Final = 0.5
-"""A body whose hips tilt by more in a jump does not go on: something else is wrong."""
+"""Greatest tilt of the hips in radians in a jump that can be removed."""
 APART_S: Final = 0.75
-"""Between two jumps of a segment no farther apart than this its motion is wrong."""
+"""Time in seconds between two jumps of a segment within which its motion is wrong."""
 LONG_APART_S: Final = 10.0
 BACK: Final = 0.4
-"""And no farther than that, if the one undoes the other to this part of it, or both sides of the body jump in both."""
+"""Remaining share of a jump below which the second jump undoes the first."""
 MARGIN_S: Final = 0.05
 FADE_S: Final = 0.4
-"""Time within which the rest of lean and height after a jump fades into what was captured."""
+"""Time in seconds within which the remaining lean and height after a jump fade out."""
 _FLAT: Final = np.array((1.0, 0.0, 1.0))
 _UP: Final = (0.0, 1.0, 0.0)
 
@@ -50,12 +50,12 @@ class Mended:
     Attributes
     ----------
     clip : MotionClip
-        With as many frames; those that were sound are unchanged to the bit, but for later ones of a body that goes on
-        after a jump, which are turned about the vertical and moved.
+        Clip of equal length; sound frames are bitwise unchanged, except for those after a removed jump, which are
+        rotated about the vertical and moved.
     mended : tuple of Damage
-        What was replaced.
+        Replaced spans.
     left_out : tuple of Damage
-        What was not, ascending and without overlap.
+        Excluded spans, ascending and without overlap.
     """
 
     clip: MotionClip
@@ -64,7 +64,7 @@ class Mended:
 
 
 def mended(clip: MotionClip) -> Mended:
-    """Mend the damage of a clip; the same clip where there is none."""
+    """Return the repaired clip; the same object if there is no damage."""
     replaced: list[Damage] = []
     left_out: tuple[Damage, ...] = ()
     for last in (*(False,) * ROUNDS, True):
@@ -90,7 +90,7 @@ def _short(one: Damage, clip: MotionClip) -> bool:
 
 
 def _pairs(clip: MotionClip, jumps: Sequence[Damage]) -> list[Damage]:
-    """Spans from one jump of a segment to the next, where it is out of its place in between."""
+    """Return the spans between two jumps of a segment during which it is out of place."""
     found = []
     for at, part in enumerate(PARTS):
         back = -1
@@ -115,7 +115,7 @@ def _swapped(part: str, one: Damage, other: Damage) -> bool:
 
 
 def _undone(clip: MotionClip, at: int, one: Damage, other: Damage) -> bool:
-    """Return whether the second jump of a segment turns it back by what the first one turned it."""
+    """Return whether the second jump of a segment undoes the rotation of the first."""
     turns = clip.rotations[:, at]
     steps = [quaternion.multiply(quaternion.conjugate(turns[jump.start]), turns[jump.stop]) for jump in (one, other)]
     left = float(angle(quaternion.multiply(steps[0], steps[1]), quaternion.IDENTITY))
@@ -123,7 +123,7 @@ def _undone(clip: MotionClip, at: int, one: Damage, other: Damage) -> bool:
 
 
 def _united(lost: Sequence[Damage], clip: MotionClip) -> tuple[Damage, ...]:
-    """Damage with a margin, what overlaps as one."""
+    """Return the damage with a margin, with overlapping spans joined."""
     margin = round(MARGIN_S * float(clip.fps))
     found: list[Damage] = []
     for one in sorted(lost):
@@ -140,8 +140,9 @@ def _within(one: Damage, spans: Sequence[Damage]) -> bool:
 
 
 class _Body:
-    """A clip that is being mended. A jump of the hips turns and moves all later frames, which wait for that until
-    something else is mended or the end: so jumps cost what they change, however many they are."""
+    """A clip during its repair. A jump of the hips rotates and moves all later frames, which is postponed until other
+    repairs or the end, so that the cost is independent of the number of jumps.
+    """
 
     def __init__(self, clip: MotionClip) -> None:
         self._clip = clip
@@ -151,7 +152,7 @@ class _Body:
         self._fade = round(FADE_S * float(clip.fps))
 
     def jumped(self, one: Damage) -> tuple[str, ...]:
-        """Parts that after damage are not where their motion before and after it leads."""
+        """Return the parts that are not where the motion before and after damage leads."""
         found = []
         for part in one.parts:
             if part == "place":
@@ -173,12 +174,12 @@ class _Body:
         return float(angle(quaternion.swing_twist(missing, _UP)[0], quaternion.IDENTITY)) < MOST_LEAN_RAD
 
     def bridge(self, one: Damage, goes_on: bool) -> None:
-        """Replace the frames of damage: of the whole body, where its hips are damaged or all waits for it.
+        """Replace the frames of damage: of the whole body if its hips are damaged or a postponed change is pending.
 
         Parameters
         ----------
         goes_on : bool
-            The hips jumped; what follows is turned and moved to where they would be.
+            Whether the hips jumped, so that later frames are rotated and moved to the expected place.
         """
         self._move(min(one.stop + 2 + self._fade, len(self._hips)))
         if goes_on:
@@ -191,12 +192,12 @@ class _Body:
             _bridge(self._hips, one, self._clip)
 
     def clip(self) -> MotionClip:
-        """The clip as it is now."""
+        """Return the present clip."""
         self._move(len(self._hips))
         return replace(self._clip, hips_m=self._hips.copy(), rotations=self._turns.copy())
 
     def _move(self, stop: int) -> None:
-        """Turn and move the frames before ``stop`` that still wait for it."""
+        """Apply postponed rotations and moves to the frames before ``stop``."""
         some = slice(self._done, max(stop, self._done))
         if self._moves:
             self._hips[some] = quaternion.rotate(self._turn, self._hips[some]) + self._way
@@ -204,7 +205,7 @@ class _Body:
         self._done = some.stop
 
     def _led(self, one: Damage) -> tuple[FloatArray, FloatArray]:
-        """Place and turn of the hips at the first sound frame, as their motion leads there."""
+        """Return the expected place and rotation of the hips at the first sound frame."""
         hips, turns = self._hips, self._turns[:, 0]
         turn = _led(turns, one)
         missing = quaternion.multiply(turn, quaternion.conjugate(turns[one.stop]))
@@ -233,12 +234,12 @@ class _Body:
 
 
 def _steps(one: Damage, count: int) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Frames of the step before damage and of the step after it, within a clip of so many."""
+    """Return the frames of the steps before and after damage, within a clip of a length."""
     return (max(0, one.start - 1), one.start), (one.stop, min(one.stop + 1, count - 1))
 
 
 def _led(turns: FloatArray, one: Damage) -> FloatArray:
-    """Rotation at the first sound frame as the mean of the motion before and after it leads there."""
+    """Return the expected rotation at the first sound frame by the mean of the motion before and after."""
     vectors = [
         quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(turns[start]), turns[stop]))
         for start, stop in _steps(one, len(turns))
@@ -248,7 +249,7 @@ def _led(turns: FloatArray, one: Damage) -> FloatArray:
 
 
 def _bridge(values: FloatArray, one: Damage, clip: MotionClip) -> None:
-    """Fill in the frames between two, in place: at their speeds, or from the one to the other where that is far."""
+    """Fill in the frames between two in place: with their speeds, or directly if these differ much."""
     count = one.stop - one.start
     (first, start), (stop, last) = _steps(one, len(values))
     short = count / float(clip.fps) <= LONGEST_S or count <= 2

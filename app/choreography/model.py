@@ -1,4 +1,4 @@
-"""A learned choreography: basic motions, their grammar, and the motion they are made of."""
+"""A learned choreography: basic motions, their probabilities, and their motion."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from app.choreography.clip import MotionClip
 
 @dataclass(frozen=True)
 class TrainingPair:
-    """A pair of motion and music that a model was learned from.
+    """A pair of motion and music from which a model was learned.
 
     Attributes
     ----------
     motion_name, music_name : str
         Names of the files, without folders.
     offset_s : float
-        The music's first tick is at this time of the motion.
+        Time of the motion at the music's first tick in seconds.
     offset_confidence : float or None
-        0..1; None where the user gave the offset.
+        Confidence of the offset, 0..1; None if the user gave the offset.
     credits : str
         Provenance and licence of the motion, as text; empty if not given.
     cuts_given : bool
-        The user set where the motion is cut; it was not found. Files that do not say so are of found cuts.
+        Whether the user set the cuts; False by default in older files.
     """
 
     motion_name: str
@@ -36,19 +36,19 @@ class TrainingPair:
 
 @dataclass(frozen=True)
 class MotionSegment:
-    """One motion between two minima of the angular acceleration: frames of one clip of the model.
+    """One motion between two minima of the angular acceleration: frames of a clip of the model.
 
     Attributes
     ----------
     start, accent, end : int
         Frames at the minimum, the maximum and the next minimum; the segment is ``start`` to ``end`` (half-open), and
-        the next segment of the clip, if it follows at once, begins at ``end``.
+        the next segment of the clip begins at ``end`` if it follows directly.
     state : int
-        The basic motion that it is an instance of.
+        Index of its basic motion.
     sounds : tuple of int
-        Percussion symbols that sounded during it, in time order. Files of version 1 do not say them.
+        Percussion symbols during it in time order; missing in files of version 1.
     melody : tuple of int
-        Symbols for melody, bass and accents (`app.choreography.derived_rhythm`) beside percussion.
+        Symbols for melody, bass and accents (`app.choreography.derived_rhythm`) in addition to percussion.
     """
 
     clip: int
@@ -67,9 +67,9 @@ class ChoreographyModel:
     Attributes
     ----------
     clips : tuple of MotionClip
-        The mended motion of each source, all at one frame rate, each with the shape of its own body.
+        Repaired motion of each source, all at one frame rate, each with its own body shape.
     segments : tuple of MotionSegment
-        By clip, then start.
+        Segments by clip and start.
     transition : (K, K) float64
         ``A[i, j]``: probability of state j after state i, smoothed; rows sum to 1.
     emission : (K, 47) float64

@@ -1,7 +1,7 @@
 """``.choreography`` files: a learned choreography with its motion, provenance and licence texts.
 
-One JSON document, each row of a table on a line of its own: what a user may want to read comes first, the motion
-(little-endian float32 in base64: the only part that is no text) last. Names in it are only texts.
+A JSON document with each row of a table on its own line: readable data first, the motion (little-endian float32 in
+base64) last. Names in it are only texts and never paths.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from app.formats.files import read_file
 from app.formats.json_data import decode_json
 
 VERSION: Final = 2
-"""Files of version 1 do not say what sounded during each motion."""
+"""Version of the format; files of version 1 lack the sounds during each motion."""
 MOST_BYTES: Final = 128 * 2**20
 """About an hour and a half of motion."""
 FPS: Final = (1, 240)
 LARGEST_M: Final = 1000.0
-"""No body is farther from where it began, and no bone is longer."""
+"""Greatest distance in metres of a body from its start, and greatest length of a bone."""
 LARGEST_S: Final = 24 * 3600.0
 UNIT: Final = 1e-4
-"""Rotations are unit quaternions, and probabilities sum to 1, to this accuracy."""
+"""Tolerance of the norms of quaternions and of the sums of probabilities."""
 
 _FPS = re.compile(r"[1-9][0-9]{0,8}(?:/[1-9][0-9]{0,8})?", re.ASCII)
 
@@ -51,7 +51,7 @@ class _Body(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class _Motion(msgspec.Struct, forbid_unknown_fields=True):
-    """Arrays as bytes, which JSON holds in base64."""
+    """Arrays as bytes, stored in JSON as base64."""
 
     frames: int
     hips_m: bytes
@@ -71,7 +71,7 @@ class _File(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
     sounds: list[list[int]] = []
     """Symbols during each segment."""
     melodies: list[list[int]] = []
-    """Symbols of the melody beside percussion."""
+    """Symbols of the melody in addition to percussion."""
     bodies: list[_Body]
     motions: list[_Motion]
 
@@ -98,13 +98,13 @@ def read_model(path: str | os.PathLike[str]) -> ChoreographyModel:
     Raises
     ------
     FileError
-        It cannot be read, or is none.
+        The file cannot be read, or is no choreography.
     """
     return decode_model(read_file(path, MOST_BYTES), os.fspath(path))
 
 
 def encode_model(model: ChoreographyModel) -> bytes:
-    """The bytes that `write_model` writes."""
+    """Return the bytes that `write_model` writes."""
     fps = model.clips[0].fps
     content = _File(
         choreography_version=VERSION,
@@ -178,7 +178,7 @@ def decode_model(content: bytes, file: str) -> ChoreographyModel:
 
 
 class _Check:
-    """Allowed contents of a file; all else is an error that names its place."""
+    """Validator of a file's contents, whose errors name the place."""
 
     def __init__(self, file: str) -> None:
         self._file = file

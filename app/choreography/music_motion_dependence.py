@@ -1,10 +1,10 @@
 """Test of a learned choreography: can its motion be predicted from its music?
 
-Two thirds of the motions of each source are learned from; of the last third it is asked how much surer the sounds make
-which basic motion is danced, in bits a motion, beyond how often its dancer dances each. The same is asked with the
-music of each source parted into stretches, which are put in another order: a pairing that tells something tells more
-than nearly all of these (P. Good, "Permutation, Parametric and Bootstrap Tests of Hypotheses", 3rd ed. 2005; stretches,
-for sounds that follow one another are alike by themselves). Copies of a motion are all learned from, or all held out.
+Two thirds of the motions of each source are learned from. For the last third, the test measures the information that
+sounds give about the basic motion, in bits per motion, beyond how often its dancer dances each. The same is measured
+with the music of each source divided into sections in another order: a meaningful pairing gives more information than
+nearly all of these (P. Good, "Permutation, Parametric and Bootstrap Tests of Hypotheses", 3rd ed. 2005; sections, since
+consecutive sounds are similar). Copies of a motion are all learned from, or all held out.
 """
 
 from __future__ import annotations
@@ -23,31 +23,31 @@ from app.errors import Message
 
 LEARNED: Final = 2.0 / 3.0
 ORDERS: Final = 199
-"""Number of permutations of the music that are tried."""
+"""Number of tried permutations of the music."""
 TELLS: Final = 0.05
-"""Largest share of the other orders that inform as much, for music that informs about the motion."""
+"""Largest share of permutations with as much information for a meaningful pairing."""
 LEAST_BITS: Final = 0.05
-"""Fewer bits a motion are none: they are shown in tenths."""
+"""Least information in bits per motion that counts, since tenths are displayed."""
 STRETCH: Final = (3, 7)
-"""Fewest and most motions whose music stays together."""
+"""Least and greatest number of motions in a section."""
 LEAST: Final = 20
-"""Fewest motions of which anything can be said."""
+"""Least number of motions for the test."""
 TRUSTED_BITS: Final = 0.5
-"""Bits a motion from which on sounds are trusted wholly."""
+"""Information in bits per motion from which sounds are trusted completely."""
 TRUSTS: Final = (0.0, 0.06, 0.12, 0.25, 0.5, 1.0)
-"""Weights of the sounds that are tried on a part of what is learned from: hits are not independent of one another."""
+"""Weights of the sounds tried on a part of the learning material, since hits are not independent."""
 
 
 @dataclass(frozen=True)
 class Pairing:
-    """Information of the music about the motion.
+    """Information that music gives about the motion.
 
     Attributes
     ----------
     bits : float
-        A motion, of those held out; below 0 where the sounds mislead.
+        Bits per held-out motion; below 0 if sounds mislead.
     chance : float
-        Share of the other orders of the music that tell as much.
+        Share of permutations of the music with as much information.
     """
 
     bits: float
@@ -55,12 +55,12 @@ class Pairing:
 
     @property
     def tells(self) -> bool:
-        """Return whether the music informs about the motion as other music would not."""
+        """True if the music informs about the motion significantly."""
         return self.bits >= LEAST_BITS and self.chance <= TELLS
 
 
 def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
-    """Judge the pairing of a model's sources; None where the model does not say what sounded, or is too short."""
+    """Return the test's result for a model; None if it lacks sounds or is too short."""
     sounds = np.zeros((len(model.segments), len(SYMBOLS)))
     for at, one in enumerate(model.segments):
         np.add.at(sounds[at], list(one.sounds), 1.0)
@@ -75,9 +75,9 @@ def pairing_of(model: ChoreographyModel, seed: int = 0) -> Pairing | None:
 
 
 def trust_in(model: ChoreographyModel) -> float:
-    """Return how far a dance follows what is struck during single motions, 0 to 1.
+    """Return how far a dance must follow the sounds of single motions, 0..1.
 
-    0 where the test finds no information in it; 1 from `TRUSTED_BITS` on, or where the model is too small for the test.
+    0 if the test finds no information; 1 from `TRUSTED_BITS` on, or if the model is too small for the test.
     """
     found = pairing_of(model)
     if found is None:
@@ -86,13 +86,13 @@ def trust_in(model: ChoreographyModel) -> float:
 
 
 def report(model: ChoreographyModel) -> Message:
-    """Report whether a model's music informs about its motion."""
+    """Return a message about whether a model's music informs about its motion."""
     found = pairing_of(model)
     return Message("learn.pairing_unknown", {"least": LEAST}) if found is None else verdict(found)
 
 
 def verdict(found: Pairing) -> Message:
-    """Return what the bits and their chance say together."""
+    """Return a message about the bits and their significance."""
     if found.bits < LEAST_BITS:
         # Whatever other music predicts: this one predicts nothing.
         return Message("learn.pairing_predicts_nothing", {})
@@ -108,7 +108,7 @@ def _earliest(groups: IntArray, places: FloatArray) -> FloatArray:
 
 
 class _Test:
-    """Motions of a model, parted into those that are learned from and those held out."""
+    """Motions of a model, divided into those to learn from and those held out."""
 
     def __init__(self, model: ChoreographyModel) -> None:
         self._states = np.array([one.state for one in model.segments], np.int64)
@@ -133,18 +133,20 @@ class _Test:
 
     @property
     def is_long_enough(self) -> bool:
-        """Return whether there are motions in each part, and more than one order of their music."""
+        """Return whether there are motions in each part, and several permutations of their music."""
         used = len(self._learned) + len(self._held_out)
         return used >= LEAST and min(map(len, (*self._parts, self._held_out))) > 0
 
     def bits(self, sounds: FloatArray) -> float:
-        """Bits per motion by which these sounds (S, 47) predict the motions held out."""
+        """Return the bits per motion by which sounds (S, 47) predict the held-out motions."""
         tried = self._told(*self._parts, sounds, TRUSTS)
         trust = TRUSTS[max(1, int(tried.argmax()))]
         return float(self._told(self._learned, self._held_out, sounds, (trust,))[0])
 
     def other_order(self, random: np.random.Generator) -> IntArray:
-        """(S,) numbers of motions whose music each motion has, stretches of each source in an order by chance."""
+        """Return for each motion (S,) the index of the motion whose music it gets, with sections of each source in
+        random order.
+        """
         order = np.empty(len(self._states), np.int64)
         for clip in range(self._shape[0]):
             own = np.flatnonzero(self._clips == clip)
@@ -155,7 +157,7 @@ class _Test:
         return order
 
     def _told(self, learned: IntArray, asked: IntArray, sounds: FloatArray, trusts: tuple[float, ...]) -> FloatArray:
-        """(T,) bits per motion by which sounds predict the motions asked for, at each trust in them."""
+        """Return the bits per motion (T,) by which sounds predict given motions, at each level of trust."""
         counts = np.zeros((*self._shape, len(SYMBOLS)))
         np.add.at(counts, (self._clips[learned], self._states[learned]), sounds[learned])
         of_all = counts.sum(axis=0) + 1.0 / len(SYMBOLS)
