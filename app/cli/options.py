@@ -224,7 +224,7 @@ def open_project(arguments: argparse.Namespace, if_empty: str = "") -> Project:
     if getattr(arguments, "preroll", None) is None and not is_project_file(arguments.file):
         # Of a new piece it is as long as it takes to come up from rest, in whatever beat is felt.
         found = set_preroll(found, preroll_of_new(found))
-    return with_outfits(with_settings(found, settings, maps), arguments.outfits)
+    return with_outfits(with_settings(found, settings, maps), getattr(arguments, "outfits", ()))
 
 
 def _piece(arguments: argparse.Namespace, project: Project) -> PieceSettings:
