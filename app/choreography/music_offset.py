@@ -1,8 +1,8 @@
 """Start of the music within a motion, found from the beats of both.
 
 The beats of a motion are the local minima of the summed speed of the body (Li et al., "AI Choreographer: Music
-Conditioned 3D Dance Generation with AIST++", ICCV 2021): where it stops or turns. They are matched with the hits and
-beats of the music at every offset; how certain the best one is follows from how much better it is than the next one.
+Conditioned 3D Dance Generation with AIST++", ICCV 2021), where it stops or turns. They are matched with the hits and
+beats of the music at every offset; the confidence is the advantage of the best offset over the next.
 """
 
 from __future__ import annotations
@@ -20,23 +20,25 @@ from app.choreography.peaks import prominent_peaks
 from app.choreography.rhythm import Rhythm
 
 SMOOTHING_S: Final = 0.04
-"""Standard deviation of the Gaussian over which speed is averaged before its minima are looked for."""
+"""Standard deviation in seconds of the Gaussian that smooths speed before minima are found."""
 PROMINENCE: Final = 0.05
-"""A minimum counts that stands out by this part of the median speed."""
+"""Least prominence of a minimum relative to the median speed."""
 GRID_S: Final = 0.005
-"""Step of the offsets that are tried."""
+"""Step of the tried offsets in seconds."""
 TOLERANCE_S: Final = 0.05
-"""A beat of the motion still meets the music at about this distance (3 frames at 60 frames per second, as in beat
-alignment)."""
+"""Distance in seconds within which a beat of the motion meets the music (3 frames at 60 frames per second, as in beat
+alignment).
+"""
 LEAST_OVERLAP: Final = 0.5
-"""Motion and music share at least this part of the shorter one."""
+"""Least overlap of motion and music relative to the shorter one."""
 APART_S: Final = 0.15
-"""Offsets nearer to each other than this are the same."""
+"""Distance in seconds below which offsets count as equal."""
 CONFIDENT: Final = 0.3
-"""From this confidence on an offset can be relied on. Measured: of CMU clips with drums of the Groove MIDI set, which
-do not belong together, the highest was 0.26; with drums made of the clips' own beats no higher one was wrong."""
+"""Confidence from which an offset is reliable. Measured: for CMU clips with unrelated drums of the Groove MIDI set the
+greatest was 0.26; with drums made from the clips' own beats no offset above it was wrong.
+"""
 BEAT_STRENGTH: Final = 0.25
-"""Strength of a beat; a hit has its velocity from 0 to 1, a downbeat twice this."""
+"""Strength of a beat; a hit has its velocity 0..1, a downbeat twice this value."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +48,10 @@ class MusicOffset:
     Attributes
     ----------
     offset_s : float
-        The music's first tick is at this time of the motion; negative where the music begins before it.
+        Time of the motion at the music's first tick in seconds; negative if the music begins earlier.
     confidence : float
-        0..1, see `CONFIDENT`: 0 where another offset fits as well, as of a motion that was not made to the music, or
-        where every bar is like the next; 1 where no other offset fits at all.
+        Confidence, 0..1, see `CONFIDENT`: 0 if another offset fits as well, as for unrelated music or equal bars; 1 if
+        no other offset fits at all.
     """
 
     offset_s: float
@@ -57,7 +59,9 @@ class MusicOffset:
 
 
 def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:
-    """Offset at which the beats of a motion meet hits and beats of the music best; 0 and no confidence without any."""
+    """Return the offset at which the beats of a motion best meet hits and beats of the music; 0 with confidence 0 if
+    there are none.
+    """
     frames, strengths = motion_beats(clip)
     times_s = np.concatenate([rhythm.hits_s, rhythm.beats_s])
     weights = np.concatenate([rhythm.strengths, BEAT_STRENGTH * np.where(rhythm.bar_beats == 0, 2.0, 1.0)])
@@ -75,14 +79,14 @@ def find_offset(clip: MotionClip, rhythm: Rhythm) -> MusicOffset:
 
 
 def motion_beats(clip: MotionClip) -> tuple[IntArray, FloatArray]:
-    """Frames at which the summed speed of the body has a local minimum, and how deep each is.
+    """Return the frames of local minima of the body's summed speed, with their depths.
 
     Returns
     -------
     frames : (N,) int64
         Ascending.
     strengths : (N,) float64
-        0..1: the minimum's prominence over the highest one's.
+        Prominence of each minimum relative to the greatest, 0..1.
     """
     if len(clip) < 3:
         return np.zeros(0, np.int64), np.zeros(0)
@@ -96,7 +100,7 @@ def summed_speed_m_s(clip: MotionClip) -> FloatArray:
 
 
 def speed_minima(speed: FloatArray, fps: float, smoothing_s: float) -> tuple[IntArray, FloatArray]:
-    """Frames of the local minima of a speed, averaged by a Gaussian of a standard deviation, and how deep each is."""
+    """Return the frames of local minima of a speed smoothed by a Gaussian, with their depths."""
     smooth = gaussian_filter1d(speed, smoothing_s * fps, mode="nearest")
     return prominent_peaks(-smooth, max(PROMINENCE * float(np.median(smooth)), 1e-6))
 
@@ -111,7 +115,7 @@ def _pulses(times_s: FloatArray, weights: FloatArray, length_s: float) -> FloatA
 
 
 def _fit(motion: FloatArray, music: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Correlation of what both share at each lag of the music, from -1 to 1, and the lags in steps of the grid."""
+    """Return the correlation of the common part at each lag of the music, -1..1, and the lags in grid steps."""
     lags = np.arange(-(len(music) - 1), len(motion))
     from scipy.signal import correlate  # heavy; only who learns a dance needs it
 

@@ -1,7 +1,7 @@
-"""Motions that are copies of one another: a take that was added twice, trimmed or filtered, or a loop.
+"""Detection of copies among motions: a take added twice, a trimmed or filtered one, or a loop.
 
-Dancers do not repeat themselves so exactly, several motions on end: of 182 motions of salsa the two that are most alike
-are 6 cm apart.
+Dancers do not repeat several consecutive motions that exactly: among 182 motions of salsa the two most similar are 6 cm
+apart.
 """
 
 from __future__ import annotations
@@ -19,18 +19,19 @@ from app.choreography.features import features
 from app.choreography.model import ChoreographyModel
 
 COPIES: Final = 0.01
-"""Root mean square distance of two motions, over poses and points of the body, up to which one may be a copy of the
-other; parts of the body's height."""
+"""Root mean square distance of two motions over poses and points of the body, relative to the body's height, up to
+which they may be copies.
+"""
 ON_END: Final = 4
-"""Copies of so many motions that follow one another are no chance."""
+"""Number of consecutive similar motions that indicate copies."""
 MOST_PAIRS: Final = 5_000_000
-"""A model with more pairs that are alike is one motion again and again."""
+"""Number of similar pairs above which a model consists of one repeated motion."""
 _DIRECTIONS: Final = 8
-"""Directions in which distances are bounded before they are worked out."""
+"""Number of directions in which distances are bounded before they are calculated."""
 
 
 def groups_of_copies(model: ChoreographyModel) -> IntArray:
-    """(S,) group of each motion of a model: copies of one another have the same."""
+    """Return the group (S,) of each motion of a model, equal for copies of each other."""
     clips = np.array([one.clip for one in model.segments], np.int64)
     order = np.argsort(clips, kind="stable")
     groups = np.zeros(len(order), np.int64)
@@ -57,7 +58,7 @@ def _groups(found: FloatArray, clips: IntArray) -> IntArray:
 
 
 def _on_end(pairs: IntArray, clips: IntArray) -> BoolArray:
-    """Return which pairs are of `ON_END` on end, in both of their clips."""
+    """Return which pairs are within `ON_END` consecutive pairs in both clips."""
     order = np.lexsort((pairs[:, 0], pairs[:, 1] - pairs[:, 0]))
     one, other = pairs[order].T
     breaks = (

@@ -25,10 +25,10 @@ class BasicMotion:
     mean_s : float
         Their mean length, seconds.
     sources : tuple of (int, int)
-        Numbers of sources with how many of the segments are of each, the source with most segments first.
+        Indices of sources with their numbers of segments, most segments first.
     poses : (3, 21, 2) float64
         The most typical segment at its start, accent and end, from the front as at the accent: X to the right and Y up
-        from the floor below the hips, in parts of the body's height.
+        from the floor below the hips, relative to the body's height.
     """
 
     segments: int
@@ -38,9 +38,9 @@ class BasicMotion:
 
 
 def basic_motions(model: ChoreographyModel) -> tuple[BasicMotion, ...]:
-    """Every state of a model, in order; each has a segment at least.
+    """Return every state of a model in order; each has at least one segment.
 
-    The most typical segment is the one whose `features` are nearest to their mean.
+    The most typical segment is the one with `features` nearest to their mean.
     """
     clips = np.array([one.clip for one in model.segments])
     states = np.array([one.state for one in model.segments])

@@ -1,6 +1,6 @@
-"""Peaks of a curve and how prominent they are, found without the modules of `scipy.signal`.
+"""Peaks of a curve with their prominences, without the modules of `scipy.signal`.
 
-Loading those takes a second, and the first dance of a session, or of a process that shows one, would wait for it.
+Loading these takes a second, which would delay the first dance of a session or of a process.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from app.arrays import FloatArray, IntArray
 
 
 def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatArray]:
-    """Places (N,) of local maxima, ascending, and their prominences (N,): as `scipy.signal.find_peaks` finds them.
+    """Return the indices (N,) of local maxima, ascending, with prominences (N,), equal to `scipy.signal.find_peaks`.
 
-    A flat peak is in its middle. A prominence is the height above the higher one of the lowest places on both sides,
-    each up to where the curve is higher than the peak.
+    A flat peak is at its middle. The prominence is the height above the higher of the lowest places on both sides, each
+    up to where the curve exceeds the peak.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def prominent_peaks(values: FloatArray, least: float) -> tuple[IntArray, FloatAr
 
 
 def _lowest_sides(heights: Iterable[float], valleys: Iterable[float]) -> list[float]:
-    """The lowest place before each peak, back to the last one that is higher; ``valleys`` are before each."""
+    """Return the lowest value before each peak back to the last higher one; ``valleys`` are those before each."""
     lowest: list[float] = []
     higher: list[tuple[float, float]] = []
     for height, valley in zip(heights, valleys, strict=True):

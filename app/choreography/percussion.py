@@ -1,4 +1,4 @@
-"""The percussion of a piece as the symbols of a choreography, and the beats that are felt.
+"""The percussion of a piece as symbols of a choreography, and its felt beats.
 
 Rules, none of which invents a symbol:
 
@@ -21,7 +21,7 @@ from app.score.model import SAME_SOUND, Score
 
 
 def score_rhythm(score: Score) -> Rhythm:
-    """Beats of a piece, and what its percussion plays; without hits if it has no percussion."""
+    """Return the beats of a piece and its percussion; without hits if it has no percussion."""
     strongest: dict[tuple[int, int], int] = {}
     for struck in score.percussion:
         symbol = SAME_SOUND.get(struck.pitch, struck.pitch) - SYMBOLS[0]
@@ -42,9 +42,9 @@ def score_rhythm(score: Score) -> Rhythm:
 
 
 def piece_beats(score: Score) -> tuple[FloatArray, IntArray, IntArray]:
-    """Felt beats to the end of the bar in which the piece ends, the place of each in its bar, and how it is divided.
+    """Return the felt beats to the end of the last bar, the place of each in its bar, and its division.
 
-    Every bar begins with a beat; the beats of a pickup are counted back from the first whole bar, as its last ones.
+    Every bar begins with a beat; the beats of a pickup are the last ones of a bar before the first whole bar.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Bars that return in a piece, so that a dancer can take up again what was danced to them before."""
+"""Recurring bars of a piece, to which a dancer repeats the previous dance."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ from app.arrays import FloatArray, IntArray
 from app.choreography.rhythm import Rhythm
 
 POSITIONS: Final = 12
-"""Places in a beat at which hits are distinguished: thirds and quarters of it."""
+"""Number of distinguished positions of hits within a beat: thirds and quarters."""
 AROUND_BARS: Final = 0.7
-"""Standard deviation, in bars, of the Gaussian over which likeness is averaged along two passages."""
+"""Standard deviation in bars of the Gaussian that averages similarity along two passages."""
 APART_BARS: Final = 4
-"""Return after fewer bars is no return, but a figure that goes on."""
+"""Least distance of recurring bars; nearer ones are a continuing pattern."""
 UNUSUAL: Final = 2.0
-"""Standard deviations by which bars are more alike than two bars of the piece are in the mean, for a full return."""
+"""Similarity of bars above the mean of the piece, in standard deviations, for a full recurrence."""
 LEAST_MORE: Final = 0.1
-"""Least difference in likeness of a full return, as a cosine: where all bars are alike, none of them returns."""
+"""Least difference in similarity (cosine) for a full recurrence, so that no bar recurs if all are alike."""
 _NEAR_BEATS: Final = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
 class ReturningPlaces:
-    """Places of a piece, compared with those of earlier bars.
+    """Places of a piece compared with those of earlier bars.
 
     Attributes
     ----------
     bars : (G,) int64
-        Of each place; -1 before the first downbeat and from the last one on.
+        Bar of each place; -1 before the first downbeat and from the last one on.
     earlier : (G, B) int64
-        Of each place, the place at the same position of each bar; -1 where there is none.
+        For each place, the place at the same position of each bar; -1 if there is none.
     worths : (G, B) float64
-        How much more alike its bar is to each earlier one than two bars of the piece are: 1 where it returns, -1 where
-        it is as unlike, 0 of bars that are no earlier ones.
+        Similarity of its bar to each earlier one relative to the mean of the piece: 1 for a recurrence, -1 for the
+        opposite, 0 for bars that are not earlier.
     """
 
     bars: IntArray
@@ -45,7 +45,7 @@ class ReturningPlaces:
 
 
 def returns_of_bars(rhythm: Rhythm) -> FloatArray:
-    """(B, B) see `ReturningPlaces.worths`, by bar; bars are between the downbeats."""
+    """Return `ReturningPlaces.worths` by bar (B, B); bars are between downbeats."""
     alike = _along_passages(likeness_of_bars(rhythm))
     bars = len(alike)
     later = np.tril(np.ones((bars, bars), bool), -APART_BARS)
@@ -57,7 +57,9 @@ def returns_of_bars(rhythm: Rhythm) -> FloatArray:
 
 
 def likeness_of_bars(rhythm: Rhythm) -> FloatArray:
-    """(B, B) cosines of what is struck in the bars, by sound, place and strength; with a melody, the mean of both."""
+    """Return the cosine similarities (B, B) of hits in bars by sound, position and strength; with a melody, the mean of
+    both.
+    """
     struck = _likeness(rhythm)
     return struck if rhythm.melody is None else 0.5 * (struck + likeness_of_bars(rhythm.melody))
 
@@ -82,7 +84,7 @@ def _likeness(rhythm: Rhythm) -> FloatArray:
 
 
 def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | None:
-    """Compare some times, ascending, with those at the same place of earlier bars; None without bars that return."""
+    """Compare ascending times with those at the same position of earlier bars; None if no bars recur."""
     worths = returns_of_bars(rhythm)
     if not worths.any():
         return None
@@ -99,7 +101,7 @@ def returning_places(rhythm: Rhythm, times_s: FloatArray) -> ReturningPlaces | N
 
 
 def _along_passages(alike: FloatArray) -> FloatArray:
-    """Mean likeness of each pair of bars and of those before and after both."""
+    """Return the mean similarity of each pair of bars and of those before and after both."""
     bars = len(alike)
     total, weight = np.zeros_like(alike), np.zeros_like(alike)
     reach = round(3.0 * AROUND_BARS)

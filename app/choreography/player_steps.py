@@ -1,9 +1,8 @@
-"""Steps in place of a player who dances: those of a dancer, each put on the nearest beat, about the player's place.
+"""Steps in place of a dancing player: a dancer's steps, each moved to the nearest beat, around the player's place.
 
-A dancer's feet come down when the capture says, and go as far as the dance goes. A player has the beat in the feet:
-each touchdown of the dance is moved to the nearest place of the beat, of two at one place the longer step counts, and a
-foot is put as far from its usual place under the body as the dancer has it, made smaller. Where a dancer stands while
-music sounds, heels or toes mark the beats.
+A dancer's feet land when captured, and move as far as the dance does. For a player, each landing is moved to the
+nearest place of the beat; of two at one place the longer step is used; and a foot is placed relative to its usual place
+under the body as in the dance, scaled down. Where a dancer stands while music sounds, heels or toes mark the beats.
 """
 
 from __future__ import annotations
@@ -24,44 +23,47 @@ from app.motion.gestures.danced_feet import MOVE_KINDS, DancedFeet, MoveKind
 from app.rig import quaternion
 
 QUICK_S, SLOW_S = 0.40, 0.78
-"""Lengths of beats: below the first steps are on every other beat, above the second also between beats."""
+"""Lengths of beats in seconds: below the first, steps are on every other beat; above the second, also between beats."""
 BETWEEN: Final = 0.25
-"""Share of a beat by which a beat must be farther from a touchdown than the place between beats that it is put on."""
+"""Share of a beat by which a beat must be farther from a landing than the place between beats for the latter to be
+used.
+"""
 LATE: Final = 0.9
-"""Two feet at one place: the later one comes down at the next if that is nearer than this share of the way there."""
+"""Share of the way to the next place within which the later of two landings at one place is moved there."""
 AIR_S: Final = 0.42
 """Longest time of a foot in the air."""
 AIR_SHARE: Final = 0.85
-"""Longest time in the air as a share of the time since the other foot came down."""
+"""Longest time in the air relative to the time since the other foot landed."""
 LEAST_AIR_S: Final = 0.22
-"""Shortest time in the air; there is no quicker step."""
+"""Shortest time in the air in seconds."""
 SAME_FOOT_S: Final = 0.55
-"""Least time from one landing of a foot to its next; the other foot takes a step that is sooner."""
+"""Least time in seconds between two landings of a foot; an earlier step is taken by the other foot."""
 HEEL_S: Final = 0.5
-"""Longest time for which a heel or toes are up."""
+"""Longest time in seconds for which heel or toes are raised."""
 LIFT_SHARE: Final = 0.75
-"""Time for which a foot is lifted, as a share of a beat."""
+"""Time for which a foot is lifted, relative to a beat."""
 TOES_CHANCE: Final = 0.4
-"""Chance that toes, not heels, mark a phrase's beats without steps, and that a seated player answers it with heels."""
+"""Probability that toes instead of heels mark a phrase's beats without steps, with heels for a seated player."""
 PHRASE_BEATS: Final = 8
 USUAL: Final = 0.9
-"""Share of the steps that go no farther than `AHEAD_M` and `OUT_M` when a dance is made smaller."""
+"""Share of the steps within `AHEAD_M` and `OUT_M` after scaling."""
 AHEAD_M, BACK_M, OUT_M, IN_M = 0.11, 0.0, 0.08, 0.03
-"""Farthest places of a foot: ahead, back (with its heel down under a bent knee), to its own side, and towards the other
-foot."""
+"""Greatest distances of a foot in metres: forward, back (with its heel down under a bent knee), outwards, and towards
+the other foot.
+"""
 SPREAD: Final = 0.35
-"""Power of a place's distance, as a share of the farthest, with which it is kept."""
+"""Exponent of a place's relative distance for compressing distances."""
 LEAST_SIZE: Final = 0.65
-"""Size of the shortest step, as a share of that of a usual one."""
+"""Size of the shortest step relative to a usual one."""
 MIDDLE_S: Final = 0.6
-"""Standard deviation of the window over the hips' path in which a foot has its usual place."""
+"""Standard deviation in seconds of the window over the hips' path that defines a foot's usual place."""
 HEARD_S: Final = 2.0
-"""Beats are marked while something sounds within this time."""
+"""Time in seconds around a beat within which something must sound for it to be marked."""
 
 
 @dataclass(frozen=True)
 class _Touchdown:
-    """A foot of the dancer that comes down: when, how far from its usual place (left, ahead), and after which way."""
+    """A landing of a dancer's foot: time, offset from its usual place (left, forward), and distance."""
 
     foot: int
     time_s: float
@@ -84,12 +86,12 @@ class _Row:
 
 
 def danced_feet(dance: Dance, rhythm: Rhythm, seed: int, scale: float) -> DancedFeet:
-    """Moves of the feet of a player whose hips, trunk and head dance so.
+    """Return the movements of the feet of a player with a dance.
 
     Parameters
     ----------
     seed : int
-        Of the variation: where heels and where toes mark the beats.
+        Seed of the variation, which selects heels or toes.
     scale : float
         Length of the player's legs over an adult's.
     """
@@ -119,7 +121,7 @@ def _phrase(time_s: float, rhythm: Rhythm) -> int:
 
 
 def _places(rhythm: Rhythm) -> tuple[FloatArray, BoolArray]:
-    """Places of the beat at which feet come down, and which of them are beats."""
+    """Return the places of the beat for landings, and which of them are beats."""
     beats_s = rhythm.beats_s
     if len(beats_s) < 3:
         return beats_s, np.ones(len(beats_s), bool)
@@ -143,7 +145,7 @@ def _heard(places_s: FloatArray, rhythm: Rhythm) -> BoolArray:
 
 
 def _touchdowns(dance: Dance) -> list[_Touchdown]:
-    """Touchdowns of a dance in order, each with the place of its foot as seen from the middle of the hips' path."""
+    """Return the landings of a dance in order, each with the foot's place relative to the middle of the hips' path."""
     clip, fps = dance.clip, float(dance.clip.fps)
     middle_m = gaussian_filter1d(clip.hips_m, MIDDLE_S * fps, axis=0, mode="nearest")
     back = quaternion.conjugate(facing(clip))
@@ -162,7 +164,7 @@ def _touchdowns(dance: Dance) -> list[_Touchdown]:
 
 
 def _seen_m(stand: FootPlant, middle_m: FloatArray, back: FloatArray) -> FloatArray:
-    """(2,) to the left and ahead of the body where a foot stands."""
+    """Return the distance (2,) to the left and in front of the body at which a foot stands."""
     frame = min((stand.start + stand.stop) // 2, len(middle_m) - 1)
     seen = quaternion.rotate(back[frame], np.array(stand.place_m) - middle_m[frame])
     return seen[[0, 2]]
@@ -171,7 +173,7 @@ def _seen_m(stand: FootPlant, middle_m: FloatArray, back: FloatArray) -> FloatAr
 def _stepped(
     touchdowns: list[_Touchdown], places_s: FloatArray, strong: BoolArray, danced_s: tuple[float, float]
 ) -> list[_Row]:
-    """Steps on places of the beat, one foot at a time."""
+    """Return the steps on places of the beat, one foot at a time."""
     chosen: dict[int, _Touchdown] = {}
     for one in touchdowns:
         place = _nearest(one.time_s, places_s, strong)
@@ -201,7 +203,7 @@ def _stepped(
 
 
 def _nearest(time_s: float, places_s: FloatArray, strong: BoolArray) -> int:
-    """The place of the beat at which a touchdown is danced."""
+    """Return the index of the beat place for a landing."""
     off_s = np.abs(places_s - time_s)
     beat_s = float(np.median(np.diff(places_s[strong])))
     return int((off_s + np.where(strong, 0.0, BETWEEN * beat_s)).argmin())
@@ -215,10 +217,9 @@ def _is_late(time_s: float, place: int, places_s: FloatArray) -> bool:
 
 
 def _near(step: _Touchdown, far_m: FloatArray) -> tuple[float, float]:
-    """Place of a foot (left, ahead): as in the dance, made smaller, and never before the other foot.
+    """Return the place of a foot (left, forward): as in the dance, scaled down, and never in front of the other foot.
 
-    Most steps of a dance go a little way and few go far: of those the nearer are made smaller by less, so that they are
-    seen.
+    Most steps of a dance are short; these are scaled down less, so that they stay visible.
     """
     most_m = np.minimum((OUT_M, AHEAD_M), far_m)
     shares = np.minimum(1.0, np.abs(step.place_m) / np.maximum(far_m, 1e-6)) ** SPREAD
@@ -236,7 +237,7 @@ def _with_marks(
     rhythm: Rhythm,
     seed: int,
 ) -> list[_Row]:
-    """The steps, with heels and toes where none is for some places of the beat."""
+    """Return the steps with marks by heels and toes at some beat places without steps."""
     rows, lands_s = list(stepped), np.array([row.lands_s for row in stepped])
     apart_s = float(np.median(np.diff(rhythm.beats_s)))
     last_phrase, foot = -1, 0

@@ -1,6 +1,6 @@
-"""A motion file's own skeleton in one frame, which joint each of its bones is, and the error of a body not found in it.
+"""A motion file's own skeleton in one frame, the joints of its bones, and the error if no body is found in it.
 
-What is found by itself stays known beside what a user corrects, also where the file cannot be read as a body.
+Automatic results are kept beside the user's corrections, even if the file cannot be read as a body.
 """
 
 from __future__ import annotations
@@ -25,10 +25,11 @@ JOINTS: Final = (
     "neck",
     *(f"{side}{part}" for part in _SIDED for side in ("left", "right")),
 )
-"""Joints that a motion is read by; the parts of the trunk are the bones between hips and arms, whatever they are
-called."""
+"""Joints from which a motion is read; the parts of the trunk are the bones between hips and arms, regardless of
+names.
+"""
 REQUIRED: Final = tuple(name for name in SEGMENTS if name not in ("spine", "chest"))
-"""Joints without which no motion is read."""
+"""Joints that are necessary for reading a motion."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,15 +39,15 @@ class RawSkeleton:
     Attributes
     ----------
     found : JointMapping
-        Bones as they are found without corrections.
+        Bones found without corrections.
     places : ndarray, shape (J, 3)
         Joints, Y up, in the file's unit.
     lines : ndarray, shape (L, 2, 3)
-        From each bone's parent to the bone, and to the ends of the last ones.
+        Lines from each bone's parent to the bone, and to the ends of the last ones.
     figures : tuple of str
-        Names of all skeletons of the file where it has several.
+        Names of all skeletons in a file with several.
     figure_name : str
-        This one's among them.
+        Name of this skeleton among them.
     """
 
     figure: Figure
@@ -57,12 +58,12 @@ class RawSkeleton:
     figure_name: str = ""
 
     def corrected(self, joints: Mapping[str, str]) -> JointMapping:
-        """Bones with a user's corrections. Raises FileError where one names what there is not."""
+        """Return the bones with the user's corrections. Raises FileError for an unknown name."""
         return corrected(self.figure, self.found, joints, JOINTS)
 
 
 class BodyError(FileError):
-    """No body was found in a skeleton, whose bones can be corrected by hand."""
+    """No body was found in a skeleton; the user can correct its bones."""
 
     def __init__(self, id: str, skeleton: RawSkeleton, /, **arguments: Argument) -> None:
         super().__init__(id, **arguments)
@@ -70,7 +71,7 @@ class BodyError(FileError):
 
 
 def zero_pose(bvh: BvhClip, file: str) -> Figure:
-    """The zero pose, in the file's unit: nothing that reads it depends on the size."""
+    """Return the zero pose in the file's unit, since its size does not matter."""
     still = np.zeros((len(bvh.names), 4))
     still[:, 3] = 1.0
     return Figure(file, "bvh", bvh.names, bvh.parents, np.asarray(bvh.offsets_cm, np.float64), still, ())
@@ -79,7 +80,7 @@ def zero_pose(bvh: BvhClip, file: str) -> Figure:
 def raw_skeleton(
     bvh: BvhClip, file: str, found: JointMapping, places: FloatArray, rotations: FloatArray
 ) -> RawSkeleton:
-    """Skeleton in one frame.
+    """Return a skeleton in one frame.
 
     Parameters
     ----------

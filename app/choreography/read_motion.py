@@ -1,8 +1,8 @@
-"""Motion capture of others as a motion of the 16 segments.
+"""Reading of motion capture as a motion of the 16 segments.
 
 Bones and the T-pose are found by `app.choreography.captured_body`. Joints between two segments (collars, buttocks,
-neck, further vertebrae) are folded into the segment beyond them: its world rotation is that of the file, its offset the
-mean over the clip of where its joint is on the segment that carries it.
+neck, further vertebrae) are merged into the segment beyond them: its world rotation is that of the file, its offset the
+mean over the clip of its joint's place on the parent segment.
 """
 
 from __future__ import annotations
@@ -30,57 +30,58 @@ from app.rig import quaternion
 from app.rig.motion_file import read_motion_file
 
 UNITS_M: Final = {"cm": 0.01, "m": 1.0, "inch": 0.0254, "CMU": 0.0254 / 0.45, "mm": 0.001}
-"""Lengths that BVH files are written in, metres; CMU: a 0.45th of an inch (its ASF files, and BVH made of them)."""
+"""Units of length in BVH files in metres; CMU: a 0.45th of an inch (CMU's ASF files, and BVH made from them)."""
 FARTHEST_CM: Final = 1e9
 """Longest way of a body, in centimetres, whatever unit a file is in; larger numbers are damage."""
 HEIGHTS_M: Final = (1.35, 2.15)
-"""A unit that makes the figure as high as this is taken; the first of `UNITS_M` that does."""
+"""Plausible heights of a figure in metres; the first of `UNITS_M` that gives one is used."""
 HEIGHT_M: Final = 1.7
-"""Height of a figure that no unit fits."""
+"""Height in metres given to a figure that no unit fits."""
 MOST_FIGURES: Final = 16
-"""Skeletons of a file that are tried where none is asked for."""
+"""Greatest number of skeletons of a file that are tried if none is requested."""
 FAR_M: Final = 0.05
 """Joints farther from their place in the file are reported."""
 HIPS_OVER_LEGS: Final = (0.5, 1.5)
 """Height of the hips over the floor, most of the time, as a part of the legs' length."""
 FLAT_PART: Final = 0.05
-"""Part of the legs' length by which the lower foot's height may vary more with positions in another unit."""
+"""Share of the legs' length by which the lower foot's height may vary more with positions in another unit."""
 FLOOR_PERCENTILE: Final = 2.0
-"""The floor is where the lower foot is in the lowest part of the frames."""
+"""Percentile of the lower foot's height that defines the floor."""
 HAND_PART: Final = 0.108
 CROWN_PART: Final = 0.13
 FOOT_PART: Final = 0.12
-"""Wrist to fingertips, head joint to crown and ankle to toes, of the figure's height, where the file has no end
-(D. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, fig. 4.1)."""
+"""Distances from wrist to fingertips, head joint to crown and ankle to toes relative to the height, if the file has no
+ends (D. Winter, "Biomechanics and Motor Control of Human Movement", 4th ed. 2009, fig. 4.1).
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class ReadMotion:
-    """A motion and what was guessed about its file.
+    """A motion with guesses about its file.
 
     Attributes
     ----------
     profile : str
-        Table of bone names; empty where the joints were found by shape.
+        Table of bone names; empty if the joints were found by shape.
     unit : str
-        Key of `UNITS_M`; empty where none fits and the figure was scaled to `HEIGHT_M`.
+        Key of `UNITS_M`; empty if none fits and the figure was scaled to `HEIGHT_M`.
     up : str
-        Axis of the file that points up, e.g. ``"+Z"``.
+        Axis of the file that points up, such as ``"+Z"``.
     file_fps : Fraction
-        As the file says; the clip's may have been given.
+        Frame rate in the file; the clip's may have been given.
     cleaned : CleanedClip
-        The clip, and what was taken from the file's and changed in it.
+        The clip with a description of its changes.
     joints_doubtful : tuple of str
-        Whose bones were guessed.
+        Joints with guessed bones.
     checked : Message
-        By how much the T-pose of the body that was found is off.
+        Deviation of the body's T-pose.
     skeleton : RawSkeleton
-        The file's own, in the clip's first frame.
+        The file's own skeleton in the clip's first frame.
     rate_guess, file_guesses
-        See `BvhClip`; also how the unit of the hips' positions was understood.
+        See `BvhClip`; also the interpreted unit of the hips' positions.
     apart_m : float
-        How far from its place in the file, relative to the hips, a joint is at most: a segment keeps its world
-        rotation, but its joint has one place on the segment that carries it, also where collars or a neck move.
+        Greatest distance in metres of a joint from its place in the file relative to the hips: a segment keeps its
+        world rotation, but its joint has a fixed place on the parent segment, even if collars or a neck move.
     """
 
     cleaned: CleanedClip
@@ -103,7 +104,7 @@ class ReadMotion:
 
     @property
     def start_s(self) -> float:
-        """Time of the file at which the clip begins."""
+        """Start time of the clip in the file in seconds."""
         return self.cleaned.start_s
 
 
@@ -113,23 +114,23 @@ def read_motion(
     joints: Mapping[str, str] | None = None,
     figure: str = "",
 ) -> ReadMotion:
-    """Read the motion of any humanoid.
+    """Return the motion of a humanoid in a file.
 
     Parameters
     ----------
     path : str or path-like
-        A BVH, FBX or glTF file (also VRM Animation), by its content.
+        BVH, FBX or glTF file (also VRM Animation), recognised by its content.
     fps : Fraction, optional
-        The true frame rate, where the file's is wrong.
+        True frame rate, if the file's is wrong.
     joints : mapping of str to str, optional
         Corrections of bones, see `captured_body`.
     figure : str
-        Root of the skeleton to read where a BVH file has several; empty: the first that is a body.
+        Root of the skeleton to read from a BVH file with several; empty for the first that is a body.
 
     Raises
     ------
     FileError
-        If it is none of these or has no animation, or a leg, an arm, the hips or the head cannot be found in it.
+        The file has another format or no animation, or a leg, an arm, the hips or the head cannot be found.
     """
     file = Path(path)
     bvh = read_motion_file(file, figure)
@@ -164,7 +165,7 @@ def _of_figure(bvh: BvhClip, file: Path, fps: Fraction | None, joints: Mapping[s
 
 
 def guesses(motion: ReadMotion) -> tuple[Message, ...]:
-    """Guesses about a motion's file that a user may want to correct."""
+    """Return guesses about a motion's file that a user may want to correct."""
     found = []
     if (rate := motion.clip.fps * motion.cleaned.held) != motion.file_fps:
         found.append(Message("motion.rate", {"rate": str(rate), "said": str(motion.file_fps)}))
@@ -222,9 +223,10 @@ def motion_of(
 
 
 def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
-    """Return what takes the hips' positions into the unit of the bones: 100 or a hundredth where one is metres.
+    """Return the factor that converts the hips' positions to the unit of the bones: 100 or 0.01 if one is in metres.
 
-    The hips are about as high over the floor as the legs are long, and then the lower foot stays where the floor is.
+    The hips are about as high above the floor as the legs are long, and with the right factor the lower foot stays at
+    the floor.
 
     Parameters
     ----------
@@ -245,7 +247,7 @@ def _places_factor(positions: FloatArray, bones: Mapping[str, int]) -> float:
 
 
 def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
-    """Return a clip with the positions of the hips and of all joints above them multiplied by a change of unit."""
+    """Return a clip with the positions of the hips and all their ancestors multiplied by a factor."""
     above = {hips}
     while (parent := bvh.parents[min(above)]) >= 0:
         above.add(parent)
@@ -257,7 +259,7 @@ def _with_places(bvh: BvhClip, hips: int, factor: float) -> BvhClip:
 
 
 def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
-    """(16, 3) mean place of each segment's joint on the segment that carries it."""
+    """Return the mean place (16, 3) of each segment's joint on the parent segment."""
     offsets = np.zeros((len(SEGMENTS), 3))
     for at, name in enumerate(SEGMENTS[1:], start=1):
         above = SEGMENTS.index(PARENT_OF[name])
@@ -267,7 +269,7 @@ def _offsets(positions: FloatArray, rotations: FloatArray) -> FloatArray:
 
 
 def _end(name: str, ways: FloatArray) -> FloatArray:
-    """The farthest point (3,) that hangs from a last segment, of those (N, 3) in the T-pose."""
+    """Return the farthest point (3,) of a last segment among those (N, 3) in the T-pose."""
     along = {"head": (0.0, 1.0, 0.0), "leftHand": (1.0, 0.0, 0.0), "rightHand": (-1.0, 0.0, 0.0)}
     reach = ways @ np.array(along.get(name, (0.0, 0.0, 1.0)))
     # A head reaches up over what sticks out of it (eyes); the others as far as the farthest.
@@ -275,7 +277,7 @@ def _end(name: str, ways: FloatArray) -> FloatArray:
 
 
 def _apart(clip: MotionClip, seen: FloatArray) -> float:
-    """Return how far from where the file has it, relative to the hips (F, 16, 3), a joint is at most."""
+    """Return the greatest distance of a joint from its place in the file relative to the hips (F, 16, 3)."""
     joints = clip.world().positions_m[:, 1:]
     return float(np.linalg.norm(joints - joints[:, :1] - seen, axis=-1).max())
 
@@ -294,7 +296,7 @@ def _t_places(offsets: FloatArray) -> FloatArray:
 
 
 def _lowest(offsets: FloatArray, ends: FloatArray) -> float:
-    """Height of the lowest point of the feet in the T-pose, from where the hips' offset leads."""
+    """Return the height of the lowest point of the feet in the T-pose, relative to the hips' offset."""
     places = _t_places(offsets)
     heights = [places[SEGMENTS.index(name), 1] + min(0.0, float(ends[ENDS.index(name), 1])) for name in ENDS[3:]]
     return float(min(heights))
@@ -308,7 +310,7 @@ def _unit(height: float) -> tuple[str, float]:
 
 
 def _lengthened(ends: FloatArray, height: float) -> FloatArray:
-    """Ends that a file lacks (shorter than a third of what is usual), as long as usual."""
+    """Return the ends with missing ones (shorter than a third of the usual length) at the usual length."""
     ways = ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0))
     parts = (CROWN_PART, HAND_PART, HAND_PART, FOOT_PART, FOOT_PART)
     result = ends.copy()
@@ -330,7 +332,7 @@ def _floor(positions: FloatArray, rotations: FloatArray, ends: FloatArray) -> fl
 
 
 def _local(rotations: FloatArray) -> FloatArray:
-    """Relative to the segment that carries each, every frame on the side of the one before."""
+    """Return rotations relative to parent segments, every frame in the hemisphere of the previous one."""
     local = rotations.copy()
     for at, name in enumerate(SEGMENTS[1:], start=1):
         above = SEGMENTS.index(PARENT_OF[name])

@@ -1,4 +1,4 @@
-"""Files of a motion, of its music and of who made it, as a pair to learn from."""
+"""Reading of the files of a motion, its music and its credits as a pair to learn from."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MOST_CREDITS_BYTES: Final = 2**20
 
 @dataclass(frozen=True, eq=False)
 class ReadPair:
-    """A pair, what was guessed about its motion's file, and its music as it is heard."""
+    """A pair, with guesses about its motion file and its music."""
 
     pair: Pair
     motion: ReadMotion
@@ -45,34 +45,33 @@ def read_pair(
     joints: Mapping[str, str] | None = None,
     figure: str = "",
 ) -> ReadPair:
-    """Read a pair.
+    """Return a pair read from files.
 
     Parameters
     ----------
     motion : Path
         A BVH, FBX or glTF file.
     music : Path
-        A MIDI file or a score; without percussion its melody, bass and accents are heard.
+        MIDI file or score; without percussion, its melody, bass and accents are used.
     offset_s : float, optional
-        The music's first tick is at this time of the motion's file, of which the pair's clip may be a later part
-        (`ReadMotion.start_s`); without it the offset is to be found.
+        Time of the motion file at the music's first tick in seconds; by default found automatically. The pair's clip
+        may start later (`ReadMotion.start_s`).
     fps : Fraction, optional
-        The true frame rate of the motion, where its file's is wrong.
+        True frame rate of the motion, if its file's is wrong.
     credits : Path, optional
-        Provenance and licence of the motion; without it a text file beside the motion is taken that has its name, if
-        there is one.
+        Provenance and licence of the motion; by default a text file of the same name beside the motion, if there is
+        one.
     cuts : Path, optional
-        Where the motion is cut, as times of its file (`app.choreography.cuts_by_hand.read_times`); without it the cuts
-        are to be found.
+        Cuts as times of the motion file (`app.choreography.cuts_by_hand.read_times`); by default found automatically.
     joints : mapping of str to str, optional
-        Corrections of the motion's bones by joint, see `app.choreography.raw_skeleton.JOINTS`; empty: none.
+        Corrected bones by joint, see `app.choreography.raw_skeleton.JOINTS`; empty for none.
     figure : str
-        Root of the motion's skeleton where its file has several; empty: the first that is a body.
+        Root of the motion's skeleton in a file with several; empty for the first that is a body.
 
     Raises
     ------
     AppError
-        A file cannot be read, is none of the kind, or has cuts that do not fit the motion.
+        A file cannot be read, has another format, or contains cuts that do not fit the motion.
     """
     read = read_motion(motion, fps, joints, figure)
     score = uncast_score(read_contents(music))
@@ -89,13 +88,13 @@ def read_pair(
 
 
 def to_check(read: ReadPair) -> list[Message]:
-    """Guesses about the motion, and the note that its music has no percussion."""
+    """Return guesses about the motion, and a note if its music has no percussion."""
     music = [Message("learn.derived", {"music": read.pair.music_name})] if read.pair.rhythm.derived else []
     return [*guesses(read.motion), *music]
 
 
 def _cut(pair: Pair, read: ReadMotion, times_s: Sequence[Sequence[float]]) -> Pair:
-    """The pair, cut at times of its motion's file."""
+    """Return the pair with cuts at times of its motion file."""
     clip = stored(pair.motion)
     of_clip_s = [[time_s - read.start_s for time_s in group] for group in times_s]
     return replace(pair, cuts=cuts_at(of_clip_s, clip.fps, angular_acceleration(clip), pair.motion_name))

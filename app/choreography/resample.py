@@ -12,9 +12,9 @@ from app.rig import quaternion
 
 
 def resampled(clip: MotionClip, fps: Fraction) -> MotionClip:
-    """The motion at a frame rate, from its first frame to at most its last; the same value at its own rate.
+    """Return the motion at a frame rate, from its first frame to at most its last; the same object at its own rate.
 
-    Between frames it follows cubic splines, so that its speed has no steps where the frames of the source are.
+    Values between frames follow cubic splines, so that speed is continuous.
     """
     if fps == clip.fps or len(clip) < 2:
         return MotionClip(clip.shape, fps, clip.hips_m, clip.rotations)

@@ -1,9 +1,9 @@
-"""A motion of the 16 segments on the skeleton of a character.
+"""Transfer of a motion of the 16 segments to the skeleton of a character.
 
-Every segment's world rotation is the character's joint's. What a character has beyond the segments follows: vertebrae
-and neck turn between their neighbours, the collar bones rise with arms that are lifted above the shoulders, fingers are
-loosely bent. The path is scaled with the length of the legs; the tips of the feet go to their scaled places by
-inverse kinematics, so that planted feet stay planted whatever the proportions, and no sole is below the floor.
+Each segment's world rotation becomes that of the character's joint. Other joints follow: vertebrae and neck rotate
+between their neighbours, the collar bones rise with arms above the shoulders, fingers are loosely bent. The path is
+scaled by the length of the legs; the tips of the feet reach their scaled places by inverse kinematics, so that planted
+feet stay planted, and no sole is below the floor.
 """
 
 from __future__ import annotations
@@ -26,31 +26,34 @@ from app.rig.sole import SIDES, TIP_PART, foot_tip_m, sole_way_m
 
 TRUNK: Final[tuple[str, ...]] = ("spine", "chest", "upperChest")
 COLLAR_SHARE: Final = 0.25
-"""Share of an arm's rise above the horizontal that the collar bone takes before the shoulder joint (about a third of an
-arm's rise is the shoulder girdle's: V. Inman and others, J. Bone Joint Surg. 26, 1944; the collar bone's joint is
-farther in, so less of it shows)."""
+"""Share of an arm's rise above the horizontal that the collar bone takes (about a third of an arm's rise is due to the
+shoulder girdle: V. Inman and others, J. Bone Joint Surg. 26, 1944; the collar bone's joint is farther in, so less is
+visible).
+"""
 COLLAR_SOFT_RAD: Final = 0.15
-"""Angle about the horizontal over which that begins."""
+"""Angle in radians about the horizontal over which this begins."""
 FINGER_BEND_RAD: Final = {"Proximal": 0.30, "Intermediate": 0.40, "Distal": 0.20}
-"""Bend of each bone of loosely bent fingers; the little finger's is larger than the index's by `FINGER_GROWS`."""
+"""Bend in radians of each bone of loosely bent fingers; the little finger's is larger than the index finger's by
+`FINGER_GROWS`.
+"""
 FINGER_GROWS: Final = {"Index": 0.8, "Middle": 1.0, "Ring": 1.15, "Little": 1.3}
 THUMB_BEND_RAD: Final = {"ThumbMetacarpal": 0.10, "ThumbProximal": 0.15, "ThumbDistal": 0.20}
 HEEL_PART: Final = 0.3
-"""The heel is behind the ankle by this part of the way from the ankle to the toes."""
+"""Distance of the heel behind the ankle relative to that from ankle to toes."""
 FLOOR_SOFT_M: Final = 0.002
-"""Over this height a foot that comes down is stopped by the floor."""
+"""Height in metres within which the floor stops a foot softly."""
 REACH_SHARE: Final = 0.992
 """Largest reach of a foot on the floor, as a share of the leg's length."""
 LOW_M: Final = 0.08
-"""An ankle no higher than this over where it is when the foot stands belongs to a foot on the floor."""
+"""Height in metres of an ankle above its standing height up to which its foot is on the floor."""
 STANDING_M_S: Final = 0.2
-"""A foot slower than this stands."""
+"""Speed in metres per second below which a foot stands."""
 KNEE_AHEAD: Final = 0.02
-"""Part of the leg's length by which the knee of a straight leg points ahead."""
+"""Distance by which the knee of a straight leg points forward, relative to the leg's length."""
 
 
 def retarget(clip: MotionClip, character: Character, first_frame_s: float = 0.0) -> Motion:
-    """Put a motion on a character.
+    """Return the motion of a character.
 
     Parameters
     ----------
@@ -114,7 +117,9 @@ def _clip_socket_height_m(shape: BodyShape) -> float:
 def _hips_path(
     skeleton: Skeleton, clip: MotionClip, turned: FloatArray, places_m: dict[str, FloatArray], scale: float
 ) -> FloatArray:
-    """(F, 3) hips of the character: the middle of its hip joints goes the clip's scaled path."""
+    """Return the path (F, 3) of the character's hips: the middle of its hip joints follows the scaled path of the
+    clip.
+    """
     middle = 0.5 * (places_m["leftUpperLeg"] + places_m["rightUpperLeg"])
     offset = np.mean([skeleton.offsets_m[skeleton.index(f"{side}UpperLeg")] for side in SIDES], axis=0)
     return scale * middle - quaternion.rotate(turned, offset)
@@ -169,9 +174,9 @@ def _ankle_path(
     places_m: dict[str, FloatArray],
     scale: float,
 ) -> FloatArray:
-    """(F, 3) where an ankle of the character goes: its tip of the foot goes the scaled path of the clip's.
+    """Return the path (F, 3) of a character's ankle: the tip of its foot follows the scaled path of the clip's.
 
-    So the tip of a foot that stands stays where it is while the heel rises, however long the foot.
+    So the tip of a standing foot stays in place while the heel rises, for feet of any length.
     """
     foot = f"{side}Foot"
     tip = shape.ends_m[ENDS.index(foot)]
@@ -183,7 +188,7 @@ def _ankle_path(
 def _floor_m(
     skeleton: Skeleton, segments: dict[str, FloatArray], ankles_m: dict[Side, FloatArray], fps: float
 ) -> FloatArray:
-    """(3,) the height at which soles are while their feet stand: feet of a capture are seldom quite on its floor."""
+    """Return the height (3,) of soles while their feet stand, since captured feet are seldom exactly on the floor."""
     heights = []
     for side in SIDES:
         if len(ankles_m[side]) < 2:
@@ -202,7 +207,7 @@ def _sink_m(
     hips_m: FloatArray,
     ankles_m: dict[Side, FloatArray],
 ) -> FloatArray:
-    """(F,) how far the hips come down, so that legs of other proportions reach feet that are on the floor."""
+    """Return how far (F,) the hips are lowered, so that legs of other proportions reach feet on the floor."""
     sink, sockets_m, fps = np.zeros(len(clip)), _socket_paths(skeleton, world, hips_m), float(clip.fps)
     height_m = {side: rest_positions(skeleton)[skeleton.index(f"{side}Foot"), 1] for side in SIDES}
     for side in SIDES:
@@ -228,7 +233,7 @@ def _leg(
     socket_m: FloatArray,
     ankle_m: FloatArray,
 ) -> dict[int, FloatArray]:
-    """Rotations of a leg, by joint, that bring the ankle to its place with the sole on the floor or above it."""
+    """Return the rotations of a leg by joint that bring the ankle to its place with the sole on or above the floor."""
     limb = leg(skeleton, side)
     target, foot = _over_the_floor(skeleton, side, segments[f"{side}Foot"], ankle_m)
     hip, knee, ankle = (places_m[f"{side}{name}"] for name in ("UpperLeg", "LowerLeg", "Foot"))
@@ -243,8 +248,9 @@ def _leg(
 def _over_the_floor(
     skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Place of the ankle (F, 3) and turn of the foot (F, 4): the tip is lifted to the floor; a heel that would be
-    below it is raised about the tip, which stays."""
+    """Return the ankle's place (F, 3) and the foot's rotation (F, 4): the tip is lifted to the floor, and a heel below
+    it is raised about the tip.
+    """
     tip, (way, height_m) = foot_tip_m(skeleton, side), sole_way_m(skeleton, side)
     heel = np.array([-HEEL_PART * way[0], -height_m, -HEEL_PART * way[2]])
     tip_m = ankle_m + quaternion.rotate(foot, tip)
@@ -258,13 +264,13 @@ def _over_the_floor(
 
 
 def _lift_m(height_m: FloatArray) -> FloatArray:
-    """(F,) how far what is at a height is lifted to be no lower than the floor; it is stopped within a little way."""
+    """Return how far (F,) a point at a height is lifted to be above the floor, with a soft stop."""
     soft = FLOOR_SOFT_M * np.logaddexp(0.0, -height_m / FLOOR_SOFT_M)
     return np.asarray(np.where(height_m < 4.0 * FLOOR_SOFT_M, soft, 0.0))
 
 
 def _clip_ankle_height_m(shape: BodyShape, side: Side) -> float:
-    """Height of the ankle over the sole, of a body that stands in the T-pose."""
+    """Return the height of the ankle above the sole for a body standing in the T-pose."""
     height = sum(shape.offsets_m[SEGMENTS.index(name), 1] for name in ("hips", f"{side}UpperLeg", f"{side}LowerLeg"))
     return float(height + shape.offsets_m[SEGMENTS.index(f"{side}Foot"), 1])
 
@@ -278,7 +284,7 @@ def _sole_m(skeleton: Skeleton, side: Side, foot: FloatArray, ankle_m: FloatArra
 
 
 def _bend_fingers(skeleton: Skeleton, local: FloatArray) -> None:
-    """Fingers loosely bent, towards the palm, which faces down in the T-pose."""
+    """Bend the fingers loosely towards the palm, which faces down in the T-pose."""
     for joint, name in enumerate(skeleton.names):
         for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
             if not name.startswith(side):

@@ -1,4 +1,4 @@
-"""The music that a dancer moves to: its beats and what is struck."""
+"""The music for a dancer: beats and hits."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ SYMBOLS: Final = tuple(range(35, 82))
 
 @dataclass(frozen=True, eq=False)
 class Rhythm:
-    """Beats and percussion hits of a piece, in seconds from its first tick.
+    """Beats and percussion hits of a piece in seconds from its first tick.
 
     Attributes
     ----------
     beats_s : (N,) float64
         Ascending; felt beats from the first tick to behind the last hit or note.
     bar_beats : (N,) int
-        Place of each beat in its bar, from 0: 0 is a downbeat.
+        Place of each beat in its bar from 0 (the downbeat).
     hits_s : (H,) float64
         Ascending.
     symbols : (H,) int
@@ -32,11 +32,11 @@ class Rhythm:
     derived : bool
         The piece has no percussion: the symbols were derived from melody, bass and accents.
     divisions : (N,) int, optional
-        Of each beat, as the metre divides it: 3 of a dotted quarter of six eighths; 2 without.
+        Division of each beat by the metre: 3 for a dotted quarter of six eighths; 2 by default.
     melody : Rhythm, optional
-        Beside percussion, what melody, bass and accents stand for.
+        Hits for melody, bass and accents in addition to percussion.
     written : (N,) bool, optional
-        Of each beat, whether it is one of the piece; where others are felt between them, see `felt_at`.
+        Whether each beat is one of the piece; others are felt between these, see `felt_at`.
     """
 
     beats_s: FloatArray
@@ -51,7 +51,7 @@ class Rhythm:
 
 
 def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
-    """Return whether two rhythms are the same to a dancer."""
+    """Return whether two rhythms are equal for a dancer."""
     if one is None or other is None:
         return one is other
     arrays = ("beats_s", "bar_beats", "hits_s", "symbols", "strengths", "divisions", "written")
@@ -60,7 +60,7 @@ def are_alike(one: Rhythm | None, other: Rhythm | None) -> bool:
 
 
 def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
-    """The rhythm for a voice of a canon that enters some beats later, in the tempo of that place."""
+    """Return the rhythm for a voice of a canon that enters some beats later, at the tempo there."""
     if len(rhythm.beats_s) < 2:
         return rhythm
     count = np.arange(len(rhythm.beats_s), dtype=np.float64)
@@ -81,14 +81,16 @@ def delayed(rhythm: Rhythm, beats: float) -> Rhythm:
 
 
 FAR: Final = 1.96
-"""Factor between a tempo and a dancer's own from which the beat is felt at half or double time: a little below 2, so
-that a piece at just half or double the dancer's tempo is felt alike whatever the last digits of that are."""
+"""Ratio between a tempo and a dancer's own from which the beat is felt at half or double time; slightly below 2, so
+that a piece at exactly half or double the tempo is treated equally despite rounding.
+"""
 
 
 def own_beat_s(gaps_s: FloatArray) -> float:
-    """Return a dancer's own beat: the mean of the middle half of the times from one footfall to the next.
+    """Return a dancer's own beat in seconds: the mean of the middle half of the times between footfalls.
 
-    A footfall that is found a frame earlier or later moves it by a small part of a frame, and a median by a whole one.
+    A footfall found a frame earlier or later changes it by a small part of a frame; it would change a median by a whole
+    frame.
 
     Parameters
     ----------
@@ -100,8 +102,9 @@ def own_beat_s(gaps_s: FloatArray) -> float:
 
 
 def felt_at(rhythm: Rhythm, beat_s: float) -> Rhythm:
-    """The rhythm as a dancer feels it whose own beats last ``beat_s``: far slower beats are divided as the metre does,
-    far faster ones are taken by twos or threes, where every bar allows it."""
+    """Return the rhythm as felt by a dancer with beats of ``beat_s``: much slower beats are divided as by the metre,
+    much faster ones grouped by twos or threes if every bar allows this.
+    """
     if len(rhythm.beats_s) < 2:
         return rhythm
     usual_s = float(np.median(np.diff(rhythm.beats_s)))

@@ -1,4 +1,4 @@
-"""Arrivals of the body and footfalls within captured segments, and which of them is put on the beat."""
+"""Arrivals of the body and footfalls within captured segments, and the choice of the moment that is put on the beat."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from app.choreography.model import MotionSegment
 from app.choreography.transition_scores import SegmentMeets
 
 STEPPED_S: Final = 0.12
-"""A foot comes down with an arrival that is no farther from it than this."""
+"""Greatest distance in seconds of a footfall from an arrival for both to coincide."""
 ARRIVES: Final = 1.0
 FALLS: Final = 0.5
 """Worth of an arrival of the body and of a footfall on a beat."""
@@ -26,16 +26,16 @@ def accents_s(
     arrivals: Sequence[IntArray],
     falls_s: Sequence[FloatArray],
 ) -> FloatArray:
-    """(S,) time in its clip of the moment of each segment that is put on the beat.
+    """Return the time (S,) in its clip of each segment's moment that is put on the beat.
 
-    It is where the body arrives and a foot comes down; or else where it arrives; or else where it is slowest from the
-    accent on. Of several the slowest.
+    It is an arrival with a footfall; else an arrival; else the slowest moment from the accent on. Among several the
+    slowest is used.
 
     Parameters
     ----------
     fps, slow, arrivals, falls_s : sequence
-        By clip: frames per second, smoothed speed of the body in each frame, frames of its minima, and times at which
-        feet come down.
+        By clip: frames per second, smoothed speed of the body in each frame, frames of its minima, and times of
+        footfalls.
     """
     found = []
     for one in segments:

@@ -34,35 +34,36 @@ from app.choreography.phrases import ReturningPlaces
 from app.choreography.transition_scores import NEVER, SHARES, MoveCosts, SegmentMeets, SegmentMoves, no_meets
 
 MOST_BEATS: Final = 4
-"""Most beats from one accent to the next."""
+"""Greatest number of beats between accents."""
 
 
 @dataclass(frozen=True)
 class Weights:
-    """Weights of the terms, in natural logarithms of probability.
+    """Weights of the terms in natural logarithms of probability.
 
     Attributes
     ----------
     join_per_m : float
         Of the distance at a join.
     speed : float
-        Of a motion that is danced at a limit of `SPEEDS`; by the square in between.
+        Cost of a motion at a limit of `SPEEDS`; quadratic between.
     off_beat : float
         Of an accent between two beats.
     model : float
         Of the model's log odds.
     heard : float
-        Of the log odds of what is struck, beside ``model``.
+        Weight of the log odds of hits in addition to ``model``.
     chance : float
         Scale of the seed's noise, of Gumbel's distribution.
     lately : float
-        Of each time that a segment was danced within `LATELY_S`, unless it returns; of one that follows itself too.
+        Cost of each time that a segment was danced within `LATELY_S`, unless the music recurs; also of a segment that
+        follows itself.
     returns : float
-        Of a segment that was danced where the music was as it is again.
+        Value of a segment that was danced where the music was the same.
     meets : float
-        Of an arrival of the body on a beat against one between beats; footfalls likewise.
+        Value of an arrival of the body, or of a footfall, on a beat instead of between beats.
     take : float
-        Of a segment of the take whose turn it is.
+        Value of a segment of the favoured take.
     """
 
     join_per_m: float = 55.0
@@ -79,17 +80,17 @@ class Weights:
 
 LATELY_S: Final = 12.0
 FEW: Final = 24.0
-"""Number of segments of which each counts as danced lately by half: few must come again."""
+"""Number of segments in which each counts half as danced recently, since few segments must repeat."""
 ANEW: Final = 0.05
-"""Share of the bars of a section that are danced anew when it returns."""
+"""Share of the bars of a recurring section that are danced anew."""
 LEFT_OVER: Final = 0.85
-"""Part of what a take is owed that is still owed a phrase later: what is not danced now need not be danced later."""
+"""Share of a take's deficit that remains a phrase later."""
 LEAST_SHARE: Final = 0.25
-"""No turn comes to a take that should be danced less than this part of the one that should be danced most."""
+"""Share of the greatest take below which a take gets no turn."""
 SAME_TAKE: Final = 80.0
-"""Beats for which a take may be danced more than its share where music returns to which it was danced."""
+"""Number of beats by which a take may exceed its share if music recurs to which it was danced."""
 PHRASE_BEATS: Final = 8
-"""Beats that are searched at a time; the motions danced in them then count as danced lately."""
+"""Number of beats searched at a time, whose motions then count as danced recently."""
 
 
 _MIDDLES: Final = (np.arange(SHARES) + 0.5) / SHARES
@@ -97,7 +98,7 @@ _MIDDLES: Final = (np.arange(SHARES) + 0.5) / SHARES
 
 @dataclass(frozen=True, eq=False)
 class SegmentCandidates:
-    """Segments that a step of a dance can be made from.
+    """Segments from which a dance is made.
 
     Attributes
     ----------
@@ -105,7 +106,7 @@ class SegmentCandidates:
     before_s, after_s : (S,) float64
         From start to accent and from accent to end, as captured.
     joins_m : (S, S) float64
-        How far the end of the one is from the start of the other.
+        Distance in metres between the end of one and the start of another.
     log_transition : (S, S) float64
         Log odds of the second's state after the first's.
     meets : SegmentMeets, optional
@@ -127,7 +128,7 @@ class Constraints:
     Attributes
     ----------
     pinned : mapping of int to int
-        State by place of the grid: an accent of this state is there.
+        State by place of the grid, which must have an accent of this state.
     segments : mapping of int to int
         Segment by place.
     forbidden : frozenset of (place, state)
@@ -152,18 +153,18 @@ def choose(
     returns: ReturningPlaces | None = None,
     takes: TakeShares | None = None,
 ) -> list[tuple[int, int]]:
-    """The best segments for a piece.
+    """Return the best segments for a piece.
 
     Parameters
     ----------
     heard : HeardHits
-        By segment of the candidates.
+        Log odds of hits by segment of the candidates.
     constraints : Constraints, optional
     usual, initial, final : (S,) float64, optional
-        Log odds of each segment wherever it is, as the first, and as the last.
+        Log odds of each segment in general, as the first, and as the last.
     returns : ReturningPlaces, optional
     takes : TakeShares, optional
-        How much of each take is danced; by the drums alone without it.
+        Share of each take; by drums only if omitted.
 
     Returns
     -------
@@ -207,7 +208,7 @@ def choose(
 
 
 def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningPlaces:
-    """Let bars by chance not return: they are danced anew."""
+    """Return the recurrences without randomly chosen bars, which are danced anew."""
     anew = random.random(returns.worths.shape[1] + 1) < ANEW
     return replace(
         returns, worths=np.where(anew[returns.bars][:, None], np.minimum(returns.worths, 0.0), returns.worths)
@@ -217,7 +218,7 @@ def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningP
 def _danced_again(
     returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
 ) -> FloatArray:
-    """(P, S) how much more alike places are to those where each segment was danced than others of the piece."""
+    """Return how much more similar places (P, S) are to those where each segment was danced than to others."""
     danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
     for place, segment in chosen:
         danced[place] = segment
@@ -234,7 +235,7 @@ def _danced_again(
 
 
 class _Turns:
-    """Takes in turn, phrase by phrase, so that each is danced as much as it should be."""
+    """Alternation of takes between phrases in proportion to their shares."""
 
     def __init__(self, takes: TakeShares, random: np.random.Generator) -> None:
         self._takes = takes
@@ -244,8 +245,9 @@ class _Turns:
     def favoured(
         self, grid: AccentGrid, chosen: Sequence[tuple[int, int]], first: int, again: FloatArray
     ) -> FloatArray:
-        """(S,) 1 for the segments of the take whose turn it is from a place on; ``again`` as of `_danced_again`: music
-        that returns is the turn of the take that was danced to it, other music that of another."""
+        """Return 1 for the segments (S,) of the favoured take from a place on; recurring music (``again`` from
+        `_danced_again`) favours the take that was danced to it.
+        """
         beats, takes = grid.beats, self._takes.takes
         # An accent is danced about its place; what was danced since the last phrase is taken off.
         for (place, segment), (following, _) in pairwise((*chosen[self._counted :], (first, -1))):
@@ -261,7 +263,7 @@ class _Turns:
 
 
 class _Search:
-    """The search over a grid; what does not depend on the phrase is worked out once."""
+    """The search over a grid, with everything independent of the phrase computed once."""
 
     def __init__(
         self,
@@ -304,7 +306,7 @@ class _Search:
     def phrase(
         self, before: tuple[int, int] | None, first: int, stop: int, extra: FloatArray, ends: FloatArray
     ) -> list[tuple[int, int]]:
-        """The best way through the places ``first`` to ``stop``, going on from an accent before.
+        """Return the best path through the places ``first`` to ``stop``, continuing from an earlier accent.
 
         ``extra`` (stop - first, S) is added to the score of each accent, ``ends`` (S,) to that of the last one.
         """
@@ -368,7 +370,7 @@ class _Search:
         return way[::-1]
 
     def _allowed(self, place: int) -> FloatArray:
-        """Nothing for the segments that may be at a place, never for the others."""
+        """Return 0 for the segments allowed at a place, minus infinity for the others."""
         constraints, states = self._constraints, self._candidates.states
         cost = np.zeros(len(states))
         if place in constraints.segments:
@@ -380,15 +382,16 @@ class _Search:
         return cost
 
     def _skips(self, earlier: int, place: int) -> bool:
-        """Return whether going from one place to the other leaves out one that has to have an accent."""
+        """Return whether a move between two places omits one that must have an accent."""
         return bisect_right(self._constrained, earlier) < bisect_left(self._constrained, place)
 
     def _is_constrained(self, place: int) -> bool:
         return place in self._forbidden or place in self._constraints.pinned or place in self._constraints.segments
 
     def _struck(self, earlier: int, place: int) -> tuple[SingleArray | None, FloatArray | float]:
-        """Log odds of what is struck from one accent to the next: (SHARES, S) until the one's segment goes over into
-        the other's, and (S,) altogether."""
+        """Return the log odds of hits between two accents: (SHARES, S) until the change of segments, and (S,) in
+        total.
+        """
         first, stop = self._hits[earlier], self._hits[place]
         if first == stop:
             return None, 0.0

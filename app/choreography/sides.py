@@ -1,4 +1,4 @@
-"""Left and right of a captured body: knees bend back and toes point ahead, whatever names say."""
+"""Left and right of a captured body, determined by the bend of knees and the direction of toes instead of names."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from app.choreography.captured_joints import LEG, SIDES, Captured, unit
 from app.rig import quaternion
 
 CLEARLY: Final = 0.3
-"""Knees and toes that together point back more than this exchange the legs that names say; each is 1 at most."""
+"""Sum of the backward directions of knees and toes (each at most 1) above which legs are exchanged against their
+names.
+"""
 
 
 SIDE_WORDS: Final = (("left", "right"), ("l", "r"), ("links", "rechts"), ("左", "右"))
@@ -21,17 +23,17 @@ ARMS: Final = ("Shoulder", "Arm", "Hand", "Thumb", "Index", "Middle", "Ring", "L
 
 
 def joints_by_side(body: Captured, named: bool, kept: Collection[str] = ()) -> dict[str, int]:
-    """Joints with the names left and right exchanged where the motion says so.
+    """Return joints with left and right exchanged if the motion requires it.
 
-    Legs are exchanged if the knees would bend back and the toes point there; arms and eyes if their line runs against
+    Legs are exchanged if knees would bend backwards and toes point back; arms and eyes if their line is opposite to
     that of the hips.
 
     Parameters
     ----------
     named : bool
-        True if names say the sides: then knees and toes must agree that they are wrong.
+        Whether sides are known from names; then knees and toes must agree that these are wrong.
     kept : collection of str
-        Joints that a user corrected: legs, arms or eyes of which one is corrected keep their sides.
+        Joints that the user corrected: legs, arms or eyes including one of them keep their sides.
     """
     joints = dict(body.joints)
     hips = unit(body.hip_line)
@@ -54,7 +56,7 @@ def _any_of(joints: Collection[str], names: Sequence[str]) -> bool:
 
 
 def _knees_ahead(body: Captured) -> float:
-    """Return how surely the knees bend as they would between these hips: 1, or -1 if the other way."""
+    """Return how certainly the knees bend in the correct direction: 1, or -1 for the opposite."""
     hips, found = unit(body.hip_line), []
     for side, sign in SIDES:
         bend = body.bend([side + name for name in LEG], sign)
@@ -64,7 +66,7 @@ def _knees_ahead(body: Captured) -> float:
 
 
 def _toes_ahead(body: Captured) -> float:
-    """Cosine between the toes and ahead, as the hips have it, in the mean; 0 where the feet have no ends."""
+    """Return the mean cosine between the toes and the hips' forward direction; 0 if the feet have no ends."""
     ahead, found = np.cross(unit(body.hip_line), body.up), []
     for side, _ in SIDES:
         name = f"{side}Foot"
@@ -74,7 +76,7 @@ def _toes_ahead(body: Captured) -> float:
 
 
 def exchanged(joints: Mapping[str, int], names: Sequence[str] = ("",)) -> dict[str, int]:
-    """Joints with left and right exchanged; of those only whose names hold one of these."""
+    """Return joints with left and right exchanged, only those whose names contain one of the given texts."""
     other = {"left": "right", "right": "left"}
     found = {}
     for joint, bone in joints.items():
@@ -85,7 +87,7 @@ def exchanged(joints: Mapping[str, int], names: Sequence[str] = ("",)) -> dict[s
 
 
 def called_after_the_other_side(joints: Mapping[str, int], names: Sequence[str]) -> tuple[str, ...]:
-    """Upper arms and legs whose bones' names say that they are of the other side.
+    """Return the upper arms and legs whose bones are named after the other side.
 
     Parameters
     ----------
@@ -101,7 +103,7 @@ def called_after_the_other_side(joints: Mapping[str, int], names: Sequence[str])
 
 
 def _says_left(name: str, other: str) -> bool:
-    """Return whether a name is that of a left bone, and the other is its right one's."""
+    """Return whether a name is that of a left bone, and the other that of its right counterpart."""
     name, other = name.lower(), other.lower()
     return any(
         name[:at] + right + name[at + len(left) :] == other

@@ -1,7 +1,7 @@
-"""Spins of a dance no faster than a body's: where a motion is danced faster than captured, its turns are too.
+"""Limits the speed of spins in a dance, which increases when a motion is danced faster than captured.
 
-The excess is turned a little before and after instead. The body turns about the vertical through its hips and is
-otherwise as it was, so that it arrives when it did.
+The excess rotation is moved to slightly earlier and later frames. The body rotates about the vertical through its hips
+and is otherwise unchanged, so that arrivals stay in time.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from app.choreography.damage import FASTEST_HIPS_RAD_S
 from app.rig import quaternion
 
 AROUND_S: Final = 0.06
-"""Standard deviation in time of where an excess goes."""
+"""Standard deviation in seconds of the distribution of the excess."""
 ROUNDS: Final = 60
 ROOM: Final = 0.97
-"""Feet that are put where they stood move the hips a little once more."""
+"""Share of the limit that is used, since placing the feet moves the hips slightly again."""
 _UP: Final = (0.0, 1.0, 0.0)
 
 
 def without_haste(clip: MotionClip, fastest_rad_s: float = FASTEST_HIPS_RAD_S) -> MotionClip:
-    """The motion with hips that turn no faster than this; the same value where they do not."""
+    """Return the motion with the hips' rotation limited; the same object if it is within the limit."""
     fps = float(clip.fps)
     bound = ROOM * fastest_rad_s / fps
     if len(clip) < 2 or hips_rad(clip).max() <= bound:
@@ -46,7 +46,7 @@ def without_haste(clip: MotionClip, fastest_rad_s: float = FASTEST_HIPS_RAD_S) -
 
 
 def hips_rad(clip: MotionClip) -> FloatArray:
-    """(F - 1,) how far the hips turn from frame to frame."""
+    """Return the rotation (F - 1,) of the hips in radians from frame to frame."""
     turns = clip.rotations[:, 0]
     steps = quaternion.multiply(quaternion.conjugate(turns[:-1]), turns[1:])
     return np.asarray(np.linalg.norm(quaternion.to_rotation_vector(steps), axis=-1))

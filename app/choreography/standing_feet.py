@@ -1,4 +1,4 @@
-"""Feet that stand stay where they stand: the legs of a motion are solved again for tips of feet that do not slide."""
+"""Keeps standing feet in place: the legs of a motion are solved again for foot tips that do not slide."""
 
 from __future__ import annotations
 
@@ -26,29 +26,31 @@ LEG: Final = ("UpperLeg", "LowerLeg", "Foot")
 AHEAD: Final = (0.0, 0.0, 1.0)
 """Direction of a knee, in the frame of the thigh."""
 BRIDGED_S: Final = 0.06
-"""A foot that leaves the floor for less has not left it."""
+"""Longest absence from the floor in seconds that is ignored."""
 LEAST_S: Final = 0.1
-"""Shortest time for which a foot stands; a shorter one is passing."""
+"""Shortest stand in seconds; shorter ones are ignored."""
 REACHED_M: Final = 0.08
-"""Height over the floor up to which a foot has landed; a higher one, carried up by a join, is still coming down."""
+"""Height in metres above the floor up to which a foot has landed; a higher one, lifted by a join, is still
+descending.
+"""
 DRIFTS_M: Final = 0.18
-"""A foot whose tip is carried farther than this while it should stand takes a step instead."""
+"""Distance in metres of a tip's drift during a stand above which the foot takes a step instead."""
 STEP_S: Final = 0.30
 STEP_HIGH_M: Final = 0.03
-"""Height of such a step that goes `STEP_FAR_M` or farther; of shorter ones less."""
+"""Height in metres of such a step over `STEP_FAR_M` or more; less for shorter ones."""
 STEP_FAR_M: Final = 0.10
 SAME_M: Final = 0.04
-"""Places nearer to each other than this are one, if the foot hardly leaves the floor between them."""
+"""Distance in metres below which places are equal if the foot hardly leaves the floor between them."""
 SETTLE_S: Final = 0.30
-"""Within this time after it leaves the floor, and before it comes to stand, a foot goes over to its own path."""
+"""Time in seconds after leaving and before reaching the floor within which a foot blends with its own path."""
 REACH_SHARE: Final = 0.985
-"""Largest reach of a standing foot, as a share of the leg's length; the hips come down for a farther one."""
+"""Largest reach of a standing foot relative to the leg's length; for a farther one the hips are lowered."""
 DEEPER: Final = 0.07
 HIGHER: Final = 0.02
 """Difference in the height of the hips, as a share of the leg's length: lower for the heaviest and higher for the
 lightest dancer."""
 SINK_S: Final = 0.12
-"""Standard deviation in time of that."""
+"""Standard deviation in seconds of the hips' lowering."""
 
 
 @dataclass(frozen=True)
@@ -62,16 +64,15 @@ class FootPlant:
 
 
 def stands(clip: MotionClip, contacts: BoolArray, moved_m: FloatArray | None = None) -> tuple[FootPlant, ...]:
-    """Return where feet stand.
+    """Return the stands of the feet.
 
     Parameters
     ----------
     contacts : (F, 2) bool
-        Of the left and the right foot, as captured. A foot that the motion carries away while it should stand, by a
-        join or a turn, is taken to step meanwhile.
+        Captured contacts of the left and the right foot. A foot that a join or turn moves away while it should stand
+        takes a step instead.
     moved_m : (F, 3) float64, optional
-        How far the whole body was moved in each frame to keep near its place: steps get shorter by that, and no foot
-        is carried away.
+        Displacement of the whole body in each frame for staying near its place, which shortens steps.
     """
     fps, tips = float(clip.fps), tips_m(clip)
     unmoved = tips if moved_m is None else tips - moved_m[:, None]
@@ -94,7 +95,7 @@ def foot_speeds_m_s(clip: MotionClip) -> FloatArray:
 
 
 def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
-    """Times for which feet are off the floor between stands at two places."""
+    """Return the times in seconds for which feet are off the floor between stands at two places."""
     found = []
     for foot in range(2):
         for before, after in pairwise(stand for stand in standing if stand.foot == foot):
@@ -104,9 +105,9 @@ def steps_s(standing: Sequence[FootPlant], fps: float) -> list[float]:
 
 
 def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
-    """Stands of a foot, ascending, with time between them to go from one place to the next.
+    """Return the ascending stands of a foot with time between them for moving.
 
-    A foot that comes down again where it was goes on standing there.
+    A foot that lands at the same place continues to stand there.
     """
     found: list[FootPlant] = []
     for stand in standing:
@@ -130,14 +131,14 @@ def _apart(standing: list[FootPlant], fps: float) -> list[FootPlant]:
 def planted(
     clip: MotionClip, standing: tuple[FootPlant, ...], weight: float = 0.0, shown: FloatArray | None = None
 ) -> MotionClip:
-    """The motion with its feet where they stand; between two stands they go over from one correction to the other.
+    """Return the motion with feet in place during stands; between two stands the corrections are blended.
 
     Parameters
     ----------
     weight : float
-        -1 to 1: the hips of a heavy dancer are lower over the same steps, those of a light one higher.
+        -1 to 1: the hips of a heavy dancer are lower with the same steps, those of a light one higher.
     shown : (F, 2) float64, optional
-        Of each frame, the frame of the motion that each foot shows; without it, this one.
+        Frame of the motion used for each foot in each frame; by default the same.
     """
     if not standing and not weight:
         return clip
@@ -163,7 +164,7 @@ def planted(
 
 
 def _feet_at(tips: FloatArray, world: JointTransforms, shown: FloatArray) -> tuple[FloatArray, JointTransforms]:
-    """Tips and turns of the feet in the world as they are in other frames, which need not be whole."""
+    """Return tips and rotations of the feet in the world at other, possibly fractional, frames."""
     frames = np.arange(len(tips))
     tips, rotations = tips.copy(), world.rotations.copy()
     for foot, name in enumerate(FEET):
@@ -184,7 +185,7 @@ def _tip_height_m(clip: MotionClip, foot: int) -> float:
 
 
 def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:
-    """Stretches of contact, bridged where the foot left for a moment; too short ones left out."""
+    """Return the spans of contact without short interruptions and without short spans."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], contact.astype(np.int8), [0]])))
     spans: list[tuple[int, int]] = []
     for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
@@ -196,8 +197,9 @@ def _spans(contact: BoolArray, fps: float) -> list[tuple[int, int]]:
 
 
 def _still(tip_m: FloatArray, fps: float) -> list[tuple[int, int]]:
-    """Parts of a stretch (N, 3) in which a tip stays within `DRIFTS_M` of its middle: else it is cut where it goes
-    fastest, and a step is left out there."""
+    """Return the parts of a span (N, 3) in which a tip stays within `DRIFTS_M` of its middle; the span is cut where the
+    tip is fastest, leaving room for a step.
+    """
     frames = len(tip_m)
     if frames < LEAST_S * fps:
         return []
@@ -219,7 +221,7 @@ def _middle(places_m: FloatArray) -> FloatArray:
 
 
 def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> FloatArray:
-    """(F, 3) from a tip to where it has to be."""
+    """Return the displacement (F, 3) from a tip to its required place."""
     result = np.zeros_like(tip_m)
     for stand in standing:
         result[stand.start : stand.stop] = stand.place_m - tip_m[stand.start : stand.stop]
@@ -247,7 +249,9 @@ def _correction(tip_m: FloatArray, standing: list[FootPlant], fps: float) -> Flo
 
 
 def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray, FloatArray]:
-    """Value and slope per frame of a correction at the edge of a stand; ``inwards`` is where the stand is not."""
+    """Return value and slope per frame of a correction at the edge of a stand; ``inwards`` is the direction away from
+    the stand.
+    """
     inside = frame + (1 if inwards > 0 else -1)
     inside = min(max(inside, 0), len(correction) - 1)
     slope = (correction[inside] - correction[frame]) * (1 if inwards > 0 else -1)
@@ -255,7 +259,7 @@ def _edge(correction: FloatArray, frame: int, inwards: int) -> tuple[FloatArray,
 
 
 def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> FloatArray:
-    """(N, 3) cubic that begins with a value and a slope per frame and ends at rest at ``u`` = 1."""
+    """Return a cubic (N, 3) with an initial value and slope per frame that ends at rest at ``u`` = 1."""
     u = np.minimum(u, 1.0)[:, None]
     return np.asarray((1.0 - u) ** 2 * (1.0 + 2.0 * u) * value + (1.0 - u) ** 2 * u * fade * slope)
 
@@ -263,7 +267,7 @@ def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> 
 def _sink_m(
     clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
-    """(F,) how much farther than by ``lower_m`` the hips come down where a foot that stands would be out of reach."""
+    """Return how far (F,) the hips are lowered beyond ``lower_m`` where a standing foot would be out of reach."""
     fps = float(clip.fps)
     sink = np.zeros(len(clip))
     for stand in standing:

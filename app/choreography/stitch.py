@@ -1,4 +1,4 @@
-"""Segments of motion laid end to end: each turned and moved to where the one before ends, and faded in from it."""
+"""Concatenation of motion segments: each is rotated and moved to the end of the previous one, and blended."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from app.choreography.model import ChoreographyModel
 from app.rig import quaternion
 
 STAGE_M: Final = 1.2
-"""A dancer keeps this near to the place."""
+"""Distance in metres within which a dancer stays near the place."""
 FACES_RAD: Final = math.radians(6.0)
 """And turned no farther from the audience, in the mean of each motion; spins and turns of the capture stay whole."""
 TURN_BACK: Final = 1.0
 MOST_TURN_RAD: Final = math.radians(70.0)
 STEP_BACK: Final = 0.2
 MOST_STEP_M: Final = 0.08
-"""Part of an excess over these that each join takes back, and how much at most."""
+"""Share of an excess over these that each join corrects, and greatest correction."""
 LATELY_S: Final = 1.0
 """Seconds of motion whose mean is the dancer's place."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
@@ -36,18 +36,18 @@ _UP: Final = np.array([0.0, 1.0, 0.0])
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Moment of the captured motion that each frame shows.
+    """Moment of the captured motion for each frame.
 
     Attributes
     ----------
     segments : (N,) int64
-        Segments of the model in the order in which they are danced.
+        Segments of the model in the order of dancing.
     which : (F,) int64
-        Of each frame the place in that order; ascending.
+        Index in that order for each frame; ascending.
     source_s : (F,) float64
         Time in the clip of that segment.
     speeds : (F,) float64
-        How fast that time goes: 1 as captured, 0 at rest.
+        Speed of that time: 1 as captured, 0 at rest.
     """
 
     segments: IntArray
@@ -57,14 +57,14 @@ class Frames:
 
 
 class Stitcher:
-    """The motion of a model, prepared for being put together in any order.
+    """The motion of a model, prepared for concatenation in any order.
 
     Attributes
     ----------
     starts, ends : Clouds
         The bodies about the first and the last frame of each segment.
     contacts : list of (F, 2) bool
-        When the feet of each clip stand.
+        Whether the feet of each clip stand, by frame.
     """
 
     def __init__(self, model: ChoreographyModel) -> None:
@@ -76,7 +76,7 @@ class Stitcher:
         self.ends = Clouds(model.clips, [(one.clip, one.end) for one in model.segments])
 
     def feet_standing(self, frames: Sequence[int]) -> IntArray:
-        """(S,) how many feet stand at a frame of each segment's clip."""
+        """Return the number (S,) of standing feet at a frame of each segment's clip."""
         return np.array(
             [
                 self.contacts[one.clip][min(frame, len(self.contacts[one.clip]) - 1)].sum()
@@ -91,27 +91,27 @@ class Stitcher:
         return one.clip == other.clip and one.end == other.start
 
     def still(self, count: int, body: int, fps: Fraction) -> MotionClip:
-        """The first pose of the model, for a number of frames, with the body of one of the clips."""
+        """Return the first pose of the model for a number of frames, with the body of one of the clips."""
         first = self._model.segments[0]
         hips, rotations = self._clips[first.clip].at(np.full(count, float(first.start)))
         scale = self._heights_m[body] / self._heights_m[first.clip]
         return MotionClip(self._model.clips[body].shape, fps, hips * _UP * scale, rotations)
 
     def stitched(self, frames: Frames, body: int, fps: Fraction) -> tuple[MotionClip, BoolArray, tuple[int, ...]]:
-        """Put segments together.
+        """Return the concatenated segments.
 
         Parameters
         ----------
         body : int
-            The clip whose body dances.
+            Index of the clip whose body dances.
 
         Returns
         -------
         clip : MotionClip
         contacts : (F, 2) bool
-            When the left and the right foot stand in the capture.
+            Whether the left and the right foot stand in the capture.
         seams : tuple of int
-            Frames at which motion begins that does not follow in the capture on what was before.
+            Frames at which motion begins that does not continue the capture before it.
         """
         runs = np.flatnonzero(np.diff(frames.which, prepend=-1, append=frames.which[-1] + 1))
         captured, contacts = self._captured(frames, runs, body, fps)
@@ -146,7 +146,9 @@ class Stitcher:
     def _captured(
         self, frames: Frames, runs: IntArray, body: int, fps: Fraction
     ) -> tuple[tuple[FloatArray, FloatArray], BoolArray]:
-        """Hips and rotations of every frame, and of one more after each run, for a body; when feet stand."""
+        """Return hips and rotations of every frame, and of one more after each run, for a body; and the stands of
+        feet.
+        """
         last = runs[1:] - 1
         after_s = frames.source_s[last] + frames.speeds[last] / float(fps)
         source_s, which = (
@@ -165,7 +167,7 @@ class Stitcher:
         return (hips, rotations), contacts
 
     def _home(self, segment: int, body: int) -> tuple[float, complex]:
-        """Turn and move that put the start of a segment at the dancer's place, facing the audience."""
+        """Return the rotation and move that put the start of a segment at the dancer's place, facing the audience."""
         one = self._model.segments[segment]
         source = self._model.clips[one.clip]
         turn = -float(quaternion.twist_angle(facing(source.span(one.start, one.start + 1)), _UP)[0])
@@ -175,7 +177,7 @@ class Stitcher:
     def _aligned(
         self, before: int, after: int, turn: float, moved: complex, own_height_m: float
     ) -> tuple[float, complex]:
-        """Turn and move of a segment that lay it over the end of the one before."""
+        """Return the rotation and move of a segment that align it with the end of the previous one."""
         own = best_turn_rad(self.ends.flat[before], self.starts.flat[after])
         scale = own_height_m / STATURE_M
         reached = complex(np.exp(1j * turn)) * self.ends.middle[before] * scale + moved
@@ -193,14 +195,14 @@ class _SmoothClip:
         self._rotations = CubicSpline(frames, clip.rotations.reshape(len(clip), -1))
 
     def at(self, frames: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Hips (N, 3) and local rotations (N, 16, 4) at frames, which need not be whole; within the clip."""
+        """Return hips (N, 3) and local rotations (N, 16, 4) at possibly fractional frames within the clip."""
         frames = np.clip(frames, 0.0, self._last)
         turns = self._rotations(frames).reshape(len(frames), len(SEGMENTS), 4)
         return self._hips(frames), quaternion.normalize(turns)
 
 
 class _Output:
-    """Frames as they are made; each new motion is carried over from the one before."""
+    """Generated frames, with each new motion blended from the previous one."""
 
     def __init__(self, fps: Fraction, count: int) -> None:
         self._rate = float(fps)
@@ -209,14 +211,14 @@ class _Output:
         self._fades_until, self._carried = 0, 0
 
     def fading(self, frame: int) -> int:
-        """Number of earlier segments that still fade out at a frame."""
+        """Return the number of segments whose blend continues at a frame."""
         return self._carried if frame < self._fades_until else 0
 
     def append(self, start: int, hips: FloatArray, rotations: FloatArray, carried: int) -> None:
-        """Add frames; the last of what is given is what would come next, and is not added.
+        """Add frames, except the last one, which is the continuation.
 
-        The place of the hips and the rotations of the first ``carried`` segments are carried over from the motion
-        before, and fade; 0: nothing is.
+        The place of the hips and the rotations of the first ``carried`` segments are blended from the previous motion;
+        0 for no blend.
         """
         count = len(hips) - 1
         if carried and start >= 2:
@@ -243,7 +245,7 @@ class _Output:
         self.hips[here], self.rotations[here] = hips[:-1], rotations[:-1]
 
     def place(self, frame: int) -> complex:
-        """Return where the hips are just before a frame."""
+        """Return the hips' place just before a frame."""
         return complex(self.hips[frame - 1, 2], self.hips[frame - 1, 0])
 
     def lately(self, frame: int) -> complex | None:
@@ -256,12 +258,14 @@ class _Output:
 
 
 def _faces(rotations: FloatArray) -> complex:
-    """Mean facing of the hips in some frames (F, 16, 4); of a turn that goes all around it is short."""
+    """Return the mean facing of the hips in frames (F, 16, 4); its length is short if they turn around."""
     return complex(np.exp(1j * quaternion.twist_angle(rotations[:, 0], _UP)).mean())
 
 
 def _steered(turn: float, moved: complex, out: _Output, frame: int, ahead: complex) -> tuple[float, complex]:
-    """A little back towards the place, where the body was lately, and the audience, by where it will face."""
+    """Return rotation and move corrected slightly towards the place (judged by the recent mean) and the audience
+    (judged by the coming direction).
+    """
     hips = out.lately(frame)
     if hips is None:
         return turn, moved

@@ -1,9 +1,8 @@
-"""Feet and hands of a dance that change their way no more suddenly than captured ones.
+"""Limits the accelerations of feet and hands in a dance to those of captures.
 
-Time that goes faster, a foot that is put where it stood and a faded join all add to the accelerations of a capture,
-twitches of its markers among them. Where an ankle, a toe, a wrist or a fingertip is accelerated by more than `MOST`
-times what is usual in the capture, its path is bent as little as will do in the frames about it. Feet stay where they
-stand.
+Faster time, feet kept in place and blended joins increase the accelerations of a capture, including twitches of its
+markers. Where an ankle, toe, wrist or fingertip is accelerated by more than `MOST` times the usual value, its path is
+bent minimally in the adjacent frames. Standing feet stay in place.
 """
 
 from __future__ import annotations
@@ -30,26 +29,28 @@ from app.rig.skeleton import JointTransforms
 from app.rig.sole import SIDES
 
 MOST: Final = 1.25
-"""Largest acceleration of an end or its joint, in those of the capture that are exceeded in one frame of a thousand."""
+"""Largest acceleration of an end or its joint relative to the value exceeded in one of a thousand captured frames."""
 USUAL_PERCENTILE: Final = 99.9
 AROUND_S: Final = 0.2
-"""A path is bent no farther than this before and after."""
+"""Time in seconds before and after within which a path is bent."""
 TRIES: Final = 3
-"""Most times that a motion is mended: what is taken away in one place may be left over beside it."""
+"""Greatest number of passes over a motion, since corrections may leave an excess beside them."""
 PASSES: Final = 4
-"""Each bend of the path of one of two points moves the other a little."""
+"""Number of alternations between two points, since bending one path moves the other slightly."""
 ROUNDS: Final = 400
 STEP: Final = 1.0 / 16.0
-"""Share of an excess that is taken away at a time: one over the largest eigenvalue of the second difference times its
-transpose, with which momentum is stable."""
+"""Share of an excess removed at a time: the inverse of the largest eigenvalue of the second difference times its
+transpose, stable with momentum.
+"""
 _ROOM: Final = 0.93
-"""Paths are mended to this part of the bound, so that what follows leaves them within it."""
+"""Share of the bound to which paths are corrected, leaving a margin for later steps."""
 _ARM: Final = ("UpperArm", "LowerArm", "Hand")
 
 
 @dataclass(frozen=True, eq=False)
 class UsualAccelerations:
-    """Accelerations of a capture at a frame rate, over the body's height, 1/s^2: all but one frame of a thousand.
+    """Accelerations of a capture at a frame rate relative to the body's height, in 1/s^2, exceeded in one of a thousand
+    frames.
 
     Attributes
     ----------
@@ -62,7 +63,7 @@ class UsualAccelerations:
 
 
 def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAccelerations:
-    """Return what is usual in some clips, each resampled to the frame rate."""
+    """Return the usual accelerations in clips, each resampled to the frame rate."""
     found = []
     for name in ("Foot", "Hand"):
         rows = [np.zeros((0, 2))]
@@ -75,7 +76,7 @@ def usual_accelerations(clips: Sequence[MotionClip], fps: Fraction) -> UsualAcce
 
 
 def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: UsualAccelerations) -> MotionClip:
-    """The motion with no end that is accelerated more than by `MOST` of what is usual, where its joints allow it."""
+    """Return the motion with accelerations of ends limited to `MOST` times the usual ones, as far as joints allow."""
     planted = np.zeros((len(clip), 2), bool)
     for stand in standing:
         planted[stand.start : stand.stop, stand.foot] = True
@@ -88,7 +89,7 @@ def without_twitches(clip: MotionClip, standing: Sequence[FootPlant], usual: Usu
 
 
 def _calmer(clip: MotionClip, planted: BoolArray, usual: UsualAccelerations) -> MotionClip:
-    """The motion with the places mended that are too sudden; the same value where none is."""
+    """Return the motion with too sudden places corrected; the same object if there are none."""
     world, rotations = clip.world(), clip.rotations.copy()
     nowhere = np.zeros(len(clip), bool)
     found = False
@@ -109,8 +110,9 @@ def _calm(
     planted: BoolArray,
     rotations: FloatArray,
 ) -> bool:
-    """Write the rotations of a limb whose end twitches, and return whether it does; ``planted`` are the frames in which
-    its tip stays."""
+    """Write the rotations of a limb with a sudden end, and return whether it has one; ``planted`` are the frames with a
+    fixed tip.
+    """
     fps = float(clip.fps)
     most = MOST * usual * height_m(clip) / fps**2
     points = _points_m(clip, world, limb[-1])
@@ -139,8 +141,9 @@ def _calm(
 def _calm_points(
     joint: FloatArray, tip: FloatArray, most: FloatArray, held: BoolArray, planted: BoolArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Paths (N, 3) of the joint of a foot or a hand and of its tip, as far apart as they were: the tip's is bent first,
-    then the joint's about it."""
+    """Return paths (N, 3) of the joint of a foot or hand and of its tip at constant distance: the tip's is bent first,
+    then the joint's.
+    """
     length = np.linalg.norm(tip - joint, axis=-1, keepdims=True)
     for _ in range(PASSES):
         calm = _bent(tip, float(most[1]), held | planted)
@@ -150,7 +153,7 @@ def _calm_points(
 
 
 def _bent(path: FloatArray, most: float, held: BoolArray) -> FloatArray:
-    """A path (N, 3) with second differences no longer than ``most``, by projections onto it; held places stay."""
+    """Return a path (N, 3) with second differences limited to ``most`` by projections; held places stay."""
     moved, before = np.zeros_like(path), np.zeros_like(path)
     free = ~held[:, None]
     for number in range(ROUNDS):
@@ -170,7 +173,7 @@ def _bent(path: FloatArray, most: float, held: BoolArray) -> FloatArray:
 
 
 def _points_m(clip: MotionClip, world: JointTransforms, name: str) -> FloatArray:
-    """(F, 2, 3) the joint of a hand or a foot, and its end."""
+    """Return the joint of a hand or foot and its end (F, 2, 3)."""
     at = 1 + SEGMENTS.index(name)
     joint = world.positions_m[:, at]
     tip = joint + quaternion.rotate(world.rotations[:, at], clip.shape.ends_m[ENDS.index(name)])

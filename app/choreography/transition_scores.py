@@ -1,7 +1,7 @@
-"""Scores of going from one segment to the next between two places of a piece.
+"""Scores of moving from one segment to the next between two places of a piece.
 
-What depends neither on the phrase nor on what is struck is worked out once for each time from place to place, and only
-for the segments from which each one is reached best.
+Terms independent of the phrase and of hits are computed once for each time between places, and only for the best
+predecessors of each segment.
 """
 
 from __future__ import annotations
@@ -17,15 +17,16 @@ from app.arrays import FloatArray, IntArray, SingleArray
 from app.choreography.accent_grid import AccentGrid
 
 SPEEDS: Final = (0.67, 1.5)
-"""A motion is danced no slower and no faster than this from one arrival to the next, beside the speed it was captured
-at; in between its speed goes over smoothly and was up to 1.75 for a moment."""
+"""Slowest and fastest speed of a motion between arrivals relative to the capture; the speed varies smoothly and may
+reach 1.75 for a moment.
+"""
 NEVER: Final = -1e9
 MOST_STARTS: Final = 48
-"""Number of segments, the best-fitting ones, from which a segment can be reached."""
+"""Number of best-fitting predecessors of a segment."""
 SHARES: Final = 64
-"""Accuracy, as a part of the time from accent to accent, of where two segments meet."""
+"""Resolution of the point at which two segments meet, as parts of the time between accents."""
 NEAR_S: Final = 0.1
-"""Standard deviation in time of an arrival that still meets a beat: it can be moved a little."""
+"""Standard deviation in seconds of an arrival that still meets a beat, since it can be shifted slightly."""
 
 
 _Beats: TypeAlias = tuple[tuple[int, float], ...]
@@ -33,12 +34,12 @@ _Beats: TypeAlias = tuple[tuple[int, float], ...]
 
 @dataclass(frozen=True, eq=False)
 class SegmentMeets:
-    """Arrivals of the body and footfalls in segments, beside the one that is put on the grid.
+    """Arrivals of the body and footfalls in segments, in addition to the one on the grid.
 
     Attributes
     ----------
     times_s : (S, E) float64
-        From the segment's accent; NaN where it has fewer of them.
+        Time from the segment's accent; NaN for missing ones.
     worths : (S, E) float64
     accents : (S,) float64
         Worth of the accent itself as an arrival.
@@ -50,13 +51,13 @@ class SegmentMeets:
 
 
 def no_meets(segments: int) -> SegmentMeets:
-    """Segments that arrive at their accents only, whatever that is worth."""
+    """Return arrivals without any besides the accents."""
     return SegmentMeets(np.zeros((segments, 0)), np.zeros((segments, 0)), np.zeros(segments))
 
 
 @dataclass(frozen=True, eq=False)
 class MoveTable:
-    """Scores of going to each segment from some others.
+    """Scores of moves to each segment from some predecessors.
 
     Attributes
     ----------
@@ -64,9 +65,9 @@ class MoveTable:
     starts : (S, K) int
         Ascending in each row.
     of_start, of_end : (S, K) int
-        Flat places in tables (`SHARES`, S): of the one's segment and of the other's, where they meet.
+        Flat indices in tables (`SHARES`, S) of the predecessor and of the segment at their meeting point.
     taken : (S, K) float32
-        Room for what is looked up.
+        Buffer for looked-up values.
     """
 
     scores: SingleArray
@@ -81,15 +82,15 @@ class MoveTable:
         return np.asarray(np.arange(len(self.starts)) * self.starts.shape[1])
 
     def best(self, before: SingleArray, heard: SingleArray | None) -> tuple[IntArray, SingleArray]:
-        """(S,) the start from which each segment is reached best, and its score.
+        """Return the best predecessor (S,) of each segment, and its score.
 
         Parameters
         ----------
         before : (S,) float32
             Score of each start.
         heard : (SHARES, S) float32, optional
-            Log odds of what is struck until the one goes over into the other. What is struck altogether, which each
-            segment as an end would hear, is not added.
+            Log odds of hits until the change of segments. The total log odds of hits, which are equal for all
+            predecessors, are not included.
         """
         scores = before.take(self.starts, mode="clip")
         scores += self.scores
@@ -102,20 +103,20 @@ class MoveTable:
 
 @dataclass(frozen=True, eq=False)
 class MoveCosts:
-    """Costs from which scores of moves are made.
+    """Costs from which scores of moves are calculated.
 
     Attributes
     ----------
     base : (S, S) float64
-        Of going from the one to the other, however fast.
+        Cost of each move at any speed.
     before_s, after_s : (S,) float64
         From start to accent and from accent to end, as captured.
     speed : float
-        Of a motion at a limit of `SPEEDS`; by the square in between.
+        Cost of a motion at a limit of `SPEEDS`; quadratic between.
     usual : (S,) float64
-        Of the starts: those of a high value are looked at first.
+        Value of each predecessor; those with high values are examined first.
     meets : SegmentMeets
-        Multiplied by what a meeting is worth.
+        Arrivals and footfalls multiplied by their value.
     """
 
     base: FloatArray
@@ -127,7 +128,7 @@ class MoveCosts:
 
 
 class SegmentMoves:
-    """Tables of moves over a grid; times are rounded to one in 50."""
+    """Tables of moves over a grid; times are rounded to 1/50."""
 
     def __init__(self, grid: AccentGrid, costs: MoveCosts) -> None:
         self._grid, self._costs = grid, costs
@@ -141,11 +142,11 @@ class SegmentMoves:
         self._shortest_s = float(self._lasts_s.min(initial=np.inf)) / SPEEDS[1]
 
     def possible(self, gap_s: float) -> bool:
-        """Return whether any motion can last this long from accent to accent."""
+        """Return whether any motion can last a time between accents."""
         return self._shortest_s <= gap_s <= self._longest_s
 
     def table(self, earlier: int, place: int, *, every: bool) -> MoveTable:
-        """Moves from the one place to the other; ``every`` start, where not all are free."""
+        """Return the moves between two places; with ``every`` from all predecessors, if not all are allowed."""
         key, beats = self._key(earlier, place)
         full = (key, beats, every)
         if full not in self._tables:
@@ -153,11 +154,11 @@ class SegmentMoves:
         return self._tables[full]
 
     def table_from(self, start: int, earlier: int, place: int) -> MoveTable:
-        """Moves from one segment: (S, 1)."""
+        """Return the moves from one segment, (S, 1)."""
         return self._made(np.full((len(self._base), 1), start, np.intp), *self._key(earlier, place))
 
     def _key(self, earlier: int, place: int) -> tuple[int, _Beats]:
-        """Rounded time from place to place; and of the beats when, as a share in hundredths, and how strong."""
+        """Return the rounded time between places, and the times (in hundredths of it) and strengths of beats."""
         start_s = self._times_s[earlier]
         gap_s = self._times_s[place] - start_s
         beats = tuple(
@@ -168,7 +169,7 @@ class SegmentMoves:
         return round(50.0 * math.log(gap_s)), beats
 
     def _starts(self, key: int, every: bool) -> IntArray:
-        """(S, K) the starts from which each segment is reached best."""
+        """Return the best predecessors (S, K) of each segment."""
         count = len(self._base)
         if every or count <= MOST_STARTS:
             return np.broadcast_to(np.arange(count), (count, count))
@@ -190,7 +191,7 @@ class SegmentMoves:
         return MoveTable(scores.astype(np.float32), np.ascontiguousarray(starts), met + starts, met + ends, taken)
 
     def _met(self, starts: IntArray, lasts_s: FloatArray, gap_s: float, beats: _Beats) -> FloatArray:
-        """(S, K) what meetings with beats are worth from accent to accent, if the motion goes evenly."""
+        """Return the value (S, K) of meetings with beats between accents, for even motion."""
         meets = self._costs.meets
         total = np.zeros(starts.shape)
         if not meets.times_s.size:

@@ -1,10 +1,10 @@
-"""Damage that shows at the hands and feet only: twitches of a limb or of the whole body, and bodies that sink.
+"""Detection of damage visible only at hands and feet: twitches of a limb or the whole body, and sinking bodies.
 
-A few degrees at the hips are little, and so are a few at a knee: far from them a foot goes aside by a hand's breadth
-and back within a twentieth of a second. So the places of ankles, toes and wrists are compared with the cubic too, and
-that of a point which is stiff with the hips where the feet are.
+A few degrees at the hips or a knee are little, but they move a foot aside by a hand's breadth and back within a
+twentieth of a second. So the places of ankles, toes and wrists are compared with the cubic too, and that of a point at
+the feet that moves rigidly with the hips.
 
-The bounds were measured on 300 clean captures of eight makers, kicks, punches and stamps among them.
+The bounds were measured on 300 clean captures from eight sources, including kicks, punches and stamps.
 """
 
 from __future__ import annotations
@@ -25,36 +25,38 @@ from app.rig.skeleton import JointTransforms
 
 LIMB_WINDOW_S: Final = 0.12
 BODY_WINDOW_S: Final = 0.0505
-"""Longest times over which limbs and the whole body are compared: kicks take longer."""
+"""Longest time in seconds over which the whole body is compared, since kicks take longer."""
 FAR_M: Final = 0.11
-"""Distance of an ankle, toes or a wrist from the cubic over `app.choreography.cubic_distance.FAR_S` beyond which a limb
-twitches; in up to 0.05 s it is 5 cm."""
+"""Distance in metres of an ankle, toes or a wrist from the cubic over `app.choreography.cubic_distance.FAR_S` beyond
+which a limb twitches; 5 cm up to 0.05 s.
+"""
 BODY_FAR_M: Final = 0.085
-"""Bound of a point that the hips carry at the height of the ankles; in up to 0.05 s it is 4 cm."""
+"""Same distance for a point that moves with the hips at the height of the ankles; 4 cm up to 0.05 s."""
 BESIDE: Final = 1.5
 BESIDE_M_S: Final = 0.2
-"""Speed in metres per second by which, on top of the factor `BESIDE`, a step within a twitch is faster than the steps
-before and after it."""
+"""Speed in metres per second by which, in addition to the factor `BESIDE`, a step within a twitch is faster than
+adjacent steps.
+"""
 UNDER_M: Final = 0.12
-"""Depth of the feet under the floor beyond which a body sank."""
+"""Depth of the feet in metres below the floor beyond which a body sank."""
 WITH_FEET: Final = 0.7
-"""Least share of that depth by which the hips sank too."""
+"""Least depth of the hips relative to that of the feet."""
 BEGINS: Final = 0.25
-"""Share of that depth from which a body is taken to begin to sink."""
+"""Share of that depth at which a body begins to sink."""
 FLOOR_S: Final = 4.0
 FLOOR_PERCENT: Final = 40
-"""Percentile of the lower foot's height in the time around that is the floor."""
+"""Percentile of the lower foot's height in the surrounding time that defines the floor."""
 
 
 def twitches(clip: MotionClip, found: Iterable[tuple[int, int, int]], tolerance: float) -> set[tuple[int, int, int]]:
-    """Spans (start, stop, part) between sound frames.
+    """Return the spans (start, stop, part) between sound frames.
 
     Parameters
     ----------
     found : iterable of tuple of int
-        Damage that is known: where the hips or a limb are damaged, it is no twitch of the limb.
+        Known damage of the hips or a limb, which is no twitch of the limb.
     tolerance : float
-        Of distances, as a multiple of those of captures.
+        Factor of the distances relative to captures.
     """
     world, fps = clip.world(), float(clip.fps)
     carried = clip.hips_m + quaternion.rotate(clip.rotations[:, 0], np.array([0.0, -_leg_m(clip), 0.0]))
@@ -77,7 +79,7 @@ def twitches(clip: MotionClip, found: Iterable[tuple[int, int, int]], tolerance:
 
 
 def _limb(end: str) -> tuple[int, ...]:
-    """Segments of a limb, by its last one."""
+    """Return the segments of a limb from its last one."""
     kind = "Leg" if end in FEET else "Arm"
     side = end.removesuffix("Foot").removesuffix("Hand")
     return tuple(SEGMENTS.index(name) for name in (f"{side}Upper{kind}", f"{side}Lower{kind}", end))
@@ -89,14 +91,14 @@ def _leg_m(clip: MotionClip) -> float:
 
 
 def _end_m(clip: MotionClip, world: JointTransforms, name: str, reach: float = 1.0) -> FloatArray:
-    """(F, 3) end of a segment; with a reach of 0 what is at its height below the joint."""
+    """Return the end (F, 3) of a segment; with a reach of 0 the point at its height below the joint."""
     at = 1 + SEGMENTS.index(name)
     way = clip.shape.ends_m[ENDS.index(name)] * (reach, 1.0, reach)
     return np.asarray(world.positions_m[:, at] + quaternion.rotate(world.rotations[:, at], way))
 
 
 def _far_spans(places: FloatArray, fps: float, most_s: float, far_m: float) -> Iterator[tuple[int, int]]:
-    """Spans between sound frames of a track that is farther from the cubic than a bound."""
+    """Yield the spans between sound frames of a track that is farther from the cubic than a bound."""
     speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) * fps
     for length in window_lengths(fps, most_s):
         count = len(speeds) - length - 1
@@ -112,7 +114,7 @@ def _far_spans(places: FloatArray, fps: float, most_s: float, far_m: float) -> I
 
 
 def _sunk(clip: MotionClip, world: JointTransforms) -> Iterator[tuple[int, int]]:
-    """Spans in which a body sinks into the floor and comes up again."""
+    """Yield the spans in which a body sinks into the floor and rises again."""
     soles = [_end_m(clip, world, name, reach)[:, 1] for name in FEET for reach in (0.0, 1.0)]
     lowest, hips = np.min(soles, axis=0), clip.hips_m[:, 1]
     around = 1 + 2 * round(0.5 * FLOOR_S * float(clip.fps))

@@ -1,9 +1,9 @@
-"""A dance goes a little faster or slower here and there, so that it arrives on the beats.
+"""Local changes of a dance's speed, so that its arrivals are on the beats.
 
-A body arrives where the summed speed of its points has a minimum: where it stops or turns. These are the beats of a
-motion (Li et al., "AI Choreographer: Music Conditioned 3D Dance Generation with AIST++", ICCV 2021), which is why they,
-and not the moments of greatest acceleration, have to meet those of the music. Which arrival is put on which beat is
-found for the whole dance at once, within the limits of speed.
+A body arrives where the summed speed of its points has a minimum, that is, where it stops or turns. These are the beats
+of a motion (Li et al., "AI Choreographer: Music Conditioned 3D Dance Generation with AIST++", ICCV 2021), so that they,
+and not the moments of greatest acceleration, must meet those of the music. The assignment of arrivals to beats is
+optimised for the whole dance within the limits of speed.
 """
 
 from __future__ import annotations
@@ -22,37 +22,36 @@ from app.choreography.segment_arrivals import STEPPED_S
 from app.choreography.transition_scores import SPEEDS
 
 REST_S: Final = 0.4
-"""Seconds of motion before and after a dance, played ever more slowly, with which it comes out of and back to
-standing."""
+"""Seconds of motion before and after a dance, increasingly slow, that lead from and to standing."""
 MOST_S: Final = 0.6
-"""No arrival is moved farther than this."""
+"""Greatest shift of an arrival in seconds."""
 LOOK_BACK: Final = 6
-"""Most arrivals in a row that may be left unchanged."""
+"""Greatest number of consecutive unchanged arrivals."""
 ARRIVES: Final = 1.0
 ARRIVES_BETWEEN: Final = -0.1
 ANCHOR: Final = 0.05
-"""Worth of an arrival on a beat, of one in the middle between two, and of a segment that stays where it was put."""
+"""Values of an arrival on a beat, in the middle between beats, and of a segment that stays in place."""
 STEPPED: Final = 0.2
-"""Added worth of an arrival on a beat with which a foot comes down."""
+"""Additional value of an arrival on a beat with a footfall."""
 SPEED: Final = 0.2
-"""Cost of going from one to the next at a limit of `SPEEDS`; by the square in between."""
+"""Cost of a speed at a limit of `SPEEDS`; quadratic between."""
 MOVED: Final = 0.2
-"""Cost of an arrival that is moved by `MOST_S`; by the square for less: what is danced to a sound stays near it."""
+"""Cost of an arrival shifted by `MOST_S`; quadratic for less, so that motions stay near their sounds."""
 _TOLERANCE: Final = 0.06
-"""Tolerance of the limits of speed, as a share: a choice made by rounded times stays possible."""
+"""Relative tolerance of the limits of speed, which allows choices based on rounded times."""
 _STEP_S: Final = 0.002
 
 
 @dataclass(frozen=True, eq=False)
 class TimeMap:
-    """Map from time to moments of a dance's motions, laid end to end: smooth, and never backwards.
+    """Map from time to moments of a dance's concatenated motions: smooth, and never backwards.
 
     Attributes
     ----------
     times_s : (N,) float64
         In the piece, ascending.
     along_s : (N,) float64
-        Along the motions as they were captured, ascending.
+        Position along the captured motions in seconds, ascending.
     """
 
     times_s: FloatArray
@@ -69,7 +68,7 @@ class TimeMap:
         return times_s, np.maximum.accumulate(self._inside(times_s))
 
     def at(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return how far along the motions are at some times, and how fast they go: 1 as captured, 0 at rest."""
+        """Return the position along the motions at given times, and the speed: 1 as captured, 0 at rest."""
         slope = self._inside.derivative()
         first_s, last_s = float(self.times_s[0]), float(self.times_s[-1])
         inside = np.clip(times_s, first_s, last_s)
@@ -82,7 +81,7 @@ class TimeMap:
         return along, speeds
 
     def when(self, along_s: FloatArray) -> FloatArray:
-        """The times at which moments of the motions are seen."""
+        """Return the times at which moments of the motions are shown."""
         times_s, along = self._samples
         return np.asarray(np.interp(along_s, along, times_s))
 
@@ -90,12 +89,12 @@ class TimeMap:
 def map_with_arrivals(
     plain: TimeMap, arrivals: FloatArray, grid: AccentGrid, footfalls: FloatArray | None = None
 ) -> TimeMap:
-    """The map that puts arrivals on beats, those with footfalls rather, where the limits of speed allow it.
+    """Return the map that puts arrivals on beats, preferably those with footfalls, within the limits of speed.
 
     Parameters
     ----------
     plain : TimeMap
-        With a knot at each segment's place; its first and last knot are the ends of the dance.
+        Map with a knot at each segment's place; its first and last knot are the ends of the dance.
     arrivals : (A,) float64
         Along the motions, ascending.
     footfalls : (N,) float64, optional
@@ -126,14 +125,14 @@ def map_with_arrivals(
 
 @dataclass(frozen=True)
 class _Item:
-    """A moment of the motions, and the times where it may be put, each with its worth."""
+    """A moment of the motions, and its possible times with values."""
 
     along_s: float
     options: tuple[tuple[float, float], ...]
 
 
 def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: float) -> list[_Item]:
-    """Moments along the motions that may be put on places of the grid, each with its worth there."""
+    """Return the moments along the motions that may be put on places of the grid, each with its values."""
     items = []
     for along, time in zip(moments.tolist(), plain.when(moments).tolist(), strict=True):
         near = range(*np.searchsorted(grid.times_s, time + np.array([-MOST_S, MOST_S])).tolist())
@@ -148,7 +147,7 @@ def _to_meet(plain: TimeMap, moments: FloatArray, grid: AccentGrid, on_beat: flo
 
 
 def _met(items: Sequence[_Item]) -> list[tuple[float, float]]:
-    """Pairs of time and moment, both ascending: the worthiest way through the items, by dynamic programming."""
+    """Return pairs of time and moment, both ascending, with the greatest total value, by dynamic programming."""
     limit = float(np.log(SPEEDS[1]))
     times = [np.array([time_s for time_s, _ in item.options]) for item in items]
     best: list[FloatArray] = []

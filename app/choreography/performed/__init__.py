@@ -1,5 +1,6 @@
-"""Dances of a project, generated for its performance, for dancers and for the bodies of players: what
-`app.performance.dances` asks of whoever makes dances."""
+"""Dances generated for a project's performance, for dancers and for players' bodies; the package used by
+`app.performance.dances`.
+"""
 
 from __future__ import annotations
 

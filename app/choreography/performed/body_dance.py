@@ -1,8 +1,7 @@
-"""Dances of players while they play: a layer of the body, from the dance of a dancer with the same choreography and
-variation (`app.choreography.performed.dancers`), or from one of the player's own.
+"""Dances of players while they play: a body layer from the dance of a dancer with the same choreography and variation
+(`app.choreography.performed.dancers`), or from one of the player's own.
 
-A player whose choreography is not there or damaged moves as generated, and the plan reports why. Messages: those of
-`app.project.storage.choreography_missing` and of `app.choreography.model_file`.
+If the choreography is missing or damaged, the player moves as generated, and the plan reports the reason.
 """
 
 from __future__ import annotations
@@ -31,19 +30,20 @@ from app.score.tempo import TempoMap
 
 _Inputs: TypeAlias = tuple[Dancer, Choreographer, Rhythm, TempoMap, Character, TimeFrame]
 ADULT_LEG_M: Final = 0.82
-"""Length of the legs of a player who steps as far as is said (`app.choreography.player_steps`)."""
+"""Length of the legs in metres for which the step sizes in `app.choreography.player_steps` apply."""
 _LAYERS: IdentityCache[BodyLayer] = IdentityCache(64)
 
 
 def layer_of(performance: Performance, player: Player) -> BodyLayer | None:
-    """Dance of a player; None if none is selected, nothing is to be seen of it, or it cannot be read. Made once for all
-    players of one body who dance alike; making it may take seconds."""
+    """Return a player's dance layer; None if none is selected, it is invisible, or it cannot be read. Cached for
+    players with the same body and dance; making it may take seconds.
+    """
     inputs = _inputs(performance, player)
     return None if inputs is None else _LAYERS.step(_layer, *inputs)
 
 
 def layer_is_made(performance: Performance, player: Player) -> bool:
-    """Return whether asking for a player's layer takes no time."""
+    """Return whether a player's layer is available without computing it."""
     inputs = _inputs(performance, player)
     return inputs is None or _LAYERS.has(*inputs)
 
@@ -63,7 +63,7 @@ def _layer(
 
 
 def _inputs(performance: Performance, player: Player) -> _Inputs | None:
-    """Inputs of a layer, each the same object as long as it is equal."""
+    """Return the inputs of a layer, each the same object while equal."""
     parameters = player.parameters
     if not parameters.choreography or parameters.dance_amount == 0.0:
         return None
@@ -83,5 +83,5 @@ def _inputs(performance: Performance, player: Player) -> _Inputs | None:
 
 @lru_cache(maxsize=256)
 def _dancer(choreography: str, character_id: str, seed: int) -> Dancer:
-    """Return who would dance that on a stage; one object for players who dance alike."""
+    """Return a dancer with a choreography, character and seed; the same object for equal ones."""
     return Dancer("", "", choreography, character_id, StagePosition(0.0, 0.0, 0.0), seed)

@@ -1,4 +1,4 @@
-"""Choreographies by name or path, kept as long as their files are the same."""
+"""Choreographies by name or path, cached while their files are unchanged."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from app.project.performers import Player
 from app.project.storage import choreography_missing
 
 MOST_DANCED_S: Final = 900.0
-"""The longest performance that is danced to: a dance takes a megabyte and a hundredth of a second for each two of
-its seconds."""
+"""Longest performance in seconds that is danced to: two seconds of a dance take a megabyte and a hundredth of a
+second.
+"""
 
 
 def choreographer_of(choreography: str) -> Choreographer:
-    """A choreography by name or path, read again when its file has changed. Raises FileError."""
+    """Return a choreography by name or path, reading it again if its file has changed. Raises FileError."""
     path = choreography_path(choreography)
     refuse_others(path)
     try:
@@ -37,7 +38,7 @@ def _choreographer(choreography: str, version: tuple[int, int]) -> Choreographer
 
 
 def too_long_to_dance(frame: TimeFrame) -> Message | None:
-    """Return why a performance cannot be danced to: a dance is made as a whole. None where it can."""
+    """Return why a performance cannot be danced to (a dance is made as a whole); None if it can."""
     length_s = frame.end_s - frame.first_frame_s
     if length_s <= MOST_DANCED_S:
         return None
@@ -45,8 +46,7 @@ def too_long_to_dance(frame: TimeFrame) -> Message | None:
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> Message | None:
-    """Reason why a player cannot dance the selected choreography; None if none is selected, or nothing is wrong with
-    it."""
+    """Return why a player cannot dance the selected choreography; None if it can or none is selected."""
     choreography = player.parameters.choreography
     if not choreography:
         return None

@@ -1,7 +1,6 @@
-"""Steps of each dancer of a project for its lane: basic motions in order, with their corrections.
+"""Steps of each dancer for the dance lane: basic motions in order, with corrections.
 
-A correction belongs to the place of the beats that is nearest to its tick, as `assignments_of` of the dances here
-has it.
+A correction belongs to the beat place nearest to its tick, as in `assignments_of`.
 """
 
 from __future__ import annotations
@@ -33,31 +32,31 @@ BONES: Final = tuple(
     [(SEGMENTS.index(parent), SEGMENTS.index(name)) for name, parent in PARENT_OF.items() if parent != "root"]
     + [(SEGMENTS.index(name), len(SEGMENTS) + number) for number, name in enumerate(ENDS) if name != "head"]
 )
-"""Pairs of points of a figure that a line joins; the head is a disc between the two points of `HEAD`."""
+"""Pairs of points of a figure that are connected by lines; the head is a disc between the two points of `HEAD`."""
 HEAD: Final = (SEGMENTS.index("head"), len(SEGMENTS) + ENDS.index("head"))
 _FIGURES: IdentityCache[FloatArray] = IdentityCache(8)
 
 
 @dataclass(frozen=True, eq=False)
 class DanceSteps:
-    """One dancer's dance.
+    """The dance of one dancer.
 
     Attributes
     ----------
     steps : tuple of SegmentStep
-        In order; empty where the music has no beats, and with an error.
+        Steps in order; empty if the music has no beats or there is an error.
     ticks : tuple of int
-        Of each step, the place in the music at which a correction of it is kept.
+        Tick of each step in the music at which its corrections are stored.
     spans : tuple of (int, int)
-        Ticks from each step's start to its end, its place included.
+        Ticks from each step's start to its end, including its place.
     places : tuple of int
-        Ticks of all places that an accent can have, ascending.
+        Ticks of all possible places of an accent, ascending.
     pinned : tuple of tuple of DanceCorrection
-        Of each step, what is pinned at its place.
+        Pins at each step's place.
     choreographer : Choreographer or None
-        None with an error.
+        Choreography; None if there is an error.
     error : Message or None
-        Why this dancer cannot dance.
+        Reason why the dancer cannot dance.
     """
 
     dancer: Dancer
@@ -77,7 +76,7 @@ class DanceSteps:
 
     @cached_property
     def end_s(self) -> FloatArray:
-        """(N,) ends of the steps; a step ends where the next one starts."""
+        """End time (N,) of each step, which is the start of the next."""
         return np.array([step.end_s for step in self.steps])
 
     @property
@@ -87,18 +86,18 @@ class DanceSteps:
         return self.choreographer.model
 
     def step_at(self, time_s: float) -> int | None:
-        """Number of the step that is danced at a time."""
+        """Return the index of the step at a time."""
         number = int(np.searchsorted(self.start_s, time_s, side="right")) - 1
         return number if number >= 0 and time_s < self.end_s[number] else None
 
     def barred(self, number: int) -> tuple[ForbidState, ...]:
-        """States that are forbidden at the place of a step."""
+        """Return the forbidden states at the place of a step."""
         tick = self.ticks[number]
         return tuple(item for item in self.forbidden if item.start_tick <= tick < item.end_tick)
 
 
 def dances_of(performance: Performance, stop_requested: StopRequested, progress: Progress) -> dict[str, DanceSteps]:
-    """Dances of all dancers, by id. Raises Cancelled."""
+    """Return the dances of all dancers by id. Raises Cancelled."""
     made = {}
     dancers = performance.project.dancers
     for number, dancer in enumerate(dancers):
@@ -109,7 +108,7 @@ def dances_of(performance: Performance, stop_requested: StopRequested, progress:
 
 
 def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
-    """Dance of a dancer; an error that the user can mend is part of it."""
+    """Return the dance of a dancer; an error that the user can correct is part of it."""
     try:
         dancing = dancing_of(performance, dancer)
     except AppError as error:
@@ -140,8 +139,9 @@ def dance_of(performance: Performance, dancer: Dancer) -> DanceSteps:
 
 
 def figures(choreographer: Choreographer) -> FloatArray:
-    """(S, 21, 2) each segment's pose at its accent from the front: X to the right and Y up from the floor below the
-    hips, in parts of the body's height."""
+    """Return each segment's pose (S, 21, 2) at its accent from the front: X to the right and Y up from the floor below
+    the hips, relative to the body's height.
+    """
     return _FIGURES.step(_figures, choreographer)
 
 
@@ -158,7 +158,7 @@ def _figures(choreographer: Choreographer) -> FloatArray:
 
 
 def examples(model: ChoreographyModel, drawn: FloatArray) -> tuple[int | None, ...]:
-    """For each basic motion, the segment whose figure is nearest to their mean; None where it has no segment."""
+    """Return for each basic motion the segment whose figure is nearest to their mean; None if there is no segment."""
     found: list[int | None] = []
     for state in range(model.states):
         own = segments_of(model, state)

@@ -1,7 +1,7 @@
-"""Motion of a project's dancers: generated from their choreographies to its music, on their characters.
+"""Motion of a project's dancers, generated from their choreographies to its music, on their characters.
 
-A dance is generated for the whole performance at once, whatever frames are asked for: where a dancer goes depends on
-everything before. It is made once for each frame rate and kept while nothing changes that it is made from.
+A dance is generated for the whole performance at once, since a dancer's path depends on everything before. It is cached
+for each frame rate while its inputs are unchanged.
 """
 
 from __future__ import annotations
@@ -49,22 +49,23 @@ BLINKS_EVERY_S: Final = (1.8, 6.0)
 
 _DANCING: IdentityCache[GeneratedDance] = IdentityCache(64)
 _REMEMBERED: Final = LargeResults(2**30)
-"""Generated dances that are kept in memory: two hundred of a minute take as much as a dozen of a quarter of an hour."""
+"""Cache of generated dances, limited in memory: two hundred dances of a minute take as much as a dozen of a quarter of
+an hour.
+"""
 _RHYTHMS: IdentityCache[Rhythm] = IdentityCache(8)
 _recent_rhythms: deque[Rhythm] = deque(maxlen=4)
 _recent_rhythms_lock = Lock()
 
 
 class GeneratedDance:
-    """One dancer's dance to a piece. It is kept for dancers who dance alike: ask the project what they are called and
-    where they stand.
+    """The dance of a dancer to a piece, shared by dancers with equal dances; names and places are those in the project.
 
     Parameters
     ----------
     dancer : Dancer
         The seed is the dancer's and the project's together.
     rhythm : Rhythm
-        As the dancer follows it.
+        Rhythm for the dancer.
     tempo_map : TempoMap
         Of the piece: when the corrections' ticks are.
     """
@@ -89,7 +90,7 @@ class GeneratedDance:
         self._lock = Lock()
 
     def steps(self) -> tuple[SegmentStep, ...]:
-        """Return which segments are danced when, at every frame rate."""
+        """Return the danced segments with their times, independent of the frame rate."""
         with self._lock:
             if self._steps is None:
                 made = self._made
@@ -108,12 +109,11 @@ class GeneratedDance:
         return manner_of(self.dancer, len(self.choreographer.model.sources))
 
     def dance(self, fps: Fraction) -> Dance:
-        """The dance, from the first frame of the performance to its last."""
+        """Return the dance from the first frame of the performance to its last."""
         return self._whole(fps).dance
 
     def motion(self, fps: Fraction, first: int, count: int) -> Motion:
-        """Motion of some frames of the performance; the same frames are identical to the bit whichever span they are
-        asked for in."""
+        """Return the motion of some frames of the performance, bitwise equal for any requested span."""
         whole = self._whole(fps).motion
         here = slice(first, first + count)
         return replace(
@@ -127,35 +127,37 @@ class GeneratedDance:
         )
 
     def changed_s(self, before: object) -> FloatArray:
-        """Spans (K, 2) in which the motion differs from that of another dance: one change may alter all that
-        follows."""
+        """Return the spans (K, 2) in seconds in which the motion differs from another dance's: everything, since one
+        change may alter all that follows.
+        """
         frame = self.time_frame
         return np.zeros((0, 2)) if self is before else np.array([[frame.first_frame_s, frame.end_s]])
 
     @property
     def choreography_name(self) -> str:
-        """The name that the choreography bears."""
+        """Return the name in the choreography."""
         return self.choreographer.model.name
 
     def standing(self, fps: Fraction, first: int, count: int) -> BoolArray:
-        """(count, 2) in which frames the left and the right foot stand."""
+        """Return whether the left and the right foot stand in each frame (count, 2)."""
         result = np.zeros((first + count, 2), bool)
         for stand in self.dance(fps).standing:
             result[stand.start : stand.stop, stand.foot] = True
         return result[first:]
 
     def starts_s(self, fps: Fraction) -> tuple[float, ...]:
-        """Seconds at which basic motions begin."""
+        """Return the start times of basic motions in seconds."""
         return tuple(step.start_s for step in self.dance(fps).steps)
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """Corrections that the dance does not hold, joins that show and feet that slide; none before it is
-        generated."""
+        """Return the problems of the dance: corrections that could not be met, visible joins and sliding feet; empty
+        before it is generated.
+        """
         return self._problems
 
     def forget(self) -> None:
-        """Give back the memory of what was generated; it is generated again when it is asked for."""
+        """Free the memory of the generated dance, which is generated again when needed."""
         self._made = None
 
     def _whole(self, fps: Fraction) -> _Made:
@@ -197,7 +199,7 @@ class _Made(NamedTuple):
 
     @property
     def size_bytes(self) -> int:
-        """Memory of its frames."""
+        """Return the size of its frames in bytes."""
         clip, motion = self.dance.clip, self.motion
         held = (clip.rotations, clip.hips_m, motion.rotations, motion.hips_m)
         instrument = (motion.instrument_position_m, motion.instrument_rotation)
@@ -206,7 +208,7 @@ class _Made(NamedTuple):
 
 
 def manner_of(dancer: Dancer, sources: int) -> Manner:
-    """Style of a dancer; a source that the choreography does not have counts as none."""
+    """Return the style of a dancer, ignoring a source that the choreography lacks."""
     source = dancer.source if 0 <= dancer.source < sources else None
     return Manner(dancer.seed, source, dancer.size, dancer.weight, dancer.mirrored, dancer.melody)
 
@@ -238,7 +240,7 @@ def dancing_of(performance: Performance, dancer: Dancer) -> GeneratedDance:
 
 
 def rhythm_of(performance: Performance) -> Rhythm:
-    """The rhythm of the piece that all dancers follow."""
+    """Return the rhythm of the piece for all dancers."""
     return _RHYTHMS.step(_audible_rhythm, performance.project.score)
 
 
@@ -247,7 +249,7 @@ def _audible_rhythm(score: Score) -> Rhythm:
 
 
 def dance_frame(performance: Performance) -> TimeFrame:
-    """The span that all dances cover; one object as long as it is the same. Raises AppError (``dance.too_long``)."""
+    """Return the time span of all dances, the same object while equal. Raises AppError if it is too long."""
     long = too_long_to_dance(performance.time_frame)
     if long is not None:
         raise AppError(long.id, **long.arguments)
@@ -257,9 +259,9 @@ def dance_frame(performance: Performance) -> TimeFrame:
 def assignments_of(
     corrections: Sequence[DanceCorrection], grid: AccentGrid, tempo_map: TempoMap, states: int | None = None
 ) -> Constraints:
-    """Corrections, which hold for ticks, on the nearest places of a grid; of several for one place the last counts.
+    """Return corrections as constraints at the nearest places of a grid; of several for a place the last applies.
 
-    ``states``, where it is given, is the number of basic motions: others need not be forbidden.
+    ``states`` is the number of basic motions if given: others need not be forbidden.
     """
     if not len(grid.times_s):
         return Constraints()
@@ -278,8 +280,9 @@ def assignments_of(
 def not_held(
     corrections: Sequence[DanceCorrection], steps: Sequence[SegmentStep], grid: AccentGrid, tempo_map: TempoMap
 ) -> tuple[Problem, ...]:
-    """A problem for every correction that these steps do not hold: there is no such basic motion or segment, or other
-    corrections are against it. The corrections stay."""
+    """Return a problem for every correction that steps do not meet, because it refers to a missing motion or segment,
+    or contradicts others. The corrections stay.
+    """
     there = {step.place: step for step in steps}
     pins = [item for item in corrections if not isinstance(item, ForbidState)]
     pinned = {place_of(item.tick, grid, tempo_map) for item in pins} if len(grid.times_s) else set[int]()
@@ -309,7 +312,7 @@ def not_held(
 
 
 def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
-    """Problems of a dance that show (`app.choreography.dance_flaws`): joins, jolts, and standing feet that slide."""
+    """Return the visible problems of a dance (`app.choreography.dance_flaws`): joins, jolts, and sliding feet."""
     fps = float(dance.clip.fps)
     found = []
     for seam in jerking_seams(dance.clip, dance.seams, usual_rad_s):
@@ -332,7 +335,7 @@ def visible_faults(dance: Dance, usual_rad_s: float) -> tuple[Problem, ...]:
 
 
 def place_of(tick: int, grid: AccentGrid, tempo_map: TempoMap) -> int:
-    """The place of a grid that is nearest to a tick."""
+    """Return the index of the place of a grid nearest to a tick."""
     return int(np.abs(grid.times_s - tempo_map.seconds(float(tick))).argmin())
 
 
@@ -362,7 +365,7 @@ def _same_frame(first_frame_s: float, end_s: float) -> TimeFrame:
 
 
 def _same_dancer(dancer: Dancer) -> Dancer:
-    """One object for dancers who dance alike, wherever they stand and whatever they are called."""
+    """Return the same object for dancers with equal dances, regardless of place and name."""
     return _interned(msgspec.structs.replace(dancer, name="", colour="", stage=StagePosition(0.0, 0.0, 0.0)))
 
 
@@ -372,7 +375,7 @@ def _interned(dancer: Dancer) -> Dancer:
 
 
 def _same_rhythm(rhythm: Rhythm) -> Rhythm:
-    """One object for equal rhythms: an edit of notes seldom changes the rhythm."""
+    """Return the same object for equal rhythms, since edits of notes seldom change the rhythm."""
     with _recent_rhythms_lock:
         for known in _recent_rhythms:
             if are_alike(known, rhythm):
