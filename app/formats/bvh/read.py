@@ -41,6 +41,7 @@ _NEAR: Final = 0.002
 """Part of a rate by which another may differ to be the same of `_RATES`."""
 _MOTION: Final = re.compile(r"(?:^|[\r\n])[ \t]*MOTION(?=\s|$)", re.IGNORECASE)
 _FRAMES: Final = re.compile(r"\s*Frames\s*:\s*(\S+)\s+Frame[ \t]*Time\s*:\s*(\S+)", re.IGNORECASE)
+_DECIMAL_COMMA: Final = re.compile(r"[-+]?[0-9]*,[0-9]+(?:[eE][-+]?[0-9]+)?")
 _BRACES: Final = re.compile(r"([{}])")
 
 
@@ -146,7 +147,7 @@ class _Skeleton:
 
     def _offset(self, number: int, words: list[str]) -> list[float]:
         try:
-            values = [float(word) for word in words[1:]]
+            values = [float(word) for word in _without_commas([words[1:]], 3)[0]]
         except ValueError as error:
             raise self._syntax(number, words) from error
         if words[0].upper() != "OFFSET" or len(values) != 3 or not np.isfinite(values).all():
@@ -228,6 +229,8 @@ def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[Fl
         Line number at which the text begins.
     """
     rows = [line.split() for line in text.splitlines()]
+    if "," in text:
+        rows = _without_commas(rows, width)
     values = _numbers(rows, file, line)
     unlike = next((at for at, words in enumerate(rows) if words and len(words) != width), None)
     if not width and unlike is None:
@@ -244,14 +247,31 @@ def _table(text: str, frames: int, width: int, file: str, line: int) -> tuple[Fl
     return values[: whole * width].reshape(whole, width), (guess,)
 
 
+def _without_commas(rows: list[list[str]], width: int) -> list[list[str]]:
+    """Numbers with points for decimal commas, or parted where commas part them; as they are where neither gives as many
+    as a row has."""
+    decimal = all("," not in word or _DECIMAL_COMMA.fullmatch(word) for words in rows for word in words)
+    if decimal and _fit(rows, width):
+        return [[word.replace(",", ".") for word in words] for words in rows]
+    parted = [" ".join(words).replace(",", " ").split() for words in rows]
+    return parted if _fit(parted, width) else rows
+
+
+def _fit(rows: list[list[str]], width: int) -> bool:
+    """Return whether each row that is not empty has so many words; the last one may be cut off."""
+    filled = [len(words) for words in rows if words]
+    return all(count == width for count in filled[:-1] or filled)
+
+
 def _numbers(rows: list[list[str]], file: str, line: int) -> FloatArray:
     try:
         values = np.array([word for words in rows for word in words], dtype=np.float64)
     except ValueError:
         values = np.array([np.nan])
     if not np.isfinite(values).all():
-        bad = next((at for at, words in enumerate(rows) if not all(map(_is_number, words))), 0)
-        raise FileError("bvh.number", file=file, line=bad + line)
+        all_words = ((at, word) for at, words in enumerate(rows) for word in words)
+        bad, word = next(((at, word) for at, word in all_words if not _is_number(word)), (0, ""))
+        raise FileError("bvh.number", file=file, line=bad + line, found=shortened(word, 40))
     return values
 
 

@@ -212,8 +212,17 @@ DIALECTS = {
     "line ends of Windows": lambda text: text.replace("\n", "\r\n"),
     "line ends of old Macs": lambda text: text.replace("\n", "\r"),
     "blank lines": lambda text: text.replace("\n", "\n\n"),
+    "decimal commas": lambda text: re.sub(r"(?<=\d)\.(?=\d)", ",", text),
+    "commas between the numbers": lambda text: _in_rows(text, ","),
+    "commas and blanks between them": lambda text: _in_rows(text, ", "),
     "rows of several lines": lambda text: text[:-400] + text[-400:].replace(" ", "\n"),
 }
+
+
+def _in_rows(text: str, between: str) -> str:
+    """The text with this between the numbers of each row of the motion."""
+    head, rows = re.split(r"(?<=\d\n)(?=[^\n]*\Z|[^:]*\Z)", text, maxsplit=1)
+    return head + rows.replace(" ", between)
 
 
 def _lower(found: re.Match[str]) -> str:
@@ -289,6 +298,24 @@ def test_figures_of_one_name_are_numbered() -> None:
     both = together(text, second, text)
     assert decode_bvh(both, "a.bvh").figures == ("hips", "hips (2)", "hips (3)")
     same(replace(decode_bvh(both, "a.bvh", "hips (2)"), figures=()), decode_bvh(second, "b.bvh"))
+
+
+def test_commas_that_may_be_either_are_named_by_their_line() -> None:
+    """A decimal comma looks like one that parts numbers: nothing is guessed."""
+    text = encode_bvh(clip(frames=5)).decode()
+    lines = text.splitlines()
+    mixed = "\n".join([*lines[:-2], lines[-2].replace(" ", ",").replace(".", ","), lines[-1]])
+    with pytest.raises(FileError) as raised:
+        decode_bvh(mixed, "a.bvh")
+    assert raised.value.message.id == "bvh.number"
+    assert raised.value.message.arguments["line"] == len(lines) - 1
+
+
+def test_a_file_with_decimal_commas_that_is_cut_off_is_read_as_far_as_it_goes() -> None:
+    text = re.sub(r"(?<=\d)\.(?=\d)", ",", encode_bvh(clip(frames=5)).decode())
+    found = decode_bvh(text[: text.rindex(" ")], "a.bvh")
+    assert len(found.rotations_xyzw) == 4
+    assert [guess.id for guess in found.guesses] == ["motion.row_cut"]
 
 
 def test_a_wrong_row_is_named_by_its_line() -> None:
