@@ -223,6 +223,7 @@ def checked(
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
     from app.rig.characters.load_character import read_character
+    from app.rig.characters.split_hands import bones_beside_hands
     from app.rig.grip.fitting.fitted_instrument import notes_on_body
     from metadata.model import REQUIRED_JOINTS
 
@@ -231,6 +232,9 @@ def checked(
     hidden, note = (hidden, None) if keep_props else _left_out(reading, hidden)
     figure = at_height(reading.figure.without(hidden), height_m)
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
+    beside: dict[str, list[str]] = {}
+    for bone, joint in bones_beside_hands(reading.figure, reading.joints.bones).items():
+        beside.setdefault(joint, []).append(names[bone])
     reported = [*figure.notes, *([] if note is None else [note])]
     if not lacking:
         character = figure_character(figure, shown(path.stem), reading.joints.bones, reading.face.morphs)
@@ -245,6 +249,7 @@ def checked(
         "hidden_meshes": list(hidden),
         "names": reading.joints.profile,
         "joints": {joint: names[bone] for joint, bone in reading.joints.bones.items()},
+        "further_bones": beside,
         "missing_joints": list(reading.joints.missing),
         "required_joints": lacking,
         "doubtful_joints": list(reading.joints.doubtful),
@@ -266,7 +271,8 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
         "",
         said("characters.joints", found_by=said(ways[names]) if names in ways else names),
         *(
-            f"  {on_left(joint, 26)}{'?' if joint in doubtful else ' '} {bone}"
+            f"  {on_left(joint, 26)}{'?' if joint in doubtful else ' '} "
+            + " + ".join([bone, *found["further_bones"].get(joint, ())])
             for joint, bone in found["joints"].items()
         ),
     ]

@@ -275,7 +275,7 @@ class CharacterDialog(Retranslated, QDialog):
             needed = joint in made.lacking
             item.setIcon(0, icon("error" if needed else mark, tokens, tokens.error if needed else colour))
             item.setToolTip(0, self._joint_text(joint))
-        self.bones.show_used({bone: joint_name(joint) for joint, bone in made.joints.bones.items()})
+        self.bones.show_used({bone: joint_name(joint) for bone, joint in made.used.items()})
         self.faces.show_parts(made.faces.morphs, frozenset(self.draft.morphs))
         self.meshes.show_hidden(self.draft.hidden)
         self._show_reported()

@@ -15,6 +15,7 @@ from app.rig.characters.figure_build import figure_height, has_odd_height
 from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.joint_mapping import JointMapping, map_joints
 from app.rig.characters.props import props_in_hands
+from app.rig.characters.split_hands import bones_beside_hands
 from app.rig.figure import Figure
 from app.rig.model import Character
 from metadata.model import REQUIRED_JOINTS
@@ -67,11 +68,12 @@ def found_by_itself(figure: Figure, title: str) -> CharacterDraft:
 
 @dataclass(frozen=True, eq=False)
 class Mapped:
-    """Joints and face shapes of a figure with a draft's corrections."""
+    """Joints and face shapes of a figure with a draft's corrections, and the joint of each used bone."""
 
     draft: CharacterDraft
     joints: JointMapping
     faces: FaceMapping
+    used: Mapping[int, str]
 
     @property
     def lacking(self) -> tuple[str, ...]:
@@ -92,11 +94,10 @@ def mapped(figure: Figure, draft: CharacterDraft, before: Mapped | None = None) 
     """
     same_joints = before is not None and before.draft.joints == draft.joints
     same_faces = before is not None and before.draft.morphs == draft.morphs
-    return Mapped(
-        draft,
-        before.joints if before is not None and same_joints else map_joints(figure, draft.joints),
-        before.faces if before is not None and same_faces else map_morphs(figure, draft.morphs),
-    )
+    joints = before.joints if before is not None and same_joints else map_joints(figure, draft.joints)
+    faces = before.faces if before is not None and same_faces else map_morphs(figure, draft.morphs)
+    used = bones_beside_hands(figure, joints.bones) | {bone: joint for joint, bone in joints.bones.items()}
+    return Mapped(draft, joints, faces, used)
 
 
 def character_of(figure: Figure, made: Mapped) -> Character:

@@ -24,6 +24,7 @@ from app.errors import FileError
 from app.rig import quaternion
 from app.rig.characters.figure_build import at_height
 from app.rig.characters.landmarks import found_landmarks
+from app.rig.characters.split_hands import bones_beside_hands
 from app.rig.characters.supplied_joints import Fit, inverse_binds, on_the_floor, supplied_ends
 from app.rig.characters.t_pose import Rest, rest_of, turns_to_t_pose, upright
 from app.rig.figure import Figure, OwnSkeleton
@@ -36,8 +37,6 @@ OPTIONAL: Final = frozenset({"jaw"})
 """Joints that are not added if missing, since they are not needed."""
 EYES: Final = ("leftEye", "rightEye")
 TRUNK: Final = ("hips", "spine", "chest", "upperChest")
-AT_ONE_PLACE: Final = 0.01
-"""Distance relative to the forearm below which bones begin at the same place."""
 
 
 def figure_character(
@@ -69,7 +68,7 @@ def figure_character(
     figure = at_height(upright(figure, bones), height_m)
     rest = rest_of(figure)
     fit = _fitted(figure, rest, bones)
-    beside = _bones_beside_hands(figure, rest, fit)
+    beside = {bone: fit.names.index(joint) for bone, joint in bones_beside_hands(figure, bones).items()}
     joint_of_bone = _joints_of_bones(figure, rest, fit, beside)
     eyes = [fit.names.index(name) for name in EYES if name in fit.names]
     meshes = tuple(_without_turned_balls(_mesh(mesh, joint_of_bone, morphs), eyes) for mesh in figure.meshes)
@@ -141,22 +140,6 @@ def _attributed(
         if len(placed) == 1:
             lies_on[joint] = lies_on.get(placed[0], placed[0])
     return own, lies_on
-
-
-def _bones_beside_hands(figure: Figure, rest: Rest, fit: Fit) -> dict[int, int]:
-    """Return the hand joint for additional bones that begin at the same place as the hand's bone with the same parent,
-    as in hands with a bone for each finger.
-    """
-    mapped, found = set(fit.bones), {}
-    for side in ("left", "right"):
-        joint, arm = (fit.names.index(side + name) for name in ("Hand", "LowerArm"))
-        hand, above = fit.bones[joint], fit.bones[arm]
-        near = AT_ONE_PLACE * float(np.linalg.norm(rest.positions_m[hand] - rest.positions_m[above]))
-        for bone, parent in enumerate(figure.parents):
-            away = np.linalg.norm(rest.positions_m[bone] - rest.positions_m[hand])
-            if parent == figure.parents[hand] and bone not in mapped and away < near and bone in figure.parents:
-                found[bone] = joint
-    return found
 
 
 def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit, beside: Mapping[int, int]) -> npt.NDArray[np.int32]:

@@ -26,6 +26,7 @@ from app.rig.characters.figure_to_character import figure_character
 from app.rig.characters.joint_mapping import map_joints
 from app.rig.characters.load_character import load_character
 from app.rig.characters.read_figure import read_figure
+from app.rig.characters.split_hands import bones_beside_hands
 from app.rig.characters.t_pose import rest_of
 from app.rig.figure import Figure
 from app.rig.model import Character
@@ -184,6 +185,10 @@ def test_a_hand_of_several_bones_moves_as_one(tmp_path: Path) -> None:
     expected = {joint: whole.bone_names[bone] for joint, bone in before.bones.items()}
     expected |= {"leftHand": "palm_middle_l", "rightHand": "palm_middle_r"}
     assert found == expected
+    beside = {figure.bone_names[bone]: joint for bone, joint in bones_beside_hands(figure, mapping.bones).items()}
+    fingers = ("index", "ring", "pinky")
+    assert beside == {f"palm_{one}_{side[0]}": f"{side}Hand" for one in fingers for side in ("left", "right")}
+    assert bones_beside_hands(whole, before.bones) == {}
     character = figure_character(figure, "handless", mapping.bones, {})
     target = own_target(character)
     hand = character.skeleton.index("leftHand")
