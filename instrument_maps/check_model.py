@@ -1,4 +1,4 @@
-"""Checks that a map and its model agree: nodes that exist and rest as they should, touch points on their surface."""
+"""Checks that a map and its model agree: existing nodes with correct rest transforms, touch points on their surface."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from instrument_maps.surface import nearest_point
 from instrument_maps.value_checks import Problem
 
 SURFACE_M = 0.001
-"""A touch point further from the surface than this hangs in the air or lies inside."""
+"""Greatest distance in metres of a touch point from the surface."""
 
 
 def model_problems(instrument: InstrumentMap, path: Path) -> Iterator[Problem]:
-    """Yield what is wrong with the model of a map, as key paths of the map."""
+    """Yield the faults of a map's model, as key paths of the map."""
     if not os.path.isfile(path):
         yield "model", f"there is no file '{instrument.model}' beside the map or among the bundled models"
         return
@@ -99,7 +99,7 @@ def root_from_node(model: GltfModel, root: int) -> FloatArray:
 
 
 def node_triangles(instrument: InstrumentMap, model: GltfModel) -> dict[str, FloatArray]:
-    """Triangles (T, 3, 3) that move with each node the map speaks of, in the frame of that node."""
+    """Return the triangles (T, 3, 3) that move with each node of the map, in the node's frame."""
     names = {node.name: index for index, node in enumerate(model.nodes)}
     places = root_from_node(model, names[ROOT])
     requested = {names[name]: name for name in (ROOT, *instrument.nodes) if name in names}

@@ -1,4 +1,4 @@
-"""One map that extends another: a clarinet in A says only where it differs from the one in B flat."""
+"""Extension of one map by another: a clarinet in A contains only its differences from the one in B flat."""
 
 from __future__ import annotations
 
@@ -6,24 +6,24 @@ from collections.abc import Mapping
 from typing import Any
 
 BASE = "extends"
-"""Key of the id of the map that is extended."""
+"""Key with the id of the extended map."""
 WITHOUT = "without"
-"""Key of the names of its controls that the own instrument has not."""
+"""Key with the names of the extended map's controls that the instrument lacks."""
 _OF_EACH = ("controls", "chart")
 """Keys of the lists with a row for each control."""
 
 
 def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
-    """Lay a map's own tables over those of the map it extends.
+    """Return a map's tables merged with those of the map it extends.
 
-    Tables are merged key by key and lists of named tables (controls, their chart) name by name. Own fingerings replace
-    all that the base has for the same written pitch, and what the base has outside the own range is left out, as are
-    controls that the own instrument is without. Everything else that the map says replaces what the base says.
+    Tables are merged key by key, and lists of named tables (controls, their chart) by name. Own fingerings replace all
+    of the base's for the same written pitch; base fingerings outside the own range and omitted controls are dropped.
+    All other own values replace the base's.
 
     Parameters
     ----------
     base, own : mapping
-        As TOML gives them; ``base`` is itself extended already. Neither is changed.
+        Tables as read from TOML; ``base`` is already extended. Neither is changed.
     """
     if WITHOUT in own:
         base = {
@@ -36,7 +36,7 @@ def extended(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def not_there(base: Mapping[str, Any], own: Mapping[str, Any]) -> str | None:
-    """Say what is wrong with the controls that a map leaves out; None if nothing is."""
+    """Return the fault in the list of omitted controls; None if there is none."""
     names = own.get(WITHOUT, [])
     if not isinstance(names, list):
         return "is not a list of names of controls"

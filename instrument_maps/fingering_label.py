@@ -1,7 +1,7 @@
-"""The short form of a fingering: what it says of the controls, and the other way round.
+"""Conversion between labels (short forms of fingerings) and values of controls.
 
-Of valves and levers it is their signs put together (``"13"``, ``"T12"``, ``"0"`` for no valve, ``"T0"``); of keys and
-holes their signs sorted, one space between (``"L1 L2 R1"``, ``"(open)"`` for none). A slide's place is not in it.
+The label of valves and levers is their signs joined (``"13"``, ``"T12"``, ``"0"`` for no valve, ``"T0"``); that of keys
+and holes their sorted signs with spaces (``"L1 L2 R1"``, ``"(open)"`` for none). A slide's position is not included.
 """
 
 from __future__ import annotations
@@ -15,27 +15,27 @@ from instrument_maps.model import Control, Fingering
 OPEN = "(open)"
 NONE = "0"
 HALF = "h"
-"""After the sign of a hole that is half closed."""
+"""Suffix of the sign of a half-closed hole."""
 WORDS = frozenset({"key", "hole"})
 """Kinds of controls whose signs are words."""
 
 _BETWEEN: Final = re.compile(r"[\s\-\u2013\u2014+,./|&()]+")
 """Signs and spaces between the signs of a fingering."""
 _ACCIDENTALS: Final = str.maketrans("", "", "#b\u266d\u266e\u266f")
-"""Written at a slide position that is a little higher or lower than usual."""
+"""Accidentals of a slide position slightly higher or lower than usual."""
 _ROMAN: Final = {"i": "1", "ii": "2", "iii": "3", "iv": "4", "v": "5", "vi": "6", "vii": "7"}
 _OPEN_SIGNS: Final = str.maketrans("o\u25cb\u25ef", "000")
 _FIRST_LEVER: Final = "vf"
-"""Letters of the first valve of a slide, beside its own sign: "V1" in German parts, "F1"."""
+"""Letters for the first valve of a slide in addition to its sign: "V1" in German parts, "F1"."""
 
 
 def says_words(controls: Iterable[Control]) -> bool:
-    """Return whether an instrument's labels are words with spaces between: it has keys or holes."""
+    """Return whether an instrument's labels are words with spaces, that is, whether it has keys or holes."""
     return any(control.kind in WORDS for control in controls if control.role == "pitch")
 
 
 def controls_of(label: str, controls: Iterable[Control]) -> dict[str, float] | None:
-    """Return the values a label says, by name of control; None where it does not (a slide, an unknown sign)."""
+    """Return the values in a label by name of control; None if it is incomplete (a slide) or has an unknown sign."""
     pitch = [control for control in controls if control.role == "pitch"]
     if any(control.kind == "slide" for control in pitch):
         return None
@@ -67,10 +67,10 @@ def words_of(values: Mapping[str, float], controls: Iterable[Control]) -> str:
 
 
 def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[Control]) -> int | None:
-    """Index among a note's fingerings of the one that a composer wrote; None where none is meant.
+    """Return the index among a note's fingerings of the one written by a composer; None if there is none.
 
-    Valves may be divided by signs (``"1-2"``, ``"1+2"``); a lever that is left out is meant where no other fingering of
-    the note has these valves. A slide's position may be a Roman number and have an accidental (``"b4"``).
+    Valves may be separated by signs (``"1-2"``, ``"1+2"``); a lever may be omitted if no other fingering of the note
+    has these valves. A slide's position may be a Roman number and have an accidental (``"b4"``).
     """
     pitch = [control for control in controls if control.role == "pitch"]
     parts = [part for part in _BETWEEN.split(text.casefold()) if part]
@@ -98,16 +98,16 @@ def written_choice(text: str, choices: Sequence[Fingering], controls: Iterable[C
 
 
 def _only(places: Iterable[int]) -> int | None:
-    """The place, if it is just one."""
+    """Return the index, if there is exactly one."""
     found = list(places)
     return found[0] if len(found) == 1 else None
 
 
 def _words(label: str) -> list[str]:
-    """The signs of a label of keys and holes, as `_BETWEEN` divides what is written."""
+    """Return the signs in a label of keys and holes, separated by `_BETWEEN`."""
     return [part for part in _BETWEEN.split(label.casefold()) if part]
 
 
 def _signs(label: str) -> list[str]:
-    """The signs of valves and levers in order; "0" is none."""
+    """Return the signs of valves and levers in order; "0" is none."""
     return sorted(label.replace(NONE, ""))

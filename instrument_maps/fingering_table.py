@@ -1,7 +1,7 @@
-"""Edits of a map's table of fingerings, as pure functions; and the user's own map file that says what they changed.
+"""Edits of a map's fingering table as pure functions, and the user's map file with changed fingerings.
 
-Every edit returns another tuple of fingerings, sorted and with ranks that count from 1; `problems_of` says what a map
-with them would be refused for.
+Every edit returns a new tuple of fingerings, sorted, with ranks that count from 1; `problems_of` returns why a map with
+them would be refused.
 """
 
 from __future__ import annotations
@@ -34,15 +34,15 @@ _ROW_KEYS = ("written_pitch", "rank", "label", "controls", "cents", "correction"
 
 
 def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, float]]:
-    """Read a typed fingering: its label and the values it says.
+    """Return the label and the values of a typed fingering.
 
-    Signs may come in any order and case where that is not ambiguous; a place of the slide is where the other
-    fingerings of that label have it.
+    Signs may be in any order and case if that is unambiguous; a slide's position is that of other fingerings with the
+    label.
 
     Raises
     ------
     UsageError
-        ``fingering.unknown_sign``, ``fingering.unknown_place``.
+        A sign or a position of the slide is unknown.
     """
     pitch = [control for control in instrument.controls if control.role == "pitch"]
     text = " ".join(text.split())
@@ -77,8 +77,9 @@ def read_label(instrument: InstrumentMap, text: str) -> tuple[str, dict[str, flo
 
 
 def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int, text: str) -> Table:
-    """The table with another label, and what it says, of one fingering. Raises as `read_label`, and
-    ``fingering.twice``."""
+    """Return the table with another label and its values for one fingering. Raises as `read_label`, and if the note has
+    the label already.
+    """
     label, controls = read_label(instrument, text)
     if any(one.label == label and one.rank != rank for one in of_pitch(table, written)):
         raise UsageError("fingering.twice", text=label)
@@ -89,7 +90,7 @@ def with_label(instrument: InstrumentMap, table: Table, written: int, rank: int,
 
 
 def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
-    """The label of a fingering with one control at its next value: down, half down where it may be, up again."""
+    """Return the label of a fingering with one control at its next value: down, half down if possible, up again."""
     control = instrument.control(name)
     value = one.controls.get(name, control.rest_value)
     steps = [0.0, 1.0] if control.half_value is None else [0.0, 1.0, control.half_value]
@@ -116,7 +117,7 @@ def read_cents(text: str) -> float:
 
 
 def free_label(instrument: InstrumentMap, table: Table, written: int) -> str | None:
-    """A label that a note has not got yet and that is right for it, the most used one first; None if there is none."""
+    """Return a label that is valid for a note and that it lacks, the most common first; None if there is none."""
     own = {one.label for one in of_pitch(table, written)}
     counts = Counter(one.label for one in instrument.fingerings)
     for label, _ in counts.most_common():
@@ -128,17 +129,17 @@ def free_label(instrument: InstrumentMap, table: Table, written: int) -> str | N
 
 
 def with_cents(table: Table, written: int, rank: int, cents: float) -> Table:
-    """The table with other cents of one fingering."""
+    """Return the table with other cents for one fingering."""
     return _changed(table, written, rank, cents=float(cents))
 
 
 def with_tags(table: Table, written: int, rank: int, tags: Iterable[str]) -> Table:
-    """The table with other tags of one fingering."""
+    """Return the table with other tags for one fingering."""
     return _changed(table, written, rank, tags=tuple(dict.fromkeys(tag.strip() for tag in tags if tag.strip())))
 
 
 def moved(table: Table, written: int, rank: int, by: int) -> Table:
-    """The table with one fingering earlier (``by`` -1) or later among those of its note."""
+    """Return the table with one fingering moved earlier (``by`` -1) or later among those of its note."""
     own = list(of_pitch(table, written))
     target = rank - 1 + by
     if not 0 <= target < len(own):
@@ -148,7 +149,7 @@ def moved(table: Table, written: int, rank: int, by: int) -> Table:
 
 
 def added(instrument: InstrumentMap, table: Table, written: int, text: str) -> Table:
-    """The table with one more alternate of a note, the last of them. Raises as `with_label`."""
+    """Return the table with one more alternate of a note as the last one. Raises as `with_label`."""
     label, controls = read_label(instrument, text)
     own = of_pitch(table, written)
     if any(one.label == label for one in own):
@@ -158,7 +159,7 @@ def added(instrument: InstrumentMap, table: Table, written: int, text: str) -> T
 
 
 def removed(table: Table, written: int, rank: int) -> Table:
-    """The table without one fingering. Raises UsageError ``fingering.last``."""
+    """Return the table without one fingering. Raises UsageError for the last one of a note."""
     own = of_pitch(table, written)
     if len(own) < 2:
         raise UsageError("fingering.last")
@@ -166,7 +167,7 @@ def removed(table: Table, written: int, rank: int) -> Table:
 
 
 def reverted(table: Table, base: Table, written: int) -> Table:
-    """The table with the fingerings that another one has for a note."""
+    """Return the table with the fingerings of another table for a note."""
     return _with_pitch(table, written, list(of_pitch(base, written)))
 
 
@@ -176,7 +177,7 @@ def of_pitch(table: Table, written: int) -> Table:
 
 
 def problems_of(instrument: InstrumentMap, table: Table) -> tuple[Problem, ...]:
-    """Reasons for which a map with this table would be refused."""
+    """Return the reasons why a map with this table would be refused."""
     return tuple(problems(msgspec.structs.replace(instrument, fingerings=table)))
 
 
@@ -197,7 +198,9 @@ def _with_pitch(table: Table, written: int, own: Sequence[Fingering]) -> Table:
 
 
 def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
-    """The fingerings an own map has from the one it extends; of a bundled map its own; none where it stands alone."""
+    """Return the fingerings that a user's map has from the one it extends; for a bundled map its own; empty if it
+    extends none.
+    """
     if path is None:
         return instrument.fingerings
     text = toml_text(path)
@@ -209,22 +212,23 @@ def base_table(instrument: InstrumentMap, path: Path | None) -> Table:
 
 
 def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: str) -> str | None:
-    """The text of the user's own map with this table of fingerings; None where nothing is left to say.
+    """Return the text of the user's map with a fingering table; None if it equals the extended map.
 
     Parameters
     ----------
     instrument : InstrumentMap
-        As it is now.
+        Present map.
     table : tuple of Fingering
     text : str or None
-        Of the user's file as it is, whose other lines stay; None: there is none, and the bundled map is extended.
+        Present text of the user's file, whose other lines are kept; None if there is none, so that the bundled map is
+        extended.
     file : str
-        Its path: what it extends is looked for beside it.
+        Path of the file, beside which the extended map is looked for.
 
     Raises
     ------
     MapError
-        ``table.syntax`` of the user's file; ``map.not_rewritten``; what `parse_map` finds wrong with the result.
+        The user's file has a syntax error or cannot be rewritten, or the result is invalid.
     """
     known: dict[str, Any] = {} if text is None else parse_table(text, file)
     fresh = text is None
@@ -259,14 +263,15 @@ def own_text(instrument: InstrumentMap, table: Table, text: str | None, file: st
 
 
 def save_own(instrument: InstrumentMap, table: Table, folder: Path) -> Path | None:
-    """Write the user's own map with this table; returns its path, None where it says nothing any more and was removed.
+    """Write the user's map with a fingering table, and return its path; None if it was removed since it had no
+    differences.
 
     Raises
     ------
     MapError
-        As `own_text`.
+        As in `own_text`.
     FileError
-        Their file cannot be read, or the folder or the file not be written.
+        The user's file cannot be read, or the folder or file cannot be written.
     """
     path = folder / f"{instrument.id}.toml"
     before = toml_text(path) if os.path.exists(path) else None
@@ -312,7 +317,7 @@ _TABLE = re.compile(r"^\s*\[", re.MULTILINE)
 
 
 def _without_block(text: str) -> str:
-    """The text without its list of fingerings."""
+    """Return the text without its list of fingerings."""
     found = _KEY.search(text)
     if found is None:
         return text
@@ -321,7 +326,9 @@ def _without_block(text: str) -> str:
 
 
 def _with_block(text: str, block: str) -> str:
-    """The text with a list of fingerings before its first table: what follows a table's header belongs to it."""
+    """Return the text with a list of fingerings before its first table, since lines after a table's header belong to
+    it.
+    """
     first = _TABLE.search(text)
     at = len(text) if first is None else first.start()
     head = text[:at].rstrip("\n")
@@ -329,7 +336,7 @@ def _with_block(text: str, block: str) -> str:
 
 
 def _closing(text: str, at: int) -> int:
-    """End of the list whose opening bracket lies before ``at``: strings and comments do not count."""
+    """Return the end of the list whose opening bracket is before ``at``, ignoring strings and comments."""
     depth, quote = 1, ""
     while at < len(text) and depth:
         sign = text[at]

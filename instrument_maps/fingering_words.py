@@ -1,4 +1,4 @@
-"""Fingerings in words: the names that players have for keys and holes, as the maps say them in both languages."""
+"""Fingerings in words: players' names of keys and holes in both languages, from the maps."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from instrument_maps.model import InstrumentMap
 _NUMBERED: Final = re.compile(r"(.*?)(\d+)")
 _AND: Final = " + "
 _SAME: Final = "·"
-"""Between the numbers of neighbours with one name: ``"L1·2·3"``."""
+"""Separator of the numbers of adjacent controls with one name: ``"L1·2·3"``."""
 
 
 def key_name(instrument: InstrumentMap, control: str, language: str) -> str:
-    """The name of a control; where the map has none, its sign or its own name as words."""
+    """Return the name of a control; by default its sign or its own name in words."""
     for key in instrument.chart:
         if key.name == control:
             return key.ja if language == "ja" else key.en
@@ -28,12 +28,13 @@ def key_name(instrument: InstrumentMap, control: str, language: str) -> str:
 
 
 def pressed_names(instrument: InstrumentMap, values: Mapping[str, float], language: str) -> list[str]:
-    """Name all that is closed or pressed, in the order of the chart: ``["thumb hole", "L1·2"]``, ``["open"]``.
+    """Return the names of all closed or pressed controls in the order of the chart: ``["thumb hole", "L1·2"]``,
+    ``["open"]``.
 
     Parameters
     ----------
     values : mapping
-        0 to 1, by name of control; one that is not named is at rest.
+        Values 0..1 by control; missing ones are at rest.
     language : str
         ``"en"`` or ``"ja"``.
     """
@@ -51,8 +52,9 @@ def pressed_names(instrument: InstrumentMap, values: Mapping[str, float], langua
 
 
 def fingering_words(instrument: InstrumentMap, label: str, language: str) -> str:
-    """A label of keys and holes in words, ``"thumb hole + L1·2 + E♭ key"``; one of valves or a slide, and one that the
-    map does not know, as it is."""
+    """Return a label of keys and holes in words, ``"thumb hole + L1·2 + E♭ key"``; labels of valves and slides and
+    unknown ones are unchanged.
+    """
     values = controls_of(label, instrument.controls) if says_words(instrument.controls) else None
     return label if values is None else _AND.join(pressed_names(instrument, values, language))
 
@@ -71,7 +73,7 @@ def in_words(message: Message, instrument: InstrumentMap | None, language: str) 
 
 
 def _joined(names: list[str]) -> list[str]:
-    """Neighbours that differ in their number alone as one."""
+    """Return names with adjacent ones that differ only in their number joined."""
     joined: list[str] = []
     for stem, run in groupby(names, lambda name: found[1] if (found := _NUMBERED.fullmatch(name)) else ""):
         own = list(run)

@@ -1,4 +1,4 @@
-"""Records of a map that say how the instrument is held: contacts, where hands start, solids, and how it is carried.
+"""Tables of a map about holding the instrument: contacts, initial hand poses, solids, carriage.
 
 Frames are those of `instrument_maps.model`.
 """
@@ -18,22 +18,22 @@ class Contact(MapTable, frozen=True):
     Attributes
     ----------
     part : str
-        One of `PARTS`.
+        Part of the hand, one of `PARTS`.
     node : str
-        The node that is touched (`ROOT` or the node of a control): position and normal are in its frame.
+        Touched node (`ROOT` or the node of a control), in whose frame position and normal are given.
     position_m, normal : vector
-        A point of the surface and the unit normal that points out of it, towards the skin.
+        Point on the surface, and outward unit normal.
     control : str or None
-        The control this touch works, if any. A finger may work several, each with a touch of its own; the first in
-        the file is where it is at home. Thumb and little fingers go from one to the other.
+        Control worked by this touch, if any. A finger may work several controls by different touches; the first in the
+        file is its home. Thumb and little fingers move between them.
     together : tuple of str
-        Other controls that the same finger works at the same time in this place (a thumb on hole and register key).
+        Other controls worked at the same time by the same finger in this place (a thumb on hole and register key).
     when : str
         ``"always"``; ``"pressed"``: only while the control is away from rest; ``"released"``: only at rest.
     grip : str
-        ``"firm"``: the touch that carries or works the instrument, exact. ``"resting"``: the part lies
-        against the surface where the hand allows it (judged as the hand's grip, not as a touch). ``"guide"``, never in
-        a file: about here lies a part that cannot bend, and no one judges it (a mitten's finger).
+        ``"firm"``: an exact touch that carries or works the instrument. ``"resting"``: the part lies on the surface as
+        far as the hand allows (judged like the hand's grip and not like a touch). ``"guide"``, never in a file:
+        approximate place of a part that cannot bend, not judged (a mitten's finger).
     """
 
     part: str
@@ -47,12 +47,12 @@ class Contact(MapTable, frozen=True):
 
 
 class HandSeed(MapTable, frozen=True):
-    """Pose from which a solver starts a hand: plausible for a medium hand, not a contact.
+    """Initial pose of a hand for the solver: plausible for a medium hand, not a contact.
 
-    ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm,
-    ``finger_direction`` from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of the
-    fingers without a contact: 0 straight, 1 a fist; in the order index, middle, ring, little.
-    ``elbow_off_ribs_deg`` is the swing of the elbow to the outside; None as the body's posture has it.
+    ``palm_position_m`` is the middle of the palm's skin, ``palm_normal`` points out of the palm, ``finger_direction``
+    from the wrist to the knuckles; in the frame of ``node``. ``curl`` is the bend of fingers without contact: 0
+    straight, 1 a fist; in the order index, middle, ring, little. ``elbow_off_ribs_deg`` is the outward swing of the
+    elbow; None for that of the body's posture.
     """
 
     hand: Hand
@@ -83,7 +83,7 @@ class Cylinder(MapTable, frozen=True, tag="cylinder", tag_field="shape"):
 
 
 class Cone(MapTable, frozen=True, tag="cone", tag_field="shape"):
-    """A flat-ended round body whose radius goes from ``radius_a_m`` to ``radius_b_m``."""
+    """A flat-ended round body whose radius changes from ``radius_a_m`` to ``radius_b_m``."""
 
     node: str
     a_m: Vector
@@ -93,7 +93,7 @@ class Cone(MapTable, frozen=True, tag="cone", tag_field="shape"):
 
 
 class Ring(MapTable, frozen=True, tag="ring", tag_field="shape"):
-    """A torus about ``axis``: ``radius_m`` to the middle of its tube, which is ``tube_radius_m`` thick."""
+    """A torus about ``axis``: ``radius_m`` to the middle of its tube, ``tube_radius_m`` of the tube."""
 
     node: str
     centre_m: Vector
@@ -113,18 +113,19 @@ class Box(MapTable, frozen=True, tag="box", tag_field="shape"):
 
 
 Proxy: TypeAlias = Capsule | Cylinder | Cone | Ring | Box
-"""A closed body that stands for a part of the model when a hand is checked against it."""
+"""A closed body that represents a part of the model in collision checks with a hand."""
 
 
 class Carriage(MapTable, frozen=True):
-    """Carriage of the instrument while playing, as (lowest, usual, highest) angles in degrees.
+    """Carriage of the instrument during playing, as (lowest, usual, highest) angles in degrees.
 
-    From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece,
-    ``yaw_left_deg`` bell to the player's left, ``roll_left_deg`` the instrument's up leaning to the left.
-    Applied in the order yaw, pitch, roll.
+    From the horizontal, straight ahead of the player: ``pitch_down_deg`` bell below the mouthpiece, ``yaw_left_deg``
+    bell to the player's left, ``roll_left_deg`` the instrument's up axis leaning to the left. Applied in the order yaw,
+    pitch, roll.
 
-    How the player turns to it, in degrees: ``head_left_deg`` the head to the left of the trunk, ``head_lean_left_deg``
-    its ear towards the left shoulder, ``trunk_left_deg`` the shoulders to the left of the feet.
+    The player's orientation in degrees: ``head_left_deg`` head turned left relative to the trunk,
+    ``head_lean_left_deg`` head tilted to the left shoulder, ``trunk_left_deg`` shoulders turned left relative to the
+    feet.
     """
 
     pitch_down_deg: Vector
@@ -138,8 +139,8 @@ class Carriage(MapTable, frozen=True):
 class LoweredPlace(MapTable, frozen=True):
     """Place of the instrument in a long rest.
 
-    ``offset_m`` is the mouthpiece's place relative to where it is while playing, in the player's frame
-    (left, up, ahead); the angles are as in `Carriage`.
+    ``offset_m`` is the mouthpiece's place relative to that during playing, in the player's frame (left, up, forward);
+    the angles are as in `Carriage`.
     """
 
     offset_m: Vector
@@ -151,15 +152,14 @@ class LoweredPlace(MapTable, frozen=True):
 class Hold(MapTable, frozen=True):
     """Hold of the instrument by a trained player.
 
-    ``support_hand`` bears its weight. ``standing`` and ``seated`` are for playing; the two ``lowered``
-    tables are for long rests. An instrument that is only played seated has no tables for standing, and the other way
-    round.
+    ``support_hand`` carries the weight. ``standing`` and ``seated`` are for playing; the two ``lowered`` tables are for
+    long rests. An instrument that is only played seated has no tables for standing, and vice versa.
 
-    ``free_hand``: which hand can leave the instrument while it is lowered, and comes past it to the music; None: the
-    one that does not bear its weight.
+    ``free_hand``: hand that can leave the lowered instrument and reach past it to the music; None for the one that does
+    not carry the weight.
 
-    ``size_range``: a player with small hands or short arms gets it smaller, one with large hands larger, but never
-    beyond these multiples of the model's size.
+    ``size_range``: limits of the factor by which the instrument is scaled for a player with small hands or short arms,
+    or with large hands.
     """
 
     support_hand: Hand
@@ -172,27 +172,27 @@ class Hold(MapTable, frozen=True):
 
     @property
     def leaving_hand(self) -> Hand | None:
-        """The hand that can leave the lowered instrument: what else holds it bears it meanwhile. None: neither."""
+        """Return the hand that can leave the lowered instrument while the rest supports it; None if neither can."""
         if self.free_hand is None:
             return "left" if self.support_hand == "right" else "right"
         return None if self.free_hand == "none" else self.free_hand
 
     @property
     def postures(self) -> tuple[Posture, ...]:
-        """In what the instrument is played, the usual one first."""
+        """Return the postures in which the instrument is played, the usual one first."""
         both: tuple[tuple[Posture, Carriage | None], ...] = (("standing", self.standing), ("seated", self.seated))
         return tuple(posture for posture, carriage in both if carriage is not None)
 
     def possible(self, posture: Posture) -> Posture:
-        """The posture itself, or the only one the instrument is played in."""
+        """Return a posture if the instrument is played in it, else the only possible one."""
         return posture if posture in self.postures else self.postures[0]
 
     def carriage(self, posture: Posture) -> Carriage:
-        """Return how it is carried, in the only posture it is played in where the requested one is not possible."""
+        """Return the carriage in a posture, or in the only possible one."""
         return self._either(posture, self.standing, self.seated)
 
     def lowered(self, posture: Posture) -> LoweredPlace:
-        """Return where it is in a long rest; likewise."""
+        """Return the place in a long rest in a posture, or in the only possible one."""
         return self._either(posture, self.lowered_standing, self.lowered_seated)
 
     @staticmethod

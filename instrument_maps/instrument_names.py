@@ -1,7 +1,7 @@
-"""Names of instruments in scores, in many languages, and their General MIDI programs: the vocabulary of instruments.
+"""The vocabulary of instruments: names in scores in many languages, and General MIDI programs.
 
-The table itself is `instrument_names.toml` beside this module. An instrument here need not have a map; the vocabulary
-says what a part is; the maps say which instruments can play it.
+The table is `instrument_names.toml` beside this module. An instrument may lack a map: the vocabulary identifies a part,
+and the maps determine which instruments can play it.
 """
 
 from __future__ import annotations
@@ -28,37 +28,39 @@ PATH = Path(__file__).with_name("instrument_names.toml")
 _NAME_LETTERS = 4
 """In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
 _MOST_SHORT_KANA = 3
-"""Kana of a wind's name that is found only where its run of kana ends ("クラ", not in "スクラッチ")."""
+"""Greatest length in kana of a name that is recognised only at the end of a run of kana ("クラ", not in "スクラッチ").
+"""
 _MOST_KANA = 8
-"""Most kana examined on each side of a short kana name, to see whether it is part of a longer word."""
+"""Greatest number of kana examined on each side of a short kana name to see whether it is part of a longer word."""
 _MOST_WORDS = 64
-"""Most words of a text that names a part; more is no name."""
+"""Greatest number of words of a part's name."""
 _MOST_MEANINGS = 2048
-"""Names that are kept with what they mean: a track's is looked up a dozen times."""
+"""Number of cached names, since a track's name is looked up a dozen times."""
 _MOST_PARTS = 8
-"""Instruments of one player that are looked for."""
+"""Greatest number of instruments of one player that are examined."""
 _IN = frozenset({"in", "en", "em"})
-"""Before a key."""
+"""Words before a key."""
 _DOUBLING = re.compile(r"[/&+,;、]|\s[-–]\s|\b(?:and|und|et|ed|y|e(?!\W?(?:♭|b\b|flat\b)))\b", re.IGNORECASE)
-"""Between two instruments of one player."""
+"""Separators between two instruments of one player."""
 _JOINED_KEYS = ("bb", "eb", "es", "b", "c", "d", "f")
-"""Keys that are joined to a name ("Ebcl", "Fhorn"); not "Ahorn", "Repiano"."""
+"""Keys joined to a name ("Ebcl", "Fhorn"); not "Ahorn", "Repiano"."""
 _TOGETHER = re.compile(r"(?<!\w)[aàá] ?\d(?!\w)")
 """Number of players of a part ("a2"), which is no key."""
 _PLAYER = re.compile(r"\d+|i{1,3}|iv|vi{0,3}")
-"""The number of a player, between a name and its key ("Bass 1 C")."""
+"""Number of a player between a name and its key ("Bass 1 C")."""
 _LEAST_PLURAL = 4
-"""Letters of a word from which on an ending may be a plural."""
+"""Least number of letters of a word whose ending may be a plural."""
 _PLURALS = (
     *(("es", ""), ("s", ""), ("i", "o"), ("i", "e"), ("e", "a"), ("en", "e"), ("en", ""), ("e", "")),
     *(("ы", ""), ("ы", "а"), ("а", "")),
 )
-"""Endings of plurals in the languages of the table, in Russian of the genitive too, and what the singular has instead;
-the longest come first."""
+"""Endings of plurals in the languages of the table (in Russian also of the genitive), and the endings of the singular;
+longest first.
+"""
 
 
 class Vocabulary(InstrumentRelations):
-    """Finds instruments by name and by program; immutable once built.
+    """Finds instruments by name and by program; immutable.
 
     Parameters
     ----------
@@ -66,12 +68,12 @@ class Vocabulary(InstrumentRelations):
     file : str
         The table's name for messages.
     words_known : mapping of str to tuple of str
-        What `words_of` says of names, where it is known already.
+        Known results of `words_of` by name.
 
     Raises
     ------
     MapError
-        ``vocabulary.invalid``: a name belongs to two; see `InstrumentRelations`.
+        A name belongs to two instruments; see `InstrumentRelations`.
     """
 
     def __init__(
@@ -120,13 +122,13 @@ class Vocabulary(InstrumentRelations):
         self._longest_mark = max(map(len, self._marks), default=0)
 
     def stroke(self, text: str) -> int | None:
-        """The key of a drum kit that percussion of a name has."""
+        """Return the key of a drum kit for percussion of a name."""
         found = self.by_name(text)
         return None if found is None else self._strokes.get(found.id)
 
     def within(self, text: str, member: Instrument) -> Instrument | None:
-        """The instrument of the same family that a text names by a size or key alone, as "Alto" and "Bari 1" do among
-        saxophones; None where it says more or less than that. A single letter counts after "in" only.
+        """Return the instrument of the same family that a text identifies only by a size or key, as "Alto" and "Bari 1"
+        among saxophones; None for other texts. A single letter is used only after "in".
 
         Parameters
         ----------
@@ -145,7 +147,7 @@ class Vocabulary(InstrumentRelations):
         return form if reported_by else None
 
     def all_by_name(self, text: str) -> tuple[Instrument, ...]:
-        """Every instrument that a running text names, once, in its order. Abbreviations do not count."""
+        """Return every instrument named in a running text, once, in order, ignoring abbreviations."""
         tokens, found, start = words_of(text), dict[str, Instrument](), 0
         while start < len(tokens):
             step = 1
@@ -160,14 +162,14 @@ class Vocabulary(InstrumentRelations):
         return tuple(found.values())
 
     def by_name(self, text: str) -> Instrument | None:
-        """The instrument that a text names.
+        """Return the instrument that a text names.
 
-        Whole words only. Of several names the one counts that explains most words, sizes and keys beside it included
-        ("bass trombone" before "trombone", "Contrabass Cl." before "Contrabass"); among equals one that is more than
-        an abbreviation, then the first. Of two instruments of one player ("Oboe 2 / Engl. Horn") the first counts,
-        unless the second says more exactly what it is ("Trombone 3 / Bass Trombone"); so does what stands in brackets,
-        "Flute (Piccolo)" being a flute and "Saxophone (alto)" an alto saxophone. Japanese is written without spaces, so
-        its names are found anywhere within a run of kana and kanji.
+        Only whole words are considered. Of several names, the one that explains most words is used, including sizes and
+        keys beside it ("bass trombone" before "trombone", "Contrabass Cl." before "Contrabass"); among equals one that
+        is not an abbreviation, then the first. Of two instruments of one player ("Oboe 2 / Engl. Horn") the first is
+        used, unless the second is more specific ("Trombone 3 / Bass Trombone"); the same applies to brackets, so that
+        "Flute (Piccolo)" is a flute and "Saxophone (alto)" an alto saxophone. Japanese has no spaces, so its names are
+        found anywhere within a run of kana and kanji.
         """
         return self._meant(text)
 
@@ -224,8 +226,9 @@ class Vocabulary(InstrumentRelations):
         return None if best is None else best[1]
 
     def _is_whole(self, tokens: tuple[str, ...], start: int, end: int) -> bool:
-        """Return whether a name is more than some kana of a longer word: a short one has only words of the table beside
-        it."""
+        """Return whether a name is not merely some kana of a longer word: beside a short one there may only be words of
+        the table.
+        """
         if tokens[start:end] not in self._short_kana:
             return True
         before, after = tokens[max(start - _MOST_KANA, 0) : start], tokens[end : end + _MOST_KANA]
@@ -239,15 +242,16 @@ class Vocabulary(InstrumentRelations):
         return words in self._by_tokens or words in self._marks or words in self._prefixes
 
     def _with_key(self, own: tuple[str, ...], marks: Mapping[str, int]) -> Instrument | None:
-        """Instrument that the words name only together with one of the keys beside them."""
+        """Return the instrument that the words name only together with one of the keys beside them."""
         keyed = self._keyed.get(own)
         if keyed is None or marks.keys().isdisjoint({keyed.key, *self._form_keys(keyed)}):
             return None
         return keyed
 
     def _is_loose(self, marks: Mapping[str, int], beside: tuple[str, ...]) -> bool:
-        """Return whether the keys beside a name are mere letters, as in "Bass B", which may be anything; not beside a
-        clef."""
+        """Return whether the keys beside a name are single letters, as in "Bass B", which are ambiguous; not beside a
+        clef.
+        """
         written = any(len(word) > 1 and (word,) in self._marks for word in beside)
         return not written and _IN.isdisjoint(beside) and max(marks.values()) == 1
 
@@ -255,7 +259,7 @@ class Vocabulary(InstrumentRelations):
         return self._keys.intersection(mark for form in self._forms.get(instrument.id, ()) for mark in form.marks)
 
     def _singular(self, word: str) -> str:
-        """The word of the table that this one is the plural of; itself where there is none."""
+        """Return the word of the table of which a word is the plural; the word itself if there is none."""
         if len(word) >= _LEAST_PLURAL and not is_wide(word) and (word,) not in self._marks:
             for plural, singular in _PLURALS:
                 if word.endswith(plural) and (one := word.removesuffix(plural) + singular) in self._words:
@@ -263,7 +267,7 @@ class Vocabulary(InstrumentRelations):
         return word
 
     def _parts(self, token: str) -> tuple[str, ...]:
-        """A word that is joined of a name and a size or prefix: both ("Altklar", "Soloflöte", "saxtenor")."""
+        """Return the parts of a word that joins a name and a size or prefix ("Altklar", "Soloflöte", "saxtenor")."""
         if (token,) not in self._by_tokens and (token,) not in self._marks and not is_wide(token):
             for cut in range(len(token) - 2, 2, -1):
                 before, name = token[:cut], token[cut:]
@@ -278,8 +282,9 @@ class Vocabulary(InstrumentRelations):
         return (token,)
 
     def _form(self, instrument: Instrument, marks: Set[str]) -> tuple[Instrument, frozenset[str]]:
-        """The form of an instrument that the marks name, and those that do: by most of them, by its size before its
-        key; itself where there is none."""
+        """Return the form of an instrument that marks name, and these marks: by most marks, by its size before its key;
+        the instrument itself if there is none.
+        """
         found, reported_by, best = instrument, frozenset[str](), (0, False)
         for form in self._forms.get(instrument.id, ()):
             for mark in form.marks:
@@ -290,7 +295,7 @@ class Vocabulary(InstrumentRelations):
         return found, reported_by
 
     def _marks_beside(self, tokens: tuple[str, ...], singular: tuple[str, ...], begin: int, end: int) -> dict[str, int]:
-        """The sizes, clefs and the nearest key among the words before and after a name, and how many words each is."""
+        """Return the sizes, clefs and the nearest key among the words beside a name, with their number of words."""
         found: dict[str, int] = {}
         nearest: tuple[int, str] | None = None
         place = 0
@@ -321,7 +326,7 @@ class Vocabulary(InstrumentRelations):
 
 
 class _Kept(msgspec.Struct, frozen=True):
-    """The table, and the words of everything named in it."""
+    """The table, and the comparison words of everything named in it."""
 
     table: VocabularyTable
     words: dict[str, tuple[str, ...]]
@@ -329,12 +334,12 @@ class _Kept(msgspec.Struct, frozen=True):
 
 @cache
 def vocabulary() -> Vocabulary:
-    """The bundled vocabulary.
+    """Return the bundled vocabulary.
 
     Raises
     ------
     MapError
-        If the table is not valid.
+        The table is invalid.
     """
     found = kept("maps", "vocabulary", PATH.parent, _DECODER, _read)
     return Vocabulary(found.table, PATH.name, found.words)

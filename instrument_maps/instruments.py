@@ -1,4 +1,4 @@
-"""Instruments of the vocabulary: what the table says of each, and how they are related."""
+"""Instruments of the vocabulary, and their relations."""
 
 from __future__ import annotations
 
@@ -21,33 +21,35 @@ class Instrument(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     ----------
     kind : {"wind", "percussion", "other"}
     names : tuple of str
-        The first is the English name for people, the first in kana or kanji the Japanese one; matching ignores case,
-        diacritics, width and punctuation.
+        Names; the first is the English name for users, the first in kana or kanji the Japanese one. Comparison ignores
+        case, diacritics, width and punctuation.
     programs : tuple of int
         General MIDI programs, 0..127.
     family : str
-        Of a wind: the section it sits in, one of those in the table's ``seating``.
+        Section of a wind instrument, one of those in the table's ``seating``.
     sort_of : str
-        Id of the more general instrument that this is a size or key of: a clarinet in A is a sort of clarinet. A part
-        for the one may be played by the other where nothing fits better.
+        Id of the more general instrument of which this is a size or key: a clarinet in A is a sort of clarinet. A part
+        for one may be played by the other if nothing fits better.
     by_name_only : bool
-        No one is given this instrument because of the range of the notes alone.
+        Whether the instrument is never chosen by the range of notes alone.
     key_by_part : bool
-        Players choose its key by the part, as tuba players do: a sort of it that reaches all notes goes before a map of
-        its own that does not.
+        Whether players choose its key by the part, as tuba players do: a sort of it that reaches all notes precedes a
+        map of its own that does not.
     any_pitch : bool
-        A wind section without a range of its own ("brass"): the range of its notes decides who plays, among
-        ``families`` where they are named.
+        Whether it is a wind section without a range ("brass"): the range of its notes determines the instrument, among
+        ``families`` if given.
     various : bool
-        It stands for several instruments: a part's own name says which.
+        Whether it represents several instruments, distinguished by the part's own name.
     vague : bool
-        Its names may mean a part of any instrument ("Voice 1"): a program other than 0 says more.
+        Whether its names may mean a part of any instrument ("Voice 1"), so that a program other than 0 is more
+        informative.
     vague_names : tuple of str
-        Names that mean a part of this instrument in some ensembles only ("Tenor 1"); found by one of them, it is vague.
+        Names that mean a part of this instrument only in some ensembles ("Tenor 1"); an instrument found by one of them
+        is vague.
     keyed_names : tuple of str
         Names that mean a part of this instrument only beside a key, its own or one of its forms ("Bass in C").
     key : str
-        Its own key, one of the table.
+        Key of the instrument, one of the table.
     form_of : tuple of str
         Ids of the instruments whose names, beside one of the ``marks``, name this one ("Clarinet" and "bass").
     marks : tuple of str
@@ -88,9 +90,9 @@ class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pitches : tuple of int
         The usual median of each part's notes at concert pitch, MIDI numbers.
     names : tuple of str
-        What titles call it.
+        Names in titles.
     unusual : float
-        Semitones by which each part must fit better than that of a usual ensemble.
+        Semitones by which each part must fit better than in a usual ensemble.
     """
 
     parts: tuple[str, ...]
@@ -100,7 +102,7 @@ class Ensemble(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Compass(NamedTuple):
-    """Concert pitches, MIDI numbers, both ends included: all that occur in parts, and what most parts move within."""
+    """Concert pitches as MIDI numbers, both ends included: all that occur in parts, and the range of most parts."""
 
     low: int
     easy_low: int
@@ -114,25 +116,25 @@ class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
     Attributes
     ----------
     instruments : tuple of Instrument
-        Names and programs belong to one instrument each.
+        Instruments; names and programs belong to one instrument each.
     seating : tuple of tuple of str
-        Families of winds, by row from the audience's side, each row from the audience's left.
+        Families of winds by row from the audience's side, each row from the audience's left.
     sizes, keys, clefs : dict of str to tuple of str
-        The marks that tell the forms of an instrument apart, and the words for each.
+        Marks that distinguish the forms of an instrument, and the words for each.
     score_order : tuple of str
-        The same families, from the top of a score to its foot.
+        Families from the top of a score to its bottom.
     family_names : dict of str to InstrumentName
-        Name of each family, by its id.
+        Name of each family by its id.
     ensembles : tuple of Ensemble
-        Those that are known by their parts.
+        Ensembles that are recognised by their parts.
     ranges : mapping of str to Compass
         Concert pitches of the parts of ensembles, by instrument.
     prefixes : tuple of str
-        Words that may be joined to a name and do not change its meaning ("Soloflöte", "ソロホルン").
+        Words that may be joined to a name without changing its meaning ("Soloflöte", "ソロホルン").
     sounds : mapping of str to str
         Instruments of the standard list of sounds.
     strokes : mapping of str to int
-        Keys of a drum kit, by such sounds and by ids of percussion.
+        Keys of a drum kit by such sounds and by ids of percussion.
     """
 
     instruments: tuple[Instrument, ...]
@@ -150,7 +152,7 @@ class VocabularyTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
 
 
 class InstrumentRelations:
-    """Instruments of a vocabulary, and which of them are sorts or forms of others; immutable once built.
+    """Instruments of a vocabulary with sorts and forms; immutable.
 
     Parameters
     ----------
@@ -161,7 +163,7 @@ class InstrumentRelations:
     Raises
     ------
     MapError
-        ``vocabulary.invalid``: a program belongs to two, or a family, a form or a mark is not in the table.
+        A program belongs to two instruments, or a family, form or mark is not in the table.
     """
 
     def __init__(self, table: VocabularyTable, file: str) -> None:
@@ -183,7 +185,7 @@ class InstrumentRelations:
                 self._forms.setdefault(general, []).append(instrument)
 
     def _of_forms(self, table: VocabularyTable) -> Iterator[str]:
-        """Yield what is wrong with forms and sounds."""
+        """Yield the faults in forms and sounds."""
         marks = {*table.sizes, *table.keys, *table.clefs}
         for instrument in self.instruments.values():
             own = {part for mark in instrument.marks for part in mark.split("+")}
@@ -222,12 +224,12 @@ class InstrumentRelations:
         return self._by_program.get(program)
 
     def by_sound(self, sound: str) -> Instrument | None:
-        """The instrument of an id in the standard list of sounds, or of the nearest that it is a sort of."""
+        """Return the instrument of an id in the standard list of sounds, or the nearest of which it is a sort."""
         id = _nearest(self._sounds, sound)
         return None if id is None else self.instruments[id]
 
     def stroke_by_sound(self, sound: str) -> int | None:
-        """The key of a drum kit that percussion of the standard list of sounds has."""
+        """Return the key of a drum kit for percussion in the standard list of sounds."""
         return _nearest(self._strokes, sound)
 
     def is_sort(self, id: str, general: str) -> bool:
@@ -240,12 +242,13 @@ class InstrumentRelations:
         )
 
     def is_kind(self, named: Instrument, general: Instrument) -> bool:
-        """Return whether one instrument is a form or a sort of another one."""
+        """Return whether an instrument is a form or a sort of another one."""
         return general.id in named.form_of or self.is_sort(named.id, general.id)
 
     def relatives(self, instrument: Instrument) -> list[tuple[Instrument, ...]]:
-        """The other winds that a part for an instrument may be meant for, the likeliest first: its sizes and keys; of
-        those that the range may choose, the ones whose English names end in the same word, its section, any."""
+        """Return the other winds that a part for an instrument may mean, the likeliest first: its sizes and keys; among
+        those chosen by range, the ones whose English names end in the same word, its section, any.
+        """
         general = instrument
         while general.sort_of:
             general = self.instruments[general.sort_of]
@@ -261,7 +264,7 @@ class InstrumentRelations:
         ]
 
     def family(self, ids: tuple[str, ...]) -> str:
-        """The section of the first of these instruments that has one; empty if none has."""
+        """Return the section of the first of instruments that has one; empty if none has."""
         families = (self.instruments[id].family for id in ids if id in self.instruments)
         return next((family for family in families if family), "")
 
@@ -272,7 +275,7 @@ def invalid(file: str, detail: str) -> MapError:
 
 
 def _nearest(table: Mapping[str, T], sound: str) -> T | None:
-    """The value of an id of words with dots between, or else of as many of its first words as the table has."""
+    """Return the value of a dotted id, or of the longest beginning of it in the table."""
     while sound and sound not in table:
         sound = sound.rpartition(".")[0]
     return table.get(sound)

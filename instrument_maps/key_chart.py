@@ -1,7 +1,7 @@
-"""Places of holes and keys in a drawn fingering: a column for the fingers' own places, the left hand above the right,
-the other keys beside it, as in a method book. A map says them; what it does not say follows from the fingers.
+"""Places of holes and keys in a fingering chart as in method books: a column for the fingers' home places, the left
+hand above the right, with other keys beside it. Places missing in the map follow from the fingers.
 
-Lengths are in holes: the distance from one hole of the column to the next is 1.
+The unit of length is the distance of adjacent holes in the column.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ HOLE: Final = 0.9
 PAD: Final = (0.94, 0.56)
 """Width and height of a key."""
 COLUMN: Final = 0.6
-"""Furthest that a hole of the column is from its middle."""
+"""Greatest distance of a column's hole from its middle."""
 _BESIDE: Final = 1.15
 _LINE: Final = ("index", "middle", "ring")
 _DOWN: Final = {"thumb": 0.6, "middle": 1.0, "ring": 2.0, "little": 2.65}
@@ -29,12 +29,12 @@ _OPEN, _HALF, _CLOSED = "○", "◐", "●"
 
 @dataclass(frozen=True)
 class ChartedKey:
-    """A hole or key in its place.
+    """A hole or key with its place.
 
     Attributes
     ----------
     x, y : float
-        Its middle, to the right and down.
+        Centre, to the right and down.
     """
 
     control: Control
@@ -49,7 +49,7 @@ class ChartedKey:
         return (HOLE, HOLE) if self.is_round else PAD
 
     def overlaps(self, other: ChartedKey) -> bool:
-        """Return whether a part of it lies under another."""
+        """Return whether it overlaps another."""
         (wide, tall), (other_wide, other_tall) = self.size, other.size
         apart = abs(self.x - other.x) * 2.0, abs(self.y - other.y) * 2.0
         return apart[0] < wide + other_wide and apart[1] < tall + other_tall
@@ -61,14 +61,13 @@ class ChartedKey:
 
     @property
     def is_always_shown(self) -> bool:
-        """True if it is drawn open as well, where other keys are drawn only if they are pressed: the column and the
-        hole of a thumb."""
+        """True if it is drawn even when open, in contrast to other keys: the column and the hole of a thumb."""
         return self.in_column or (self.is_round and self.control.finger.endswith(".thumb"))
 
 
 @dataclass(frozen=True)
 class KeyChart:
-    """The holes and keys of an instrument in the order in which a fingering is said."""
+    """The holes and keys of an instrument in the order of labels."""
 
     keys: tuple[ChartedKey, ...]
 
@@ -79,23 +78,25 @@ class KeyChart:
 
     @cached_property
     def top(self) -> float:
-        """Height of what is highest, 0 or less."""
+        """Return the highest position, 0 or less."""
         return min((key.y - key.size[1] / 2.0 for key in self.keys), default=0.0)
 
     @cached_property
     def bottom(self) -> float:
-        """Height of what is lowest."""
+        """Return the lowest position."""
         return max((key.y + key.size[1] / 2.0 for key in self.keys), default=1.0)
 
     @cached_property
     def between_hands(self) -> float | None:
-        """Height of the line between the hands; None where one hand has no hole of the column."""
+        """Return the position of the line between the hands; None if one hand has no hole in the column."""
         left = [key.y for key in self.column if key.control.finger.startswith("left.")]
         right = [key.y for key in self.column if key.control.finger.startswith("right.")]
         return (max(left) + min(right)) / 2.0 if left and right else None
 
     def in_signs(self, values: Mapping[str, float]) -> str:
-        """A fingering as a line of signs: ``"●●● ●○○ E♭"``, the keys beside the column by their own signs."""
+        """Return a fingering as a line of signs: ``"●●● ●○○ E♭"``, with the keys beside the column by their
+        signs.
+        """
         hands = ("".join(_hole(key, values) for key in self.column if key.control.finger.startswith(hand))
                  for hand in _TOPS)  # fmt: skip
         others = [key for key in self.keys if not key.in_column and values.get(key.control.name, 0.0) > 0.0]
@@ -141,7 +142,7 @@ def _chart(instrument: InstrumentMap) -> KeyChart:
 
 
 def _homes(instrument: InstrumentMap) -> frozenset[str]:
-    """The controls at which the fingers of the line are at home: the first that a contact of theirs works."""
+    """Return the controls at the fingers' home: the first that a contact of each works."""
     found: dict[str, str] = {}
     fingers = {control.name: control.finger for control in instrument.controls}
     for contact in instrument.contacts:
@@ -151,7 +152,7 @@ def _homes(instrument: InstrumentMap) -> frozenset[str]:
 
 
 def _usual_place(control: Control, home: bool) -> tuple[float, float]:
-    """In the column where a finger is at home, else beside it: thumbs at the left."""
+    """Return the default place: in the column at home, else beside it, thumbs at the left."""
     hand, _, finger = control.finger.partition(".")
     side = 0.0 if home else -_BESIDE if finger == "thumb" else _BESIDE
     return side, _TOPS.get(hand, 0.0) + _DOWN.get(finger, 0.0)

@@ -1,4 +1,4 @@
-"""The instruments the user has: the bundled maps and those of their own folder (see `app.formats.user_folder`)."""
+"""The available instruments: bundled maps, and those in the user's own folder (see `app.formats.user_folder`)."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from instrument_maps.score_order import in_score_order
 
 @dataclass(frozen=True)
 class Library(Shelf[InstrumentMap]):
-    """All instruments, as they were when the folders were read."""
+    """All instruments in the state of the last reading of the folders."""
 
     @cached_property
     def maps(self) -> Mapping[str, InstrumentMap]:
-        """All maps by id, in the order of the ids."""
+        """All maps by id, sorted."""
         return dict(sorted(self.items.items()))
 
     @cached_property
     def in_score_order(self) -> tuple[InstrumentMap, ...]:
-        """All of them as lists show them."""
+        """Return all maps in the order of lists."""
         return tuple(in_score_order(self.maps.values()))
 
     @property
     def own(self) -> Mapping[str, Path]:
-        """Files of the maps that are the user's own."""
+        """Files of the user's own maps."""
         return self.files
 
     def find(self, id: str) -> InstrumentMap:
-        """Return the map of this id; MapError (``map.unknown``) where there is none."""
+        """Return the map of an id; MapError if there is none."""
         try:
             return self.maps[id]
         except KeyError:
@@ -50,7 +50,7 @@ class Library(Shelf[InstrumentMap]):
         Raises
         ------
         MapError
-            ``map.unreadable`` where no folder has it.
+            The model is in no folder.
         """
         folders = (self.folder, MODELS) if instrument.id in self.own else (MODELS,)
         for folder in folders:
@@ -60,7 +60,7 @@ class Library(Shelf[InstrumentMap]):
 
 
 def _own_map(path: Path) -> Read[InstrumentMap]:
-    """A map of the user's folder, or everything that is wrong with it. Raises AppError."""
+    """Return a map in the user's folder, or all its faults. Raises AppError."""
     instrument = named_map(path)
     beside = path.parent / instrument.model
     wrong = model_problems(instrument, beside if os.path.isfile(beside) else MODELS / instrument.model)
@@ -77,12 +77,12 @@ own_folder, begin, library, reload = LIBRARY.folder, LIBRARY.begin, LIBRARY.now,
 
 
 def find_map(id: str) -> InstrumentMap:
-    """Return the map of this id; MapError (``map.unknown``) where there is none."""
+    """Return the map of an id; MapError if there is none."""
     return library().find(id)
 
 
 def all_maps() -> Mapping[str, InstrumentMap]:
-    """Return all maps by id, in the order of the ids."""
+    """Return all maps by id, sorted."""
     return library().maps
 
 

@@ -1,4 +1,4 @@
-"""Reads instrument maps: TOML text to `InstrumentMap`, refusing with the exact place what is wrong."""
+"""Reading of instrument maps from TOML to `InstrumentMap`, with the exact place of faults."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ MODELS = FOLDER.parent / "resources" / "instruments"
 NOT_MAPS = frozenset({"instrument_names.toml"})
 
 MOST_BASES = 16
-"""Most maps that may extend one another in a row."""
+"""Greatest number of maps that extend each other in a chain."""
 
 
 def parse_map(text: str, file: str) -> InstrumentMap:
-    """Build a map from the text of its file.
+    """Return the map in the text of a file.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def parse_map(text: str, file: str) -> InstrumentMap:
     Raises
     ------
     MapError
-        With line and column (``table.syntax``) or the key path (``table.invalid``) of the first problem.
+        The text is invalid; with line and column, or the key path, of the first problem.
     """
     instrument = _shaped(text, file)
     for path, detail in problems(instrument):
@@ -60,15 +60,15 @@ def load_map(path: Path | str) -> InstrumentMap:
     MapError
         See `parse_map`.
     FileError
-        The file cannot be read at all.
+        The file cannot be read.
     """
     return parse_map(toml_text(path), str(path))
 
 
 def check_map(path: Path | str) -> tuple[Message, ...]:
-    """Return everything that is wrong with a map file, its model included; empty for a valid map.
+    """Return all faults of a map file including its model; empty for a valid map.
 
-    A syntax or schema error hides what lies behind it and is returned alone.
+    A syntax or schema error hides later faults and is returned alone.
     """
     from instrument_maps.check_model import model_problems
 
@@ -88,12 +88,12 @@ def check_map(path: Path | str) -> tuple[Message, ...]:
 
 @cache
 def bundled_maps() -> Mapping[str, InstrumentMap]:
-    """Return the maps that come with the program, by id, in the order of their ids."""
+    """Return the bundled maps by id, sorted."""
     return kept("maps", "maps", FOLDER, _KEPT, lambda: _folder_maps(FOLDER))
 
 
 def model_path(instrument: InstrumentMap) -> Path:
-    """Return the file of a bundled map's model; MapError (``map.unreadable``) where there is none."""
+    """Return the file of a bundled map's model; MapError if there is none."""
     path = MODELS / instrument.model
     if not os.path.isfile(path):
         raise MapError("map.unreadable", file=instrument.model, detail="no such model")
@@ -105,7 +105,7 @@ def _folder_maps(folder: Path) -> dict[str, InstrumentMap]:
 
 
 def named_map(path: Path) -> InstrumentMap:
-    """Return the map of a file of a folder, where its file's name is what finds it. Raises as `load_map`."""
+    """Return the map in a file whose name must be the map's id. Raises as `load_map`."""
     instrument = load_map(path)
     if instrument.id != path.stem:
         detail = f"'{instrument.id}' is not the file's name, '{path.stem}'"
@@ -114,7 +114,7 @@ def named_map(path: Path) -> InstrumentMap:
 
 
 def _shaped(text: str, file: str) -> InstrumentMap:
-    """Parse, extend and convert: everything that types alone can tell."""
+    """Return a parsed, extended and converted map, checked only by types."""
     instrument = shaped(_extended(parse_table(text, file), file, ()), InstrumentMap, file)
     reported = [
         msgspec.structs.replace(fingering, controls=controls_of(fingering.label, instrument.controls) or {})
@@ -127,12 +127,14 @@ def _shaped(text: str, file: str) -> InstrumentMap:
 
 @lru_cache(maxsize=4)
 def parse_table(text: str, file: str) -> dict[str, Any]:
-    """Return a map's table, which no one changes: several maps extend the same one. Raises MapError."""
+    """Return a map's table, which must not be modified since several maps extend the same one. Raises MapError."""
     return parse_toml(text, file)
 
 
 def _extended(table: dict[str, Any], file: str, above: tuple[Path, ...]) -> dict[str, Any]:
-    """A map's table laid over the one it extends, which is looked for beside it and then among the bundled maps."""
+    """Return a map's table merged with the one it extends, which is looked for beside it and then among bundled
+    maps.
+    """
     if BASE not in table:
         return table
     base, own = table[BASE], Path(file).absolute()

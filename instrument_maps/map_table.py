@@ -1,4 +1,4 @@
-"""Bases of the records of an instrument map."""
+"""Base class of the tables of an instrument map."""
 
 from __future__ import annotations
 
@@ -12,4 +12,4 @@ Posture: TypeAlias = Literal["standing", "seated"]
 
 
 class MapTable(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """A table of the file: immutable, and a key it does not know is an error."""
+    """A table of the file: immutable, without unknown keys."""

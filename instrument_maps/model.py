@@ -1,9 +1,8 @@
 """Contents of an instrument map: frozen records, one per table of the TOML file.
 
-A map is everything the program knows about an instrument. It speaks of *nodes* (the named moving parts of
-the model), *controls* (what a player moves), *contacts* (which part of which hand touches what) and
-*fingerings* (which controls give which note). Code below and above asks the map and never asks which
-instrument it is.
+A map contains everything that the program uses about an instrument: *nodes* (the named moving parts of the model),
+*controls* (parts that a player moves), *contacts* (parts of hands that touch nodes) and *fingerings* (controls for each
+note). No other code depends on the identity of an instrument.
 
 Frames
 ------
@@ -22,10 +21,10 @@ from instrument_maps.map_table import MapTable, Vector
 from instrument_maps.wind import Acoustics, Air, Embouchure, Mouthpiece, Stopped, Water
 
 SCHEMA_VERSION = 1
-"""The schema these records describe; a file that says another number is refused."""
+"""Version of the schema; a file with another number is refused."""
 
 ROOT = "root"
-"""Name of the node that stands for the instrument itself."""
+"""Name of the node for the instrument itself."""
 
 
 FINGERS = ("thumb", "index", "middle", "ring", "little")
@@ -35,8 +34,9 @@ PARTS = frozenset(
     for hand in ("left", "right")
     for part in (*(f"{finger}.{place}" for finger in FINGERS for place in PLACES), "palm", "thumb_web")
 ) - {f"{hand}.thumb.{place}_proximal" for hand in ("left", "right") for place in ("pad", "side")}
-"""Body landmarks a contact may name: ``right.index.pad`` (of the last phalanx), ``left.ring.pad_middle`` (of the
-one before it), ``left.index.side_proximal`` (of the first; a thumb has but two outside the palm), ``left.palm``."""
+"""Body landmarks for contacts: ``right.index.pad`` (of the last phalanx), ``left.ring.pad_middle`` (of the one before
+it), ``left.index.side_proximal`` (of the first; a thumb has only two outside the palm), ``left.palm``.
+"""
 
 MOVERS = frozenset(f"{hand}.{mover}" for hand in ("left", "right") for mover in (*FINGERS, "hand"))
 """Movers of a control: a finger, or a whole hand (a playing slide)."""
@@ -52,9 +52,9 @@ class InstrumentName(MapTable, frozen=True):
 class Range(MapTable, frozen=True):
     """Concert MIDI pitches, both ends inclusive.
 
-    ``low``..``high`` is what the table of fingerings covers; ``easy_low``..``easy_high`` is where the
-    embouchure is neither relaxed to its limit nor drawn tight. ``usual_low``..``usual_high`` is the range without
-    pedal tones and altissimo, by which an instrument is chosen for a part; None: as far as the table goes.
+    ``low``..``high`` is the range of the fingering table; in ``easy_low``..``easy_high`` the embouchure is neither
+    completely relaxed nor tight. ``usual_low``..``usual_high`` is the range without pedal tones and altissimo, by which
+    an instrument is chosen for a part; None for that of the table.
     """
 
     low: int
@@ -72,7 +72,7 @@ class Range(MapTable, frozen=True):
 
 
 class ControlMotion(MapTable, frozen=True):
-    """Motion of a node while its control goes from 0 to 1, in the root frame.
+    """Motion of a node while its control moves from 0 to 1, in the root frame.
 
     Either a translation (``axis`` and ``travel_m``) or a rotation about ``pivot_m`` (a point in the root
     frame; ``axis`` and ``angle_rad``, right-handed).
@@ -88,7 +88,7 @@ ControlKind: TypeAlias = Literal["press", "lever", "slide", "key", "hole"]
 
 
 class Control(MapTable, frozen=True):
-    """Something the player moves: a valve, a slide, a lever, a key; or a hole a finger covers.
+    """A part moved by the player: a valve, a slide, a lever, a key; or a hole covered by a finger.
 
     Attributes
     ----------
@@ -98,37 +98,38 @@ class Control(MapTable, frozen=True):
         ``"press"`` goes down under a finger, ``"lever"`` turns under one, ``"slide"`` is pushed and pulled; ``"key"``
         is a woodwind's key, ``"hole"`` a hole that the finger itself closes (with or without a ring that goes down).
     role : str
-        ``"pitch"``: named by the fingerings. ``"intonation"``: corrects a note that is held long enough.
+        ``"pitch"``: part of fingerings. ``"intonation"``: corrects a note of sufficient length.
     finger : str
-        What moves it, one of `MOVERS`.
+        Finger or hand that moves it, one of `MOVERS`.
     node : str or None
-        The model's node it moves; None for a hole without a moving part.
+        Moved node of the model; None for a hole without a moving part.
     motion : ControlMotion or None
-        How; None exactly where ``node`` is.
+        Motion of the node; None exactly if ``node`` is None.
     label : str
-        Its sign in the short form of a fingering (``"1"``, ``"T"``, ``"L1"``); empty where the place itself is the
-        label (a slide) or where it has none.
+        Sign in the label of a fingering (``"1"``, ``"T"``, ``"L1"``); empty for a slide, whose position is the label,
+        or if there is none.
     half_value : float or None
-        A hole that may be half closed: its value then, 0..1. The label is then the hole's with ``"h"`` after it.
+        Value 0..1 of a half-closed hole. Its sign then has the suffix ``"h"``.
     hover_m : float
-        How high over its key or hole a finger that plays nothing waits; 0 where it stays on it (a valve).
+        Height of a waiting finger over its key or hole; 0 if it stays on it (a valve).
     rest_value : float
-        Where it is when nothing is played, 0..1.
+        Value at rest, 0..1.
     move_window_s : float
-        It leaves its place at most this long before the next onset ...
+        Greatest time in seconds before the next onset at which it starts to move.
     move_note_share : float
-        ... and at most this part of the sounding note before it.
+        Greatest share of the sounding note before it for moving.
     max_speed_m_s : float or None
-        Where the distance decides (a slide): the window is then at least distance / speed.
+        Speed that limits a control with a long way (a slide): the window is then at least distance / speed.
     unhurried_speed_m_s : float or None
-        Of such a control where the note before leaves it the time: its move then takes distance / speed, and its
-        fastest moment is 15/8 of that (`app.motion.curves.curve.minimum_jerk`).
+        Speed of such a control if the previous note leaves enough time: its move then takes distance / speed, with a
+        maximum of 15/8 of that (`app.motion.curves.curve.minimum_jerk`).
     used_with : tuple of str
-        Intonation only: labels of the fingerings it corrects.
+        Intonation only: labels of the fingerings that it corrects.
     held_min_s : float or None
-        Intonation only: notes shorter than this are not corrected.
+        Intonation only: least duration of a corrected note in seconds.
     attack_s : float or None
-        How long a fingering for attacks (tag ``attack``) holds it, of longer notes; None: as long as the note.
+        Time in seconds for which a fingering for attacks (tag ``attack``) uses it in longer notes; None for the whole
+        note.
     """
 
     name: str
@@ -151,23 +152,24 @@ class Control(MapTable, frozen=True):
 
     @property
     def travel_m(self) -> float:
-        """Distance that its node is pushed or pulled; 0 if it turns or does not move."""
+        """Distance in metres that its node is pushed or pulled; 0 if it rotates or does not move."""
         return 0.0 if self.motion is None or self.motion.travel_m is None else self.motion.travel_m
 
 
 class Link(MapTable, frozen=True):
-    """A part that other controls move: the pad a key's rod closes far from the finger, the ring of a neighbouring hole.
+    """A part moved by other controls: the pad closed by a key's rod far from the finger, the ring of a neighbouring
+    hole.
 
     Attributes
     ----------
     node : str
-        The model's node that moves along; not the node of a control.
+        Moved node of the model; not the node of a control.
     motion : ControlMotion
-        How.
+        Motion of the node.
     controls : tuple of str
         Names of the controls that move it.
     when : str
-        ``"any"``: it goes as far as the furthest of them. ``"all"``: as far as the least of them.
+        ``"any"``: by the greatest of their values. ``"all"``: by the least.
     """
 
     node: str
@@ -177,18 +179,18 @@ class Link(MapTable, frozen=True):
 
 
 class Endpin(MapTable, frozen=True):
-    """The pin an instrument stands on the floor with, as long as its player needs it.
+    """The pin on which an instrument stands on the floor, with adjustable length.
 
     Attributes
     ----------
     node : str
-        The model's node that slides, pushed in at rest.
+        Sliding node of the model, pushed in at rest.
     axis : vector
         The way out, in the root frame.
     tip_m : vector
-        Its tip at rest, in the root frame.
+        Tip at rest in the root frame.
     most_m : float
-        How far it can be drawn out.
+        Greatest length in metres by which it can be drawn out.
     """
 
     node: str
@@ -198,10 +200,10 @@ class Endpin(MapTable, frozen=True):
 
 
 class MovingPart(NamedTuple):
-    """A node of the model that moves, whatever moves it.
+    """A moving node of the model.
 
-    ``name`` is its bone's in a file: the control's that moves it, or the node's own for a link and an endpin, which
-    moves by a value of its own name.
+    ``name`` is that of its bone in a file: the control's name, or the node's own for a link and an endpin, which moves
+    by a value of its own name.
     """
 
     name: str
@@ -212,18 +214,18 @@ class MovingPart(NamedTuple):
 
 
 class ChartKey(MapTable, frozen=True):
-    """A control as players know it: its name, and its place in a drawn fingering.
+    """A control's name for players, and its place in a fingering chart.
 
     Attributes
     ----------
     name : str
         The control's.
     en, ja : str
-        What it is called; no other control of the instrument is called so.
+        Names, unique among the instrument's controls.
     sign : str
-        A few letters that fit on its picture.
+        A few letters for its picture.
     at : (float, float) or None
-        Its middle, counted in holes from the left hand's first, to the right and down; None: beside its finger's place.
+        Centre in units of holes from the left hand's first, to the right and down; None for the place of its finger.
     round : bool
         Drawn as a hole and not as a key.
     """
@@ -242,23 +244,23 @@ class Fingering(MapTable, frozen=True):
     Attributes
     ----------
     written_pitch : int
-        MIDI pitch as the player reads it.
+        Written MIDI pitch.
     rank : int
         1 = first choice; alternates count on without gaps.
     label : str
-        The usual short form: ``"0"``, ``"13"``, ``"T12"``; of a slide ``"1"``..``"7"``, ``"T1"``; of keys and holes
-        their labels, sorted, one space between, ``"(open)"`` for none.
+        Usual short form: ``"0"``, ``"13"``, ``"T12"``; for a slide ``"1"``..``"7"``, ``"T1"``; for keys and holes their
+        sorted signs with spaces, ``"(open)"`` for none.
     controls : dict of str to float
-        Value 0..1 of every pitch control away from its rest. A file may leave it out where the label says it.
+        Value 0..1 of every pitch control that is not at rest. A file may omit it if the label determines it.
     fingers : dict of str to str
-        Controls that another finger than usual works here, and which.
+        Controls worked by another finger than usual, and that finger.
     cents : float
-        How far the note is from equal temperament when it is simply blown, after what ``controls`` does.
+        Deviation of the note from equal temperament when blown normally, including the effect of ``controls``.
     correction : dict of str to float
-        Values of the intonation controls for a note that is held.
+        Values of the intonation controls for a held note.
     tags : tuple of str
-        Why one would take it: ``"trill"``, ``"fast"``, ``"raised"`` ...; ``"obsolete"`` marks an alternate that earlier
-        versions had by mistake: old projects keep it where it was set by hand, nothing else takes it.
+        Reasons for using it: ``"trill"``, ``"fast"``, ``"raised"`` and so on; ``"obsolete"`` marks an alternate that
+        earlier versions had by mistake, which is only used by old projects in which it was pinned.
     """
 
     written_pitch: int
@@ -272,12 +274,12 @@ class Fingering(MapTable, frozen=True):
 
     @property
     def is_obsolete(self) -> bool:
-        """True if it is kept only for corrections of old projects; a first choice never is."""
+        """True if it exists only for corrections in old projects; never for a first choice."""
         return self.rank > 1 and "obsolete" in self.tags
 
 
 class InstrumentMap(MapTable, frozen=True):
-    """One instrument, as its file says it.
+    """One instrument as described in its file.
 
     Attributes
     ----------
@@ -292,7 +294,7 @@ class InstrumentMap(MapTable, frozen=True):
     plays : tuple of str
         Ids of the instrument vocabulary whose parts this instrument plays.
     substitutes_for : tuple of str
-        Ids it may stand in for where they have no map of their own.
+        Ids for which it is a substitute if they have no map of their own.
     transposition_semitones : int
         Written minus concert pitch.
     range : Range
@@ -300,21 +302,21 @@ class InstrumentMap(MapTable, frozen=True):
     model : str
         File name of the glTF binary.
     clef : str
-        The clef its parts are written in.
+        Clef of its parts.
     breaks : tuple of int
         Written pitches at which a new register begins; a line crosses the break between such a note and the one below.
     air : Air or None
-        None: as the body's lungs say, whatever the instrument.
+        Length of a breath; None for that of the body, independent of the instrument.
     water : Water or None
-        None: it is let out where no one sees it.
+        Letting out of water; None if it is not visible.
     stopped : Stopped or None
-        None: no hand closes its bell.
+        Notes with the hand in the bell; None if there are none.
     chart : tuple of ChartKey
-        Names and places of the controls, in the order in which a fingering is said.
+        Names and places of the controls in the order of labels.
     fingerings : tuple of Fingering
-        Sorted by written pitch and rank.
+        Fingerings sorted by written pitch and rank.
     size : float
-        How large it is, as a multiple of its file and model (`instrument_maps.size.scaled`); never in a file.
+        Size relative to its file and model (`instrument_maps.size.scaled`); never in a file.
     """
 
     schema_version: int
@@ -347,7 +349,7 @@ class InstrumentMap(MapTable, frozen=True):
     size: float = 1.0
 
     def control(self, name: str) -> Control:
-        """Return the control of this name; `KeyError` if there is none."""
+        """Return the control of a name; `KeyError` if there is none."""
         for control in self.controls:
             if control.name == name:
                 return control
@@ -355,7 +357,7 @@ class InstrumentMap(MapTable, frozen=True):
 
     @property
     def moving_parts(self) -> tuple[MovingPart, ...]:
-        """Moving parts of the model: those of the controls, then the linked ones, then the endpin."""
+        """Return the moving parts of the model: those of controls, linked ones, the endpin."""
         own = [
             MovingPart(control.name, control.node, control.motion, (control.name,))
             for control in self.controls
@@ -373,24 +375,25 @@ class InstrumentMap(MapTable, frozen=True):
         return tuple(part.node for part in self.moving_parts)
 
     def in_range(self, concert_pitch: int) -> bool:
-        """Return whether the table has fingerings for this concert pitch."""
+        """Return whether the table has fingerings for a concert pitch."""
         return self.range.low <= concert_pitch <= self.range.high
 
     def nearest_playable(self, concert_pitch: int) -> int:
-        """Return the concert pitch itself, or the end of the range that is nearest to it."""
+        """Return the concert pitch itself, or the nearest end of the range."""
         return min(max(concert_pitch, self.range.low), self.range.high)
 
     def fingerings_for(self, concert_pitch: int) -> tuple[Fingering, ...]:
-        """Return the fingerings of a concert pitch, first choice first.
+        """Return the fingerings of a concert pitch, the preferred one first.
 
-        For a pitch out of range: those of `nearest_playable`. Never empty for a valid map.
+        For a pitch out of range, those of `nearest_playable`. Never empty for a valid map.
         """
         written = self.nearest_playable(concert_pitch) + self.transposition_semitones
         return tuple(fingering for fingering in self.fingerings if fingering.written_pitch == written)
 
     def offered_for(self, concert_pitch: int, shown: str) -> tuple[Fingering, ...]:
-        """Fingerings of a concert pitch that a user may choose; obsolete ones are left out unless one has the label
-        ``shown``."""
+        """Return the fingerings of a concert pitch that a user may choose, without obsolete ones except for the label
+        ``shown``.
+        """
         every = self.fingerings_for(concert_pitch)
         return tuple(item for item in every if not item.is_obsolete or item.label == shown)
 

@@ -1,8 +1,7 @@
-"""The words of a part's name as they are compared: case, width, diacritics, punctuation and habits of spelling dropped.
+"""Normalised words of a part's name, without case, width, diacritics, punctuation and variants of spelling.
 
-Both sides of a comparison go through here, the table's names and those of the score, so that "FLUEGELHORN" and
-"Flügelhorn", "Saxophon" and "Saxofon", "Clarinnette" and "Clarinete", "サキソフォーン" and "サキソホン" are one
-word each.
+Names of the table and of the score are both normalised, so that "FLUEGELHORN" and "Flügelhorn", "Saxophon"
+and "Saxofon", "Clarinnette" and "Clarinete", "サキソフォーン" and "サキソホン" are equal.
 """
 
 from __future__ import annotations
@@ -22,13 +21,13 @@ _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=\b[A-Z])(?=[A-Z][ac-z])")
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|ers?|eres?|res?|emes?|es?|v[ab]|m[ab]|[mdrt]?[ao])(?![^\W\d_])")
 """Endings of numbers: 1st, 2es, 3ª, 1mo, 8va; no key ("Es", "A")."""
 _LEAST_SPELLED = 4
-"""Letters of a word from which on its spelling is made uniform; shorter ones are abbreviations and keys."""
+"""Least number of letters of a word whose spelling is normalised; shorter ones are abbreviations and keys."""
 _SPELLING = re.compile(r"ph|oe|ue|y|(?<=[^\W\d_])([b-df-hj-np-tv-z])\1(?=[aeiouy])")
 _SPELLED = {"ph": "f", "oe": "o", "ue": "u", "y": "i"}
 """Greek, German and Italian spellings; a doubled consonant between vowels is written once."""
 _MARKED = re.compile(r"[^\x00-\x7f]")
 _LETTERS = {"œ": "oe", "æ": "ae", "ø": "o", "ł": "l", "đ": "d", "ı": "i"}
-"""Letters that Unicode does not decompose, and what they are written as without their marks."""
+"""Letters that Unicode does not decompose, with their replacements."""
 _KANA = re.compile("ー|ヴ[ァィェォ]?|フォ|テュ|ウィ|ウェ|ウォ")
 _KANA_SPELLED = {
     "ー": "",
@@ -65,14 +64,14 @@ def words_of(text: str) -> tuple[str, ...]:
 
 
 def _spelled(word: str) -> str:
-    """A word in the spelling that all its spellings have in common."""
+    """Return a word in the normalised spelling."""
     if len(word) < _LEAST_SPELLED:
         return word
     return _SPELLING.sub(lambda found: found[1] or _SPELLED[found[0]], word)
 
 
 def _unmarked(found: re.Match[str]) -> str:
-    """A letter without its diacritics; the voicing marks of kana stay, for they distinguishes names."""
+    """Return a letter without its diacritics; voicing marks of kana are kept, since they distinguish names."""
     if _WIDE.match(found[0]):
         return found[0]
     # "Bässe" are no "Basse"; ö and ü are more often written without their dots than as two letters.

@@ -1,4 +1,4 @@
-"""Instruments in the order of a score, as every list of them shows them."""
+"""Order of instruments as in a score, used in all lists."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from instrument_maps.model import InstrumentMap
 
 
 def in_score_order(maps: Iterable[InstrumentMap]) -> list[InstrumentMap]:
-    """Instruments by family as in a score (``score_order`` of the vocabulary), those of no known family last; in a
-    family the higher one first, by its lowest and then its highest usual pitch; of equal range by id.
+    """Return instruments by family as in a score (``score_order`` of the vocabulary), unknown families last; within a
+    family the higher one first, by its lowest and then its highest usual pitch; then by id.
 
-    Those that are called the same, in several keys, stay together: where the highest of them has its place."""
+    Instruments of the same name in several keys stay together, at the place of the highest.
+    """
     listed = list(maps)
     highest: dict[tuple[int, str], tuple[int, int, str]] = {}
     for one in listed:
@@ -26,7 +27,7 @@ def _height(instrument: InstrumentMap) -> tuple[int, int, str]:
 
 
 def _kind(instrument: InstrumentMap) -> tuple[int, str]:
-    """The place of its family in a score, and the instrument of which it is a form: a tuba in F of the tuba."""
+    """Return the place of its family in a score, and the instrument of which it is a form: the tuba for a tuba in F."""
     words = vocabulary()
     known = [words.instruments[id] for id in instrument.plays if id in words.instruments]
     places = [words.score_order.index(one.family) for one in known if one.family]

@@ -1,4 +1,4 @@
-"""A map of the same instrument made smaller or larger: a child's, or a giant's."""
+"""Scaling of an instrument's map, as for children."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ import msgspec
 from instrument_maps.model import InstrumentMap
 
 _LENGTHS = ("_m", "_m_s")
-"""Endings of names of values that grow with an instrument: lengths, places, and the speed of a slide, whose way is
-longer."""
+"""Endings of the names of values that scale with an instrument: lengths, places, and the speed of a slide, whose way is
+longer.
+"""
 _Table = TypeVar("_Table", bound=msgspec.Struct)
 
 
 def scaled(instrument: InstrumentMap, size: float) -> InstrumentMap:
-    """The map with all its lengths multiplied; its `InstrumentMap.size` says by how much altogether."""
+    """Return the map with all lengths multiplied; `InstrumentMap.size` is the total factor."""
     if size == 1.0:
         return instrument
     return msgspec.structs.replace(_scaled(instrument, size), size=instrument.size * size)

@@ -8,7 +8,7 @@ from app.arrays import FloatArray
 
 
 def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[float, FloatArray]:
-    """Find how far a point is from a mesh.
+    """Return the distance of a point from a mesh, and the nearest point.
 
     Parameters
     ----------
@@ -24,8 +24,8 @@ def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[float, Floa
 
     Notes
     -----
-    The nearest point of a triangle lies on its face, where the point's foot falls inside it, else on one of its
-    edges (Ericson, Real-Time Collision Detection, 5.1.5).
+    The nearest point of a triangle is on its face if the point's projection is inside, else on one of its edges
+    (Ericson, Real-Time Collision Detection, 5.1.5).
     """
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     normals = np.cross(b - a, c - a)

@@ -1,4 +1,4 @@
-"""Conditions on a map beyond its types: names that exist, numbers in range, fingerings that are complete."""
+"""Checks of a map beyond its types: existing names, numbers in range, complete fingerings."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LIPS_MEET = frozenset({"cup", "air_jet"})
 
 
 def problems(instrument: InstrumentMap) -> Iterator[Problem]:
-    """Yield every problem of a map whose types are right, in the order of its tables."""
+    """Yield every problem of a map with correct types, in the order of its tables."""
     yield from _head(instrument)
     yield from _mouthpiece(instrument)
     yield from _controls(instrument)

@@ -1,4 +1,4 @@
-"""Conditions on the fingerings of a map: they are complete, and their notes are harmonics of the tube."""
+"""Checks of a map's fingerings: completeness, and agreement with the harmonics of the tube."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from instrument_maps.value_checks import Problem, within
 _CENTS = 200.0
 _HARMONICS = 20
 _FLAT_CENTS, _SHARP_CENTS = 40, 60
-"""Largest distances of a harmonic below and above its note: valves together are too short, the eleventh is in between.
+"""Largest distances in cents of a harmonic below and above its note, since combined valves are too short and the
+eleventh harmonic is between notes.
 """
 
 
@@ -69,7 +70,7 @@ def _fingering(path: str, fingering: Fingering, instrument: InstrumentMap) -> It
 
 
 def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """No finger is asked for two things at once, unless a contact says where it does both."""
+    """Check that no finger is needed for two things at once, unless a contact is for both."""
     asked: dict[str, set[str]] = defaultdict(set)
     for control in instrument.controls:
         finger = fingering.fingers.get(control.name, control.finger)
@@ -91,7 +92,9 @@ def _fingers(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iter
 
 
 def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """The short form names what moves: the signs of the controls in any order, the place of a slide, or 0 for none."""
+    """Check that the label contains the moving controls: their signs in any order, the position of a slide, or 0 for
+    none.
+    """
     pitch = [control for control in instrument.controls if control.role == "pitch"]
     if says_words(pitch):
         named = words_of(fingering.controls, pitch)
@@ -112,8 +115,9 @@ def _label(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterat
 
 
 def _harmonic(path: str, fingering: Fingering, instrument: InstrumentMap) -> Iterator[Problem]:
-    """Check that the note is near a harmonic of the tube with these controls; slides have places between, so are not
-    checked."""
+    """Check that the note is near a harmonic of the tube with these controls; not for slides, which have positions
+    between.
+    """
     acoustics = instrument.acoustics
     if acoustics is None or acoustics.slide_control is not None:
         return

@@ -1,4 +1,4 @@
-"""Conditions on the places where hands and bodies touch the instrument: contacts, hands, solids, the way it is held."""
+"""Checks of the places where hands and bodies touch the instrument: contacts, hands, solids, carriage."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def contacts_problems(instrument: InstrumentMap) -> Iterator[Problem]:
 
 
 def _works(contact: Contact, control: Control) -> bool:
-    """Return whether a contact is the mover of a control; a whole hand touches with any of its parts."""
+    """Return whether a contact works a control; for a whole hand, by any of its parts."""
     hand, _, mover = control.finger.partition(".")
     of_mover = contact.part.startswith(f"{hand}." if mover == "hand" else f"{hand}.{mover}.")
     return contact.control == control.name and of_mover

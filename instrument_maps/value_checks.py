@@ -1,4 +1,4 @@
-"""Checks of single values of a map, each with the key path that its problem is reported at."""
+"""Checks of single values of a map, each with the key path for its problem."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TypeAlias
 from instrument_maps.map_table import Vector
 
 Problem: TypeAlias = tuple[str, str]
-"""Key path and what is wrong there, e.g. ``("controls[2].finger", "'right.indx' is not a finger")``."""
+"""Key path and fault, such as ``("controls[2].finger", "'right.indx' is not a finger")``."""
 UNIT_TOLERANCE = 1e-3
 REACH_M = 3.0
 

@@ -1,4 +1,4 @@
-"""Records of a map that say how the instrument is blown: embouchure, mouthpiece, tube, water, bell and air.
+"""Tables of a map about blowing the instrument: embouchure, mouthpiece, tube, water, bell and air.
 
 Frames are those of `instrument_maps.model`.
 """
@@ -23,11 +23,11 @@ class Embouchure(MapTable, frozen=True):
         ``"air_jet"``: the plate under the lower lip, a small opening between the lips blows across the hole.
         ``"fipple"``: a beak between relaxed lips.
     lips_apart_m : float
-        Height of what lies between the lips where they close around it; 0 for a cup and an air jet.
+        Distance between the lips where they close around the mouthpiece; 0 for a cup and an air jet.
     puff : float
-        How far low and loud notes fill the cheeks: 1 as a brass player's may, 0 where cheeks stay flat.
+        Filling of the cheeks on low and loud notes: 1 as for a brass player, 0 if cheeks stay flat.
     vibrato : float
-        How much vibrato held notes usually have, 0..1.
+        Usual amount of vibrato on held notes, 0..1.
     """
 
     kind: EmbouchureKind
@@ -37,15 +37,15 @@ class Embouchure(MapTable, frozen=True):
 
 
 class Mouthpiece(MapTable, frozen=True):
-    """The frame the lips are put to, in the model's root frame.
+    """The frame of the mouthpiece at the lips, in the model's root frame.
 
-    ``position_m`` is the centre of the rim plane, ``air_axis`` the direction of the air stream,
-    ``up_axis`` up as played (unit vectors, orthogonal); ``rim_radius_m`` is the crest of the rim, where
-    it presses on the lips, ``rim_outer_radius_m`` its outer edge.
+    ``position_m`` is the centre of the rim plane, ``air_axis`` the direction of the air stream, ``up_axis`` up during
+    playing (unit vectors, orthogonal); ``rim_radius_m`` is the crest of the rim, where it presses on the lips,
+    ``rim_outer_radius_m`` its outer edge.
 
-    Of a reed or a beak the position is the middle of what the lips close around, there where they close (the tip lies
-    behind it, in the mouth); of an air jet it is the edge of the plate where the lower lip rests. The radii are then
-    half the width of mouthpiece, reed or plate that the lips meet.
+    For a reed or beak the position is the middle of the section enclosed by the lips (the tip is behind it in the
+    mouth); for an air jet it is the edge of the plate on which the lower lip rests. The radii are then half the width
+    of mouthpiece, reed or plate at the lips.
     """
 
     position_m: Vector
@@ -56,7 +56,7 @@ class Mouthpiece(MapTable, frozen=True):
 
 
 class Acoustics(MapTable, frozen=True):
-    """The tube behind the table of fingerings: lets a test, or a reader, check it.
+    """Acoustics of the tube, by which a test can check the fingering table.
 
     Attributes
     ----------
@@ -65,13 +65,13 @@ class Acoustics(MapTable, frozen=True):
     tube_m : float
         Effective length of the plain tube.
     semitones : dict of str to int
-        What each pitch control lowers the tube by when it is alone (valves, a trigger).
+        Semitones by which each pitch control alone lowers the tube (valves, a trigger).
     compensator : str or None
-        The valve with which the others lengthen the tube in proportion, so that their sum with it is in tune: it sends
-        the air through them once more, or to tubes of their own (the other side of a double horn).
+        Valve with which the others lengthen the tube in proportion, so that their sum with it is in tune: it sends the
+        air through them once more, or to tubes of their own (the other side of a double horn).
     slide_control : str or None
-        The playing slide, whose places are ``tube_m x (2**(semitones/12) - 1) / 2`` from closed, times the
-        length of the tube with the other controls.
+        The playing slide, whose positions are ``tube_m x (2**(semitones/12) - 1) / 2`` from closed, multiplied by the
+        relative length of the tube with the other controls.
     """
 
     fundamental_pitch: int
@@ -82,15 +82,15 @@ class Acoustics(MapTable, frozen=True):
 
 
 class Water(MapTable, frozen=True):
-    """Way in which water is let out of the instrument in a long rest.
+    """Letting out of water from the instrument in a long rest.
 
     Attributes
     ----------
     gesture : str
-        Its name in `metadata.gestures`.
+        Name of the gesture in `metadata.gestures`.
     position_m, normal : vector or None
-        Of the water key: where the forefinger presses it, and the way out of it; in the root frame. None where there is
-        none to press.
+        Place at which the forefinger presses the water key, and outward normal, in the root frame. None if there is no
+        key.
     """
 
     gesture: str
@@ -99,19 +99,19 @@ class Water(MapTable, frozen=True):
 
 
 class Stopped(MapTable, frozen=True):
-    """Notes played with the bell closed by the hand, which makes the tube shorter.
+    """Notes played with the hand in the bell, which shortens the tube.
 
     Attributes
     ----------
     fingered_semitones : int
-        How much higher than it sounds a note is fingered; -1: a semitone lower.
+        Semitones by which such a note is fingered higher than it sounds; -1 for a semitone lower.
     hand : "left" or "right"
         The hand in the bell.
     without : tuple of str
-        Controls of pitch that are at rest meanwhile.
+        Pitch controls that stay at rest.
     turned_deg : vector
-        Rotation vector, in the root frame, by which the palm turns about its knuckles to close the bell; the fingers
-        stay where they lie.
+        Rotation vector in the root frame by which the palm turns about its knuckles to close the bell; the fingers stay
+        in place.
     """
 
     fingered_semitones: int
@@ -121,7 +121,7 @@ class Stopped(MapTable, frozen=True):
 
 
 class Air(MapTable, frozen=True):
-    """Length of one full breath of an adult on the instrument, seconds of playing by dynamic."""
+    """Duration of one full breath of an adult on the instrument, in seconds of playing by dynamic."""
 
     piano_s: float
     mezzoforte_s: float

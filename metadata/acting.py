@@ -1,4 +1,4 @@
-"""Acting of players as data: styles and habits, factors of the amounts of a player's layers."""
+"""Acting of players as data: styles and habits, which multiply the amounts of a player's motion layers."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from metadata.tables import Title, check_name, check_title, decoded, invalid
 
 Factor: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=4.0)]
 SECTION_PLAYER = "section_player"
-"""The style in which every factor is 1."""
+"""Name of the style in which every factor is 1."""
 SEPARATOR = ","
-"""Between names in a text; no name has one."""
+"""Separator of names in a text; no name contains it."""
 
 
 class Factors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """By how much a style or habit multiplies the amounts of a player, by the names of the player's parameters."""
+    """Factors by which a style or habit multiplies a player's amounts, named like the parameters."""
 
     sway: Factor = 1.0
     weight_shift: Factor = 1.0
@@ -36,7 +36,7 @@ class Factors(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 AMOUNTS = Factors.__struct_fields__
-"""The parameters that are amounts of layers: what styles and habits multiply."""
+"""Names of the parameters that styles and habits multiply."""
 
 
 class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -45,8 +45,7 @@ class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     variation : float
-        How far the amounts of two players of this style may lie from the style's, as a share: 0.2 is 20 % to either
-        side.
+        Greatest difference of a player's amounts from the style's as a share: 0.2 is 20 % to either side.
     """
 
     name: str
@@ -57,7 +56,7 @@ class Style(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Habit(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Something that a player does more, or less, than others of the same style."""
+    """An action that a player does more or less than others of the same style."""
 
     name: str
     title: Title
@@ -82,12 +81,12 @@ def read_habit(path: Path) -> Habit:
 
 
 def names_in(text: str) -> tuple[str, ...]:
-    """The names in a text, of habits for one, each once, in their order."""
+    """Return the names in a text, such as habits, each once and sorted."""
     return tuple(sorted({name for part in text.split(SEPARATOR) if (name := part.strip())}))
 
 
 def as_text(names: tuple[str, ...]) -> str:
-    """The text of these names."""
+    """Return a text of names."""
     return SEPARATOR.join(sorted(set(names)))
 
 

@@ -1,4 +1,4 @@
-"""Playing faces as data: embouchures, and the motion of brows, lids, cheeks and nostrils."""
+"""Faces during playing as data: embouchures, and the motion of brows, lids, cheeks and nostrils."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from metadata.units import AmplitudeScale, Fraction01, NotNegative, Positive, We
 class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """ARKit weights of one kind of embouchure (the map's ``embouchure.kind``).
 
-    The face while playing is ``relaxed * (1 - tension) + tight * tension + air * air + soft * (1 - air) + effort *
-    effort``; on top of it the jaw opens as far as lips need that close around something, or leave an opening
-    (`app.motion.faces.morph_weights`). The tables from ``onset`` on are what the lips do within a note.
+    The face during playing is ``relaxed * (1 - tension) + tight * tension + air * air + soft * (1 - air) + effort *
+    effort``; the jaw opens in addition as far as lips need to close around a mouthpiece or to leave an opening
+    (`app.motion.faces.morph_weights`). The tables from ``onset`` on describe the lips within a note.
 
     Attributes
     ----------
@@ -26,25 +26,26 @@ class EmbouchureWeights(msgspec.Struct, frozen=True, forbid_unknown_fields=True)
         A plain stroke of the tongue's tip before an attack, and one of its back in double and triple tonguing (shown at
         half its size there).
     push : dict of str to float
-        A marcato attack, pushed by the breath.
+        Marcato attack with breath pressure.
     inhale : dict of str to float
         The mouth in a full breath.
     opening_m : float
-        Height of the opening between the lips beside what lies between them; 0: the lips stay as the weights have them.
+        Height in metres of the opening between the lips beside the mouthpiece; 0 if the weights alone determine the
+        lips.
     soft : dict of str to float
         The softest playing: a smaller, firmer opening.
     onset : dict of str to float
-        Firmer just before an attack, and settled soon after it.
+        Additional weights just before an attack, which fade soon after it.
     corners, chin : dict of str to float
-        How far corners and chin wander while a note is held (root mean square).
+        Random variation of corners and chin during a held note (root mean square).
     give : float
-        How far the tension wanders while a note is held (root mean square).
+        Random variation of the tension during a held note (root mean square).
     tired : dict of str to float
         After a long time without a rest.
     vibrato : dict of str to float
-        By how much each weight goes up and down in a full vibrato ...
+        Amplitude of each weight in a full vibrato.
     vibrato_hz : (float, float)
-        ... of which players differ in rate between these.
+        Range of the players' vibrato rates in Hz.
     """
 
     relaxed: Weights
@@ -77,7 +78,7 @@ EmbouchureKind: TypeAlias = Literal["cup", "single_reed", "double_reed", "air_je
 
 
 class Load(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Cost of a note: weights of its tension (register), its air (loudness) and its effort, less what is easy."""
+    """Cost of a note: weights of its tension (register), air (loudness) and effort, minus an easy level."""
 
     tension: NotNegative
     air: NotNegative
@@ -86,35 +87,36 @@ class Load(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class FaceMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Motion of the face above the mouth while playing: weights of each thing it follows, added up.
+    """Motion of the face above the mouth during playing: the sum of weights for each influence.
 
     Attributes
     ----------
     size, lips_size : AmplitudeScale
-        Of all of it, and of what the lips do within notes.
+        Size of all motion, and of the lips' motion within notes.
     left_right : (float, float)
-        By what share of their size left and right differ, at least and at most; each player has an own difference.
+        Least and greatest difference of left and right as a share of their size; each player has an individual
+        difference.
     load : Load
     rise_s, decay_s : float
         A strain grows in the first and passes in the second.
     lid_per_rad : float
-        Lids go down by this weight when the eyes look down by a radian.
+        Weight by which lids are lowered when the eyes look down by a radian.
     working : dict of str to float
         At once with the load of a note.
     strain : dict of str to float
-        With a load that lasts.
+        Weights for a lasting load.
     rising, falling : dict of str to float
-        The melody above or below where it was.
+        Weights for a melody above or below its recent pitch.
     louder, softer : dict of str to float
-        The dynamic above or below where it was.
+        Weights for a dynamic above or below its recent level.
     emptying : dict of str to float
         The air of the last breath used up.
     phrase : dict of str to float
-        Two thirds into a phrase that goes somewhere.
+        Weights two thirds into a phrase with a direction.
     inhale : dict of str to float
         A full breath.
     brows, lids, nose : dict of str to float
-        How far each wanders by itself (root mean square).
+        Random variation of each (root mean square).
     """
 
     size: AmplitudeScale

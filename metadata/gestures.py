@@ -1,7 +1,7 @@
-"""Gestures as an animator writes them: keyed angles of parts of the body, added to whatever the body does there.
+"""Gestures as written by an animator: keyframed angles of body parts, added to the other motion.
 
-Hands, lips and feet keep their places: contacts are solved after. Only while the instrument is lowered may a hand leave
-it, and the instrument come up to the lips.
+Hands, lips and feet keep their places, since contacts are solved later. Only while the instrument is lowered, a hand
+may leave it, and the instrument may rise to the lips.
 """
 
 from __future__ import annotations
@@ -40,7 +40,8 @@ class AngleKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Share of the gesture's length.
     deg : float
     slope : float or None
-        Tangent, degrees for the whole length of the gesture; None: level at a turn, else towards the neighbours.
+        Tangent in degrees per length of the gesture; None for automatic: horizontal at an extreme, else towards the
+        neighbours.
     """
 
     at: Fraction01
@@ -54,7 +55,7 @@ class AngleTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     target : str
-        What is turned.
+        Rotated part.
     turn : str
         ``"up"``: bell and face up, trunk back, elbow out; ``"left"``: turned to the player's left; ``"roll"``: leaning
         to the left. Elbows have only ``"up"``.
@@ -76,7 +77,7 @@ class HandKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         ``"grip"``: on the instrument; ``"page"``: the fingertips in the middle of the music; ``"key"``: the forefinger
         on the instrument's water key.
     m : tuple of float
-        From there to the left, up and ahead, metres of an adult.
+        Offset to the left, up and forward in metres of an adult.
     shape : str
         ``"held"``: the fingers as on the instrument; ``"open"``, ``"pinch"`` with thumb and forefinger, ``"point"``.
     """
@@ -88,12 +89,12 @@ class HandKey(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class HandTrack(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """The way of a hand that leaves the instrument; it begins and ends on its grip.
+    """The path of a hand that leaves the instrument; it begins and ends at its grip.
 
     Attributes
     ----------
     which : str
-        ``"free"``: the one that the instrument's map says can leave it.
+        ``"free"``: the hand that can leave the instrument according to its map.
     """
 
     keys: tuple[HandKey, ...]
@@ -122,19 +123,19 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     length_s : float
-        As it is usually done.
+        Usual duration in seconds.
     may_start : str
-        Where rules may place it: anywhere, while nothing is played, or while the instrument is lowered.
+        Possible times for rules: always, while nothing is played, or while the instrument is lowered.
     amplitude : tuple of float
-        Its size at amplitude 0, 0.5 and 1, linear between. A hand goes all the way, or where the size is 0 not at all.
+        Size at amplitude 0, 0.5 and 1, linear between. A hand moves completely, or not at all if the size is 0.
     hand : HandTrack or None
-        Of a hand that leaves the instrument.
+        Path of a hand that leaves the instrument.
     raised : tuple of ShareKey
-        How much of its way to the lips the lowered instrument comes up; empty: it stays.
+        Rise of the lowered instrument as a share of its way to the lips; empty if it stays.
     gaze : GazeTrack or None
-        None: the eyes do what they do.
+        Gaze; None if it is not affected.
     lets_out_water : bool
-        Rules place it only for an instrument whose map names it.
+        Whether rules use it only for an instrument whose map refers to it.
     """
 
     name: str
@@ -151,7 +152,7 @@ class Gesture(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def needs_lowered(self) -> bool:
-        """True if it can be done only while the instrument is wholly lowered."""
+        """True if it requires a completely lowered instrument."""
         return self.hand is not None or bool(self.raised)
 
 

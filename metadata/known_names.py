@@ -1,4 +1,4 @@
-"""Tables of the names that other programs give bones and morphs, and keys by which names are compared."""
+"""Tables of other programs' names for bones and morphs, and keys for comparing names."""
 
 from __future__ import annotations
 
@@ -22,35 +22,35 @@ from metadata.units import at_amplitude as at_amplitude
 
 
 def bone_key(name: str) -> str:
-    """Reduce a bone's or a morph's name for comparison: no namespace, case or separators.
+    """Return a bone's or morph's name reduced for comparison: without namespace, case and separators.
 
-    Full-width digits and letters are plain ones; ``Armature|mixamorig:Left_Arm`` and ``leftarm`` are the same.
+    Full-width digits and letters become plain ones; ``Armature|mixamorig:Left_Arm`` and ``leftarm`` are equal.
     """
     last = re.split(r"[:|]", unicodedata.normalize("NFKC", name).rstrip(":|"))[-1]
     return "".join(letter for letter in last.casefold() if letter.isalnum())
 
 
 class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Names of the bones of a kind of character. Names are compared by `bone_key`; a prefix that all bones of a figure
-    share needs no mention.
+    """Names of the bones of a kind of character. Names are compared by `bone_key`; a prefix common to all bones of a
+    figure is ignored.
 
     Attributes
     ----------
     name : str
         Id; the file's name.
     title : str
-        The makers or programs that name bones so.
+        Programs that use these names.
     source : str
-        Where the names are known from.
+        Source of the names.
     left, right : tuple of str
-        What ``{side}`` stands for.
+        Texts that ``{side}`` represents.
     spine : tuple of tuple of str
-        Every bone between hips and neck, upwards, each with its names; which of them are spine, chest and upper chest
-        depends on how many a figure has.
+        Names of every bone between hips and neck, upwards; their number in a figure determines which are spine, chest
+        and upper chest.
     middle : dict of str to tuple of str
-        Names of ``hips``, ``neck``, ``head``, ``jaw``; the first that a figure has counts.
+        Names of ``hips``, ``neck``, ``head``, ``jaw``; the first that a figure has is used.
     sides : dict of str to tuple of str
-        The same for the joints of both sides, by the joint's name without its side, with ``{side}`` in each.
+        Names of the joints of both sides, by the joint's name without its side, with ``{side}`` in each.
     """
 
     name: str
@@ -63,7 +63,9 @@ class BoneNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     sides: dict[str, tuple[str, ...]]
 
     def keys(self) -> dict[str, tuple[str, ...]]:
-        """`bone_key` of each name, by joint; the spine's are ``spine.0``, ``spine.1`` ... upwards."""
+        """Return the `bone_key` of each name by joint; the spine's bones are ``spine.0``, ``spine.1`` and so on
+        upwards.
+        """
         found = {f"spine.{index}": names for index, names in enumerate(self.spine)} | self.middle
         for side, words in (("left", self.left), ("right", self.right)):
             for joint, names in self.sides.items():
@@ -78,11 +80,11 @@ def morph_key(name: str) -> str:
 
 
 Parts: TypeAlias = dict[str, Fraction01]
-"""Weights of a figure's own morphs that make one shape."""
+"""Weights of a figure's morphs that produce one shape."""
 
 
 class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Names of the morphs of a kind of face, and the sums of them that make ARKit's shapes.
+    """Names of the morphs of a kind of face, and their sums that produce ARKit's shapes.
 
     Attributes
     ----------
@@ -93,8 +95,8 @@ class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_de
     of : str
         Whether the names are those of morphs or of the file's expressions.
     morphs : dict of str to tuple
-        By ARKit shape the ways to make it, the best first: a name, or weights of several. A way counts where a figure
-        has all that it names. Names are compared by `morph_key`.
+        Alternatives for each ARKit shape, best first: a name, or weights of several. An alternative applies if a figure
+        has all its names. Names are compared by `morph_key`.
     """
 
     name: str
@@ -104,6 +106,6 @@ class FaceNames(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_de
     of: Literal["morphs", "expressions"] = "morphs"
 
     def ways(self, shape: str) -> tuple[Parts, ...]:
-        """The ways to make a shape as weights; names as they are compared."""
+        """Return the alternatives for a shape as weights by comparison keys."""
         ways = ({way: 1.0} if isinstance(way, str) else way for way in self.morphs.get(shape, ()))
         return tuple({morph_key(name): weight for name, weight in way.items()} for way in ways)

@@ -1,7 +1,7 @@
-"""The styles, habits, expressions, gestures and rules the user has: ours, and beside them those of the user's folders.
+"""The available styles, habits, expressions, gestures and rules: bundled ones, and those in the user's folders.
 
-Each kind has a folder of its name beside the program's other data (see `app.formats.user_folder`); the user's own win
-over the bundled ones of the same name, and are read again when their files change.
+Each kind has a folder of its name beside the program's other data (see `app.formats.user_folder`); the user's own
+replace bundled ones of the same name, and are read again when their files change.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _OUR_RULES: Final = bundled("rules", read_rules, RuleSet)
 GESTURES: Final = _folder("gestures", read_gesture, _OUR_GESTURES)
 RULES: Final = _folder("rules", read_rules, _OUR_RULES)
 FOLDERS: Final[tuple[UserFolder[Any, Any], ...]] = (STYLES, HABITS, EXPRESSIONS, GESTURES, RULES)
-"""Every kind of which the user may have own ones beside ours."""
+"""Folders of all kinds of which the user may have own ones."""
 
 
 READERS: Final[Mapping[str, Callable[[Path], object]]] = {
@@ -45,11 +45,11 @@ READERS: Final[Mapping[str, Callable[[Path], object]]] = {
     "gestures": read_gesture,
     "rules": read_rules,
 }
-"""By folder what reads and checks a table of the kind."""
+"""Function that reads and checks a table, by folder."""
 
 
 class MetadataLibrary(NamedTuple):
-    """All of every kind, as they were when the folders were read; the shelves stay the same objects until then."""
+    """All tables in the state of the last reading; the shelves stay the same objects until the next one."""
 
     styles: Shelf[Style]
     habits: Shelf[Habit]
@@ -59,17 +59,19 @@ class MetadataLibrary(NamedTuple):
 
     @property
     def all_rules(self) -> tuple[Rule, ...]:
-        """The rules of every file, the user's own after ours; the same object as long as the files are."""
+        """Return the rules of every file, the user's after bundled ones; the same object while the files are
+        unchanged.
+        """
         return _all_rules(self.rules.items, self.rules.files)
 
     @property
     def expressions_by_name(self) -> dict[str, Expression]:
-        """Every expression; the user's own are called as is said in them, whatever their files are called."""
+        """Return every expression by name; the user's own have the names stored in them, regardless of file names."""
         own = (self.expressions.items[id] for id in self.expressions.files)
         return load_expressions() | {expression.name: expression for expression in own}
 
     def is_still(self, other: MetadataLibrary) -> bool:
-        """Return whether both are of the same reading of the files."""
+        """Return whether both are from the same reading of the files."""
         return all(mine is others for mine, others in zip(self, other, strict=True))
 
     @property
@@ -79,12 +81,12 @@ class MetadataLibrary(NamedTuple):
 
 
 def bundled_gestures() -> Mapping[str, Gesture]:
-    """Our gestures by name."""
+    """Return the bundled gestures by name."""
     return _OUR_GESTURES()
 
 
 def bundled_rules() -> tuple[Rule, ...]:
-    """Our rules."""
+    """Return the bundled rules."""
     return _all_rules(_OUR_RULES())
 
 
@@ -94,22 +96,23 @@ def _rules_of(sets: tuple[RuleSet, ...]) -> tuple[Rule, ...]:
 
 
 def _all_rules(sets: Mapping[str, RuleSet], own: Collection[str] = ()) -> tuple[Rule, ...]:
-    """The rules of every file, in the order of the files' names, ``own`` ones last; of two of the same name the later
-    counts, in the place of the earlier."""
+    """Return the rules of every file in the order of file names, ``own`` ones last; of two with the same name the later
+    one is used, in the place of the earlier.
+    """
     return _rules_of(tuple(sets[name] for name in sorted(sets, key=lambda name: (name in own, name))))
 
 
 def metadata_library() -> MetadataLibrary:
-    """All as they were last read; the first who asks reads them."""
+    """Return everything in the state of the last reading, reading it at the first call."""
     return MetadataLibrary(*(folder.now() for folder in FOLDERS))
 
 
 def begin_metadata() -> None:
-    """Have the bundled ones alone for now: for a program that reads the user's folders beside its window."""
+    """Use only bundled tables for now, in a program that reads the user's folders in the background."""
     for folder in FOLDERS:
         folder.begin()
 
 
 def reload_metadata() -> MetadataLibrary:
-    """Read the user's folders again if something in them changed."""
+    """Read the user's folders again if anything in them changed."""
     return MetadataLibrary(*(folder.reload() for folder in FOLDERS))

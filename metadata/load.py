@@ -1,4 +1,4 @@
-"""Reading and checking the metadata tables; every fault names the file and the line or key path."""
+"""Reading and checking of metadata tables; every fault names the file and the line or key path."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _KIND_FOLDERS = {
     "controller": "controllers",
 }
 GENERIC_CONTROLLER = "generic"
-"""The controller of last resort: any that no other table recognises."""
+"""Name of the controller that is used if no other is recognised."""
 _AXIS_TOLERANCE = 2e-3
 _MORPHS = frozenset(ARKIT_MORPHS)
 
@@ -36,47 +36,47 @@ def names(kind: str) -> tuple[str, ...]:
 
 
 def load_expressions() -> dict[str, Expression]:
-    """Every bundled expression, by name."""
+    """Return every bundled expression by name."""
     return dict(_EXPRESSIONS())
 
 
 def load_expression(name: str) -> Expression:
-    """The bundled expression of this name. Raises MapError."""
+    """Return the bundled expression of a name. Raises MapError."""
     return _named("expression", _EXPRESSIONS(), name)
 
 
 def load_skeleton(name: str = "vrm1") -> SkeletonProfile:
-    """The bundled skeleton profile of this name. Raises MapError."""
+    """Return the bundled skeleton profile of a name. Raises MapError."""
     return _named("skeleton", _SKELETONS(), name)
 
 
 def load_bone_names() -> Mapping[str, BoneNames]:
-    """Every bundled table of bone names, by name. Raises MapError."""
+    """Return every bundled table of bone names by name. Raises MapError."""
     return _BONE_NAMES()
 
 
 def load_face_names() -> Mapping[str, FaceNames]:
-    """Every bundled table of names of faces' morphs, by name. Raises MapError."""
+    """Return every bundled table of face morph names by name. Raises MapError."""
     return _FACE_NAMES()
 
 
 def load_body(name: str = "adult") -> Body:
-    """The bundled body of this name. Raises MapError."""
+    """Return the bundled body of a name. Raises MapError."""
     return _named("body", _BODIES(), name)
 
 
 def load_controller(name: str = GENERIC_CONTROLLER) -> Controller:
-    """The bundled controller of this name. Raises MapError."""
+    """Return the bundled controller of a name. Raises MapError."""
     return _named("controller", _CONTROLLERS(), name)
 
 
 def load_controllers() -> Mapping[str, Controller]:
-    """Every bundled controller, by name."""
+    """Return every bundled controller by name."""
     return _CONTROLLERS()
 
 
 def recognised_controller(port: str) -> Controller:
-    """The controller whose MIDI port is called so; the generic one where none is known by that name."""
+    """Return the controller with a MIDI port name; the generic one if it is unknown."""
     for controller in load_controllers().values():
         if any(re.search(pattern, port, re.IGNORECASE) for pattern in controller.ports):
             return controller
@@ -109,7 +109,7 @@ def read_expression(path: Path) -> Expression:
 
 
 def read_named_expression(path: Path) -> Expression:
-    """Read and check an expression whose name need not be that of its file. Raises MapError."""
+    """Read and check an expression whose name may differ from that of its file. Raises MapError."""
     expression = decoded(path, Expression)
     if not expression.name.strip() or not expression.name.isprintable():
         raise invalid(path, "name", "must be a name on one line")

@@ -1,8 +1,8 @@
 """Data that an animator may edit: facial expressions, bodies, skeleton profiles, wind controllers.
 
-Angles in the tables are degrees, because people edit them; every name says so. Rotations are about the axes of the
-normalised T-pose: joint frames parallel to the world, the character faces +Z, its left is +X, arms
-along X with palms down.
+Angles in the tables are degrees, since people edit them; every name states this. Rotations are about the axes of the
+normalised T-pose: joint frames parallel to the world, the character faces +Z, its left is +X, arms along X with palms
+down.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ REQUIRED_JOINTS: tuple[str, ...] = (
         for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")
     ),
 )
-"""Joints a body cannot play without: those that VRM 1.0 requires."""
+"""Joints that a body must have for playing: those that VRM 1.0 requires."""
 ARKIT_MORPHS: tuple[str, ...] = (
     "browDownLeft", "browDownRight", "browInnerUp", "browOuterUpLeft", "browOuterUpRight", "cheekPuff",
     "cheekSquintLeft", "cheekSquintRight", "eyeBlinkLeft", "eyeBlinkRight", "eyeLookDownLeft", "eyeLookDownRight",
@@ -46,16 +46,16 @@ ARKIT_MORPHS: tuple[str, ...] = (
 """The 52 morph targets of Apple's ARKit (`ARFaceAnchor.BlendShapeLocation`)."""
 
 BREATH_MORPHS: tuple[str, str] = ("chestExpand", "bellyExpand")
-"""Morph targets of a trunk: ribs and back, and belly, as wide as air makes them."""
+"""Morph targets of a trunk for breathing: expanded ribs and back, expanded belly."""
 
 
 class Expression(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A face as ARKit weights. An event of the plan blends it in by its strength.
+    """A face as ARKit weights. Events of the plan blend it in by their strength.
 
     Attributes
     ----------
     while_playing : bool
-        Whether it may show while the lips are at the mouthpiece; what moves the lips must not.
+        Whether it may be shown while the lips are at the mouthpiece; its lips are then not affected.
     fade_in_s, fade_out_s : float
         Usual fades, seconds.
     """
@@ -69,7 +69,7 @@ class Expression(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class JointLimits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Human range of one joint, and the largest angular acceleration that occurs in human motion.
+    """Human range of one joint, and the largest angular acceleration in human motion.
 
     The joint's rotation is ``swing * twist``: twist about the profile's `JointAxes.twist`; the swing, as a rotation
     vector, has the components ``flexion`` and ``sideways`` on the axes of the same names. Both sides share an entry
@@ -91,7 +91,7 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
     feet_apart_hip_widths : float
         Distance between the ankles over the distance between the hip joints.
     foot_forward_m : float
-        How far the left foot is before the right, metres.
+        Distance of the left foot in front of the right in metres.
     toes_out_deg, knee_bend_deg, hip_flexion_deg : float
         ``hip_flexion_deg`` is the thigh's angle before the vertical; seated about 85.
     spine_deg : dict of str to float
@@ -101,9 +101,9 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
     shoulder_lift_deg, elbow_off_ribs_deg : float
         ``elbow_off_ribs_deg``: angle between the hanging upper arm and the trunk, sideways.
     head_down_deg : float
-        How far the head may follow the instrument's angle downwards.
+        Greatest angle by which the head follows the instrument downwards.
     seat_height_shank : float
-        Height of the seat over the length of the shank; 0 where there is no seat.
+        Height of the seat relative to the length of the shank; 0 without a seat.
     """
 
     feet_apart_hip_widths: Positive
@@ -121,7 +121,7 @@ class Posture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defa
 
 
 class Sway(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Leaning aside with the music, and what knees and hips give on an accent; sizes by amplitude."""
+    """Sideways lean with the music, and bending of knees and hips on an accent; sizes by amplitude."""
 
     side_deg: AmplitudeScale
     forward_deg: AmplitudeScale
@@ -140,13 +140,13 @@ class PhraseMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     lean_deg, head_deg : AmplitudeScale
         Trunk forward at a phrase's climax, and the head in the world.
     accent_deg, accent_head_deg : AmplitudeScale
-        The same on an accent.
+        The same angles on an accent.
     ahead_m : AmplitudeScale
         Hips back as the trunk leans forward.
     pelvis_deg : AmplitudeScale
         Pelvis forward with the trunk.
     seated_share, seated_pelvis : float
-        Trunk and pelvis of who sits, times those of who stands.
+        Factors of the motion of trunk and pelvis of a seated player relative to a standing one.
     """
 
     lean_deg: AmplitudeScale
@@ -173,13 +173,13 @@ class Footwork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     step_m, lift_m : AmplitudeScale
-        How far ahead a foot is put, and how high it is lifted on its way.
+        Forward distance of a step, and its height.
     step_s : float
-        How long it takes.
+        Duration in seconds.
     heel_deg, toes_deg : AmplitudeScale
-        How far heels and toes lift.
+        Angles by which heels and toes rise.
     unload_m : AmplitudeScale
-        How far the hips go over the other foot for a step.
+        Displacement of the hips over the other foot for a step.
     """
 
     step_m: AmplitudeScale
@@ -191,7 +191,7 @@ class Footwork(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class WeightShift(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Moving the weight from one foot to the other: hips aside and ahead, knees that give as they take it."""
+    """Shift of weight from one foot to the other: sideways and forward motion of the hips, and bending of the knees."""
 
     side_m: AmplitudeScale
     roll_deg: AmplitudeScale
@@ -211,8 +211,9 @@ class BellMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Motion of the giver of an entry: head and instrument rise on the preparatory beat and drop onto the entry, the
-    knees give."""
+    """Motion of the player who gives a cue: head and instrument rise on the preparatory beat and drop onto the entry,
+    the knees bend.
+    """
 
     knee_deg: AmplitudeScale
     bell_dip_deg: AmplitudeScale
@@ -222,22 +223,22 @@ class CueMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Motion besides playing: gestures of the plan scale it.
+    """Motion outside of playing, scaled by gestures of the plan.
 
     Attributes
     ----------
     bow_trunk_deg, bow_head_deg : AmplitudeScale
-        Forward, standing; ``bow_seated_share`` of it seated.
+        Forward angles while standing; multiplied by ``bow_seated_share`` while seated.
     bow_hips_deg, bow_back_m : AmplitudeScale
-        The pelvis tilts forward and goes back, standing.
+        Forward tilt and backward displacement of the pelvis while standing.
     look_up_deg : AmplitudeScale
         The head up to the audience.
     look_trunk_share : float
-        How much of the head's turn the trunk adds while the instrument is lowered.
+        Share of the head's turn added by the trunk while the instrument is lowered.
     count_head_deg : AmplitudeScale
         The head on each counted beat.
     settle_share : float
-        How much of the way up the instrument is lifted as the hands settle.
+        Share of the way up by which the instrument is lifted as the hands settle.
     settle_shoulders_deg, settle_elbows_deg : AmplitudeScale
         Shoulders up and elbows out meanwhile.
     """
@@ -256,11 +257,12 @@ class ConcertMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral
-    (Frontiers in Psychology 2024, 1394035). What the mouth does is the embouchure's `EmbouchureWeights.inhale`.
-    ``shown`` is how much of it is seen, by amplitude; ``chest_share`` and ``belly_share`` are weights of the shapes
-    `BREATH_MORPHS`, where a character has them. ``push_forward_deg`` and ``push_share`` are how far the chest goes
-    forward and the belly in when the breath pushes a marcato attack."""
+    """An inhalation of depth 1; a shallower one scales it. Players become more upright and the arms neutral (Frontiers
+    in Psychology 2024, 1394035). The mouth is described by the embouchure's `EmbouchureWeights.inhale`. ``shown`` is
+    the visible share by amplitude; ``chest_share`` and ``belly_share`` are weights of the shapes `BREATH_MORPHS`, for
+    characters that have them. ``push_forward_deg`` and ``push_share`` are the forward motion of the chest and the
+    contraction of the belly in a marcato attack.
+    """
 
     shown: AmplitudeScale
     torso_back_deg: NotNegative
@@ -277,14 +279,15 @@ class BreathMotion(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 TRUNK_JOINTS = ("spine", "chest", "upperChest")
 NECK_JOINTS = ("neck", "head")
 HEAD_FOLLOWS = 0.4
-"""Share of the instrument's pitch the head goes along with, up to the posture's limit."""
+"""Share of the instrument's pitch angle that the head follows, up to the posture's limit."""
 TURNED_SHARE = 0.85
-"""Part of the joints' range that turning to an instrument takes at most: there is always some left to move with."""
+"""Greatest share of the joints' range used for turning to an instrument, so that some remains for motion."""
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Posture and motion of a kind of body, on the joints of ``skeleton``; ``checked_with`` is the id of the instrument
-    with which a character of this body is checked."""
+    """Posture and motion of a kind of body, on the joints of ``skeleton``; ``checked_with`` is the id of the reference
+    instrument for checking a character of this body.
+    """
 
     name: str
     description: str
@@ -313,13 +316,13 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         head_lean_left_deg: float = 0.0,
         trunk_left_deg: float = 0.0,
     ) -> Posture:
-        """A posture with head and trunk turned to an instrument, as far as posture and joints allow.
+        """Return a posture with head and trunk turned to an instrument, within the limits of posture and joints.
 
         Parameters
         ----------
         posture : str
         pitch_down_deg : float
-            How the instrument is carried; the head goes along with a part of it.
+            Downward angle of the instrument, which the head follows in part.
         head_left_deg, head_lean_left_deg, trunk_left_deg : float
             As in an instrument map's carriage; shared among the joints as their ranges are.
         """
@@ -336,7 +339,9 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         )
 
     def _shared(self, angle_deg: float, joints: tuple[str, ...], field: str) -> dict[str, float]:
-        """An angle shared among joints in proportion to their ranges to that side; nothing for none."""
+        """Return an angle distributed among joints in proportion to their ranges in that direction; empty without
+        joints.
+        """
         if angle_deg == 0.0:
             return {}
         side = 1 if angle_deg > 0.0 else 0
@@ -351,7 +356,7 @@ BreathSource: TypeAlias = Literal["cc2", "cc7", "cc11", "channel_pressure"]
 BiteSource: TypeAlias = Annotated[
     str, msgspec.Meta(pattern=r"^(none|pitch_bend|channel_pressure|cc([0-9]|[1-9][0-9]|1[01][0-9]))$")
 ]
-"""Carriers of the bite on a mouthpiece: nothing, pitch bend, channel pressure or a controller by its number."""
+"""Messages for the bite on a mouthpiece: none, pitch bend, channel pressure or a controller by its number."""
 
 
 class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -362,23 +367,23 @@ class ControllerName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Controller(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Messages that an electronic wind instrument sends as it comes from its maker.
+    """Messages that an electronic wind instrument sends in its factory settings.
 
     Attributes
     ----------
     name : str
         Id; the file's name.
     ports : tuple of str
-        Regular expressions, of which one is found in the name of its MIDI port, whatever the case; none recognises
-        the controller of last resort.
+        Regular expressions, one of which matches the name of its MIDI port, ignoring case; empty for the default
+        controller.
     breath : tuple of BreathSource
-        Where its breath may be, the most trusted first.
+        Possible messages for breath, the most trusted first.
     channel : int
-        1..16; 0 where it may be any.
+        Channel, 1..16; 0 for any.
     bend_range_semitones : float
-        To how many semitones a full pitch bend is played.
+        Range of a full pitch bend in semitones.
     source : str
-        Where this is known from.
+        Source of this information.
     """
 
     name: str

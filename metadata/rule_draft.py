@@ -1,7 +1,7 @@
-"""Rules while a user changes them: which there are, whose they are, and the files that say it.
+"""Rules while the user edits them, and the resulting files.
 
-A rule of ours that is changed is put into a file of the user's, under its name; a file of the user's is written anew
-only where one of its rules is another.
+A changed bundled rule is stored in a file of the user's under its name; a file of the user's is rewritten only if one
+of its rules changed.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from metadata.rules import Do, Rule, RuleSet, When
 from metadata.tables import Title
 
 OWN: Final = "my_rules"
-"""The user's file for changed rules of ours and new ones."""
+"""The user's file for changed bundled rules and new ones."""
 
 
 class Listed(NamedTuple):
-    """A rule in force.
+    """A rule in effect.
 
     Attributes
     ----------
     file : str
-        Name of the user's file that it is in; empty: it is ours.
+        Name of the user's file that contains it; empty if it is bundled.
     ours : Rule or None
-        What it takes the place of.
+        Bundled rule that it replaces.
     """
 
     rule: Rule
@@ -41,7 +41,7 @@ Draft: TypeAlias = tuple[Listed, ...]
 
 
 def listed(sets: Mapping[str, RuleSet], own: Collection[str]) -> Draft:
-    """The rules in force, in the order in which they are asked; of ``sets`` those called ``own`` are the user's."""
+    """Return the rules in effect, in the order of evaluation; those of ``sets`` named in ``own`` are the user's."""
     found: dict[str, Listed] = {}
     for name in sorted(sets, key=lambda name: (name in own, name)):
         for rule in sets[name].rules:
@@ -52,7 +52,9 @@ def listed(sets: Mapping[str, RuleSet], own: Collection[str]) -> Draft:
 
 
 def changed(draft: Draft, index: int, rule: Rule) -> Draft:
-    """A rule says something else; one of ours becomes the user's. Back to what ours says it is ours again."""
+    """Return the draft with a changed rule; a bundled one becomes the user's, and one equal to the bundled one becomes
+    bundled again.
+    """
     one = draft[index]
     ours = one.ours if one.file else one.rule
     if ours is not None and rule == ours and one.file in ("", OWN):
@@ -61,19 +63,21 @@ def changed(draft: Draft, index: int, rule: Rule) -> Draft:
 
 
 def added(draft: Draft, expression: str) -> Draft:
-    """A new rule at the end, which shows an expression to loud notes."""
+    """Return the draft with a new rule at the end, which shows an expression on loud notes."""
     return (*draft, Listed(Rule(_free("rule", draft), When(loudness_above=0.8), Do(expression=expression)), OWN))
 
 
 def duplicated(draft: Draft, index: int) -> Draft:
-    """A copy of a rule, behind it, of which nothing in a piece speaks."""
+    """Return the draft with a copy of a rule after it, without corrections in pieces."""
     rule = draft[index].rule
     copy = msgspec.structs.replace(rule, name=_free(rule.name.rstrip("0123456789_"), draft), events="")
     return (*draft[: index + 1], Listed(copy, OWN), *draft[index + 1 :])
 
 
 def removed(draft: Draft, index: int) -> Draft:
-    """Remove a rule of the user's; ours that it took the place of is there again. Ours itself is switched off."""
+    """Return the draft without a rule of the user's; the bundled rule that it replaced returns. A bundled rule is
+    disabled instead.
+    """
     one = draft[index]
     if one.file == "":
         return changed(draft, index, msgspec.structs.replace(one.rule, enabled=False))
@@ -83,8 +87,9 @@ def removed(draft: Draft, index: int) -> Draft:
 
 
 def sets_of(draft: Draft, sets: Mapping[str, RuleSet], own: Collection[str]) -> dict[str, RuleSet]:
-    """The user's files as the draft has them, by name; the very same object where nothing is another. A file whose
-    rules are all gone has none."""
+    """Return the user's files of a draft by name; unchanged ones are the same objects. A file without rules is
+    omitted.
+    """
     effective = {one.rule.name: one.file for one in draft}
     before = {one.rule.name: one.file for one in listed(sets, own)}
     result: dict[str, RuleSet] = {}
@@ -99,8 +104,7 @@ def sets_of(draft: Draft, sets: Mapping[str, RuleSet], own: Collection[str]) -> 
 
 
 def write(made: Mapping[str, RuleSet], before: Mapping[str, RuleSet], folder: Path) -> list[Path]:
-    """Write what is another, and delete our own file where it has no rules left; the files that were written. Raises
-    FileError."""
+    """Write changed files, and delete the user's file without rules; return the written files. Raises FileError."""
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for name, rules in made.items():
@@ -117,7 +121,7 @@ def write(made: Mapping[str, RuleSet], before: Mapping[str, RuleSet], folder: Pa
 
 
 def text_of(rules: RuleSet) -> str:
-    """A file of rules: what is as it is by itself is left out."""
+    """Return a file of rules without fields at their default."""
     text = toml({"name": rules.name, "description": rules.description})
     if not rules.rules:
         text += "rules = []\n"
@@ -130,7 +134,7 @@ _USUAL: Final[Mapping[type[msgspec.Struct], msgspec.Struct]] = {When: When(), Do
 
 
 def _said(value: msgspec.Struct) -> dict[str, Any]:
-    """The fields that are not as usual."""
+    """Return the fields that differ from their default."""
     usual = _USUAL.get(type(value), Rule("", When(), Do()))
     found: dict[str, Any] = {}
     for name in value.__struct_fields__:

@@ -1,4 +1,4 @@
-"""Rules as an animator writes them: when the music does this, a player shows that expression or makes that gesture."""
+"""Rules as written by an animator: in a musical situation, a player shows an expression or makes a gesture."""
 
 from __future__ import annotations
 
@@ -28,32 +28,32 @@ class When(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     loudness_above, loudness_below : float
         0..1; mezzoforte is 0.63.
     semitones_above_easy, semitones_below_easy : float
-        How far above or below the easy range of the instrument at least.
+        Least distance in semitones above or below the instrument's easy range.
     longer_s, shorter_s : float
-        How long the note lasts.
+        Least and greatest duration of the note.
     rest_longer_s, rest_after_longer_s : float
-        The silence before the note, and after it.
+        Least silence before the note, and after it.
     played_longer_s : float
-        What the player has played so far, this note with it.
+        Least time that the player has played so far, including this note.
     accent : float
-        How much louder than those around it, 0..1.
+        Loudness above that of surrounding notes, 0..1.
     leap_up, leap_down : float
         Semitones from the note before.
     place : tuple of str
-        Where it is, any of these: ``"first"`` or ``"last"`` of the part, ``"after_rest"``, ``"climax"`` (highest and
-        loudest of its phrase), ``"phrase_end"``, ``"before_rest"`` (the same, and more is to come).
+        Position, any of these: ``"first"`` or ``"last"`` of the part, ``"after_rest"``, ``"climax"`` (highest and
+        loudest of its phrase), ``"phrase_end"``, ``"before_rest"`` (the same, with more to come).
     styles, habits : tuple of str
-        The player has any of these.
+        Styles or habits, one of which the player has.
     not_styles : tuple of str
-        The player has none of these.
+        Styles that the player must not have.
     chance : float
-        In so many of the cases.
+        Probability of applying.
     effort_above : float
-        How hard the note is to play, 0..1: by height, loudness and length.
+        Difficulty of the note, 0..1: by height, loudness and length.
     moment : str or None
-        Not a note but a moment: ``"gives_entry"``, the cue of who gives one; ``"takes_entry"``, the breath before the
-        entry of others, after a rest; ``"ending"``, from when the instrument is lowered after a bright end. What else
-        is said must hold of the note that begins there.
+        A moment instead of a note: ``"gives_entry"``, a cue given by the player; ``"takes_entry"``, the breath before
+        an entry cued by others, after a rest; ``"ending"``, from the lowering of the instrument after a bright ending.
+        The other conditions apply to the note that begins there.
     """
 
     loudness_above: Fraction01 | None = None
@@ -83,25 +83,25 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     expression, gesture : str
-        Name of the one or the other.
+        Name of an expression or of a gesture.
     strength : float
         Of an expression, or the size of a gesture.
     grows_with : str, tuple of str or None
-        The strength is reached only where this is at its most; of several it goes with their geometric mean.
+        Quantity with which the strength grows to its maximum; several are combined by their geometric mean.
     grows_from : float
-        Share of the strength where the condition is just met.
+        Share of the strength at the limit of the condition.
     scaled_by : str or None
-        ``"puff"``: times how much air the instrument lets into the cheeks.
+        ``"puff"``: multiplied by the amount of air that the instrument lets into the cheeks.
     start, end : str
-        What the offsets count from: the onset or the end of the note.
+        Reference of the offsets: onset or end of the note.
     start_s, end_s : float
-        Offsets. A gesture without an end lasts as long as it says itself.
+        Offsets in seconds. A gesture without an end has its own duration.
     spread_s : float
-        A gesture begins up to so much later, by player, place and seed: no two do it at once.
+        Greatest random delay in seconds of a gesture by player, place and seed, so that players are not simultaneous.
     fade_in_s, fade_out_s : float or None
-        Of an expression; None: its own.
+        Fades of an expression; None for its own.
     stays_s : float
-        An expression stays so much longer, but not beyond where the next one of the rule begins.
+        Additional duration in seconds of an expression, limited by the rule's next one.
     """
 
     expression: str = ""
@@ -121,7 +121,7 @@ class Do(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def growth(self) -> tuple[Growth, ...]:
-        """All that the strength grows with."""
+        """Return all quantities that the strength grows with."""
         if self.grows_with is None:
             return ()
         return (self.grows_with,) if isinstance(self.grows_with, str) else self.grows_with
@@ -133,14 +133,14 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     Attributes
     ----------
     apart_s : float
-        From one time that it does something to the next at least so long; expressions closer than this are one.
+        Least time in seconds between two effects; expressions closer than this are joined.
     title : Title
-        What it is called in lists; without one, its name.
+        Title in lists; by default its name.
     enabled : bool
-        False: it does nothing.
+        Whether it has an effect.
     events : str
-        What its events are called in the corrections of a piece; empty: ``rule:`` and its name. An event that is
-        called otherwise stays beside what is placed by hand.
+        Name of its events in the corrections of a piece; empty for ``rule:`` and its name. An event with another name
+        stays beside manual events.
     """
 
     name: str
@@ -153,7 +153,7 @@ class Rule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def prefix(self) -> str:
-        """Second part of the ids of its events, after their kind."""
+        """Return the second part of the ids of its events, after their kind."""
         return self.events or f"rule:{self.name}"
 
 
@@ -183,7 +183,7 @@ def read_rules(path: Path) -> RuleSet:
 
 
 class RuleFault(NamedTuple):
-    """Fault of a rule: the key, a short name of the kind of fault, the requirement, and the growth it is in."""
+    """Fault of a rule: key, short name of the kind of fault, requirement, and growth that it concerns."""
 
     key: str
     code: str
@@ -222,7 +222,7 @@ GROWS_FROM: Final[Mapping[Growth, str]] = {
     "length": "longer_s",
     "effort": "effort_above",
 }
-"""By what a strength grows with the condition that it grows from."""
+"""Condition from which a strength grows, by the quantity that it grows with."""
 
 
 # As in `metadata.load`: types are worked out under the import's lock.

@@ -1,4 +1,4 @@
-"""A table of a skeleton: its joints, the axes they turn about, and fingers."""
+"""Table of a skeleton: its joints, their rotation axes, and fingers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ USUAL_TURNS: Final[tuple[Turn, Turn, Turn]] = ("flexion", "sideways", "twist")
 
 class JointAxes(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Anatomical axes of a joint in the T-pose. Positive flexion closes the joint or bends it forward; positive
-    sideways and twist are what the profile's comments say."""
+    sideways and twist are explained in the profile's comments.
+    """
 
     flexion: Axis
     sideways: Axis
@@ -55,14 +56,13 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     joints : tuple of ProfileJoint
         In topological order.
     axes : dict of str to JointAxes
-        By joint kind, for the left side and the middle; see `joint_axes`.
+        Axes by joint kind, for the left side and the middle; see `joint_axes`.
     chains : dict of str to tuple of str
         ``spine``, ``neck``, ``left_arm`` (clavicle to hand), ``right_arm``, ``left_leg``, ``right_leg``.
     fingers : dict of str to dict of str to Finger
-        By side (``left``, ``right``) and finger (``thumb``, ``index``, ``middle``, ``ring``, ``little``).
+        Fingers by side (``left``, ``right``) and name (``thumb``, ``index``, ``middle``, ``ring``, ``little``).
     turns : dict of str to tuple of str
-        By joint kind, the order from the parent on of the axes that files with angles turn it about; of the others
-        `USUAL_TURNS`.
+        Order of rotation axes, from the parent on, in files with angles, by joint kind; `USUAL_TURNS` by default.
     """
 
     name: str
@@ -74,15 +74,16 @@ class SkeletonProfile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     turns: dict[str, tuple[Turn, Turn, Turn]] = {}
 
     def joint(self, name: str) -> ProfileJoint:
-        """The joint of this name; KeyError where there is none."""
+        """Return the joint of a name; KeyError if there is none."""
         for joint in self.joints:
             if joint.name == name:
                 return joint
         raise KeyError(name)
 
     def joint_axes(self, name: str) -> JointAxes:
-        """Anatomical axes of a joint; a right joint's are the left one's mirrored in the plane X = 0, so that the
-        signs mean the same on both sides (axes are pseudovectors: y and z change sign)."""
+        """Return the anatomical axes of a joint; a right joint's are the left one's mirrored in the plane X = 0, so
+        that signs have the same meaning on both sides (axes are pseudovectors: y and z change sign).
+        """
         axes = self.axes[self.joint(name).kind]
         if not name.startswith("right"):
             return axes

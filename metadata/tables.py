@@ -1,4 +1,4 @@
-"""Reads and checks any kind of table of `metadata`: exact messages with file and key."""
+"""Reading and checking of all kinds of tables in `metadata`, with file and key in messages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROOT = Path(__file__).parent
 
 
 class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Title in the editor's languages; without a Japanese name the English one serves."""
+    """Title in the editor's languages; English is used if there is no Japanese one."""
 
     en: str
     ja: str = ""
@@ -30,7 +30,7 @@ class Title(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[], Mapping[str, T]]:
-    """Our tables of a kind by the names of their files, read once."""
+    """Return a function that returns the bundled tables of a kind by file name, read once."""
     # Worked out here, under the import's lock: two threads that use a type for the first time at once crash msgspec.
     decoder: msgspec.msgpack.Decoder[Any] = msgspec.msgpack.Decoder(dict[str, kind])  # type: ignore[valid-type]
 
@@ -45,7 +45,7 @@ def bundled(folder: str, read: Callable[[Path], T], kind: type[T]) -> Callable[[
 
 
 def label(path: Path) -> str:
-    """Name of a file in messages: folders of several kinds hold files of the same name."""
+    """Return the name of a file in messages, with its folder since files in several folders have the same name."""
     return f"{path.parent.name}/{path.name}"
 
 
@@ -56,18 +56,18 @@ def decoded(path: Path, kind: type[T], file: str | None = None) -> T:
 
 
 def invalid(path: Path, key: str, detail: str, file: str | None = None) -> MapError:
-    """The error of a value that cannot be."""
+    """Return the error for an invalid value."""
     return MapError("table.invalid", file=label(path) if file is None else file, place=key, detail=detail)
 
 
 def check_name(path: Path, name: str, file: str | None = None) -> None:
-    """A table is called as its file is. Raises MapError."""
+    """Check that a table's name is that of its file. Raises MapError."""
     if name != path.stem:
         raise invalid(path, "name", f"{name!r} is not the file's name {path.stem!r}", file)
 
 
 def check_title(path: Path, title: Title) -> None:
-    """A title is a line that can be read. Raises MapError."""
+    """Check that a title is a printable line. Raises MapError."""
     for language in ("en", "ja"):
         text = getattr(title, language)
         if not text.isprintable() or (language == "en" and not text.strip()):

@@ -1,4 +1,4 @@
-"""Kinds of numbers in the tables."""
+"""Types of numbers in the tables."""
 
 from __future__ import annotations
 
@@ -12,18 +12,19 @@ NotNegative: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0)]
 Range: TypeAlias = tuple[float, float]
 """Lowest and highest, degrees."""
 Axis: TypeAlias = tuple[float, float, float]
-"""A unit vector in the T-pose; the positive rotation about it is the motion the field names."""
+"""A unit vector in the T-pose; a positive rotation about it is the motion named by the field."""
 Delay: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=0.12)]
-"""Seconds; later than that a body falls apart."""
+"""Delay in seconds, limited since longer delays make a body look disjointed."""
 AmplitudeScale: TypeAlias = tuple[NotNegative, NotNegative, NotNegative]
-"""The value at amplitude 0 (the residual of a player asked to keep still), 0.5 (natural) and 1 (exaggerated);
-linear between. Use `at_amplitude`."""
+"""Values at amplitude 0 (for a player who keeps still), 0.5 (natural) and 1 (exaggerated); linear between. Use
+`at_amplitude`.
+"""
 Weights: TypeAlias = dict[str, Fraction01]
-"""Weights of ARKit's morph targets, by name."""
+"""Weights of ARKit's morph targets by name."""
 
 
 def at_amplitude(scale: AmplitudeScale, amplitude: float) -> float:
-    """Value of a scale at a player's amplitude 0..1, linear between its three values."""
+    """Return the value of a scale at a player's amplitude 0..1, linear between its three values."""
     residual, natural, exaggerated = scale
     if amplitude <= 0.5:
         return residual + (natural - residual) * max(amplitude, 0.0) * 2.0
