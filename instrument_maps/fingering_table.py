@@ -109,7 +109,7 @@ def pressed_label(instrument: InstrumentMap, one: Fingering, name: str) -> str:
 
 
 def read_cents(text: str) -> float:
-    """Read typed cents; nothing is 0. Raises UsageError ``fingering.no_number`` (text)."""
+    """Read typed cents; an empty text is 0. Raises UsageError for an invalid number."""
     try:
         return float(text.replace("−", "-").replace(",", ".").removesuffix("¢") or 0.0)
     except ValueError:

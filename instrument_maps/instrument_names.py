@@ -28,8 +28,7 @@ PATH = Path(__file__).with_name("instrument_names.toml")
 _NAME_LETTERS = 4
 """In a running text "Ob" or "Tr" may be anything; "Oboe" is not."""
 _MOST_SHORT_KANA = 3
-"""Greatest length in kana of a name that is recognised only at the end of a run of kana ("クラ", not in "スクラッチ").
-"""
+"""Greatest length in kana of a name recognised only at the end of a run of kana ("クラ", not in "スクラッチ")."""
 _MOST_KANA = 8
 """Greatest number of kana examined on each side of a short kana name to see whether it is part of a longer word."""
 _MOST_WORDS = 64

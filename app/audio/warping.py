@@ -207,13 +207,13 @@ def _through(pins: Pins, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
 
 
 def _sounding(frames: FloatArray, least: float) -> BoolArray:
-    """Return which frames exceed a level near silence."""
+    """Return whether each frame exceeds a level near silence."""
     result: BoolArray = np.linalg.norm(frames, axis=1) > least
     return result
 
 
 def _alone(frames: FloatArray, matched: IntArray) -> BoolArray:
-    """Return which frames sound without a matching frame."""
+    """Return whether each frame sounds without a matching frame."""
     alone = _sounding(frames, _LOUD)
     alone[matched] = False
     return alone

@@ -53,7 +53,8 @@ def arrival_frames(speed_m_s: FloatArray, fps: float) -> IntArray:
 
 
 def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
-    """Return how well arrivals meet beats, 0..2: each arrival its nearest beat, and each beat its nearest arrival.
+    """Return a score of how well arrivals meet beats, 0..2: each arrival its nearest beat, and each beat its nearest
+    arrival.
 
     The sum of beat alignment as of Li et al. (ibid.) and as of Siyao et al., "Bailando: 3D Dance Generation by
     Actor-Critic GPT with Choreographic Memory", CVPR 2022.

@@ -112,7 +112,7 @@ class Captured:
         return total, float(np.linalg.norm(total) / max(np.linalg.norm(axes, axis=1).sum(), 1e-12))
 
     def bent(self, bend: FloatArray) -> float:
-        """Return how certain it is that a joint bends at all, 0..1."""
+        """Return the certainty that a joint bends at all, 0..1."""
         sine = min(1.0, float(np.percentile(np.linalg.norm(bend, axis=1), 90)))
         return _share(float(np.degrees(np.arcsin(sine))), BENT_DEG)
 

@@ -85,7 +85,7 @@ def write_model(path: str | os.PathLike[str], model: ChoreographyModel) -> None:
     Raises
     ------
     FileError
-        ``file.cannot_write``.
+        The file cannot be written.
     """
     content = encode_model(model)
     with atomic_write(path) as stream:

@@ -58,7 +58,7 @@ def _groups(found: FloatArray, clips: IntArray) -> IntArray:
 
 
 def _on_end(pairs: IntArray, clips: IntArray) -> BoolArray:
-    """Return which pairs are within `ON_END` consecutive pairs in both clips."""
+    """Return whether each pair is within `ON_END` consecutive pairs in both clips."""
     order = np.lexsort((pairs[:, 0], pairs[:, 1] - pairs[:, 0]))
     one, other = pairs[order].T
     breaks = (

@@ -207,7 +207,7 @@ def _sink_m(
     hips_m: FloatArray,
     ankles_m: dict[Side, FloatArray],
 ) -> FloatArray:
-    """Return how far (F,) the hips are lowered, so that legs of other proportions reach feet on the floor."""
+    """Return the lowering (F,) of the hips with which legs of other proportions reach feet on the floor."""
     sink, sockets_m, fps = np.zeros(len(clip)), _socket_paths(skeleton, world, hips_m), float(clip.fps)
     height_m = {side: rest_positions(skeleton)[skeleton.index(f"{side}Foot"), 1] for side in SIDES}
     for side in SIDES:
@@ -264,7 +264,7 @@ def _over_the_floor(
 
 
 def _lift_m(height_m: FloatArray) -> FloatArray:
-    """Return how far (F,) a point at a height is lifted to be above the floor, with a soft stop."""
+    """Return the lift (F,) with which a point at a height is above the floor, with a soft stop."""
     soft = FLOOR_SOFT_M * np.logaddexp(0.0, -height_m / FLOOR_SOFT_M)
     return np.asarray(np.where(height_m < 4.0 * FLOOR_SOFT_M, soft, 0.0))
 

@@ -218,7 +218,7 @@ def _varied(returns: ReturningPlaces, random: np.random.Generator) -> ReturningP
 def _danced_again(
     returns: ReturningPlaces, chosen: Sequence[tuple[int, int]], places: range, segments: int
 ) -> FloatArray:
-    """Return how much more similar places (P, S) are to those where each segment was danced than to others."""
+    """Return the similarity (P, S) of places to those where each segment was danced, minus that to others."""
     danced = np.full(returns.earlier.shape[0] + 1, -1, np.int64)
     for place, segment in chosen:
         danced[place] = segment

@@ -267,7 +267,7 @@ def _eased(value: FloatArray, slope: FloatArray, u: FloatArray, fade: float) -> 
 def _sink_m(
     clip: MotionClip, world: JointTransforms, targets: FloatArray, standing: tuple[FootPlant, ...], lower_m: float
 ) -> FloatArray:
-    """Return how far (F,) the hips are lowered beyond ``lower_m`` where a standing foot would be out of reach."""
+    """Return the lowering (F,) of the hips beyond ``lower_m`` where a standing foot would be out of reach."""
     fps = float(clip.fps)
     sink = np.zeros(len(clip))
     for stand in standing:

@@ -27,8 +27,9 @@ REPORT_S = 0.04
 REPORT_READY_S = 0.25
 """Least seconds between two reports of how much is made."""
 GIVE_WAY = 3.0
-"""Rest of the worker after work that no one waits for, in multiples of that work's time, if the window or another
-thread worked too: two threads of Python hold each other up far more than they compute."""
+"""Rest of the worker after low-priority work, as a multiple of that work's time, if the window or another thread worked
+too, since two threads of Python delay each other far more than they compute.
+"""
 OTHERS_S = 0.0005
 """Less than this is no work: timers."""
 MOST_REST_S = 0.1
@@ -37,8 +38,9 @@ GIVE_BACK_CHUNKS = 64
 REPORT_BROKEN_S = 0.5
 """Interval of reports of broken contacts while much is made: every list of problems is filled again by one."""
 REST_WHILE_JUDGING = 3.0
-"""Contacts of motion that there is no room to keep are judged while nothing plays, resting this many times as long as
-the work took: an hour of an orchestra takes minutes, and no one waits for it."""
+"""Rest after judging contacts of motion that is not kept, as a multiple of the work's time, while nothing plays: an
+hour of an orchestra takes minutes at low priority.
+"""
 REST_WHILE_PLAYING = 1.0
 """While the performance plays the worker rests this many times as long as it worked."""
 

@@ -21,7 +21,9 @@ _PARTIAL: Final = re.compile(r"\.[0-9a-f]{16}\.partial")
 _swept: set[Path] = set()
 """Folders that this process has written into."""
 _FRESH_S: Final = 60.0
-"""On Windows an open file cannot be renamed: between the two it is no one's, and too young to be swept."""
+"""Age in seconds below which a temporary file is not swept: on Windows a file cannot be renamed while open, so that it
+belongs to no process for a moment.
+"""
 
 
 @contextlib.contextmanager

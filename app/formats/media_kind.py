@@ -26,7 +26,7 @@ class MediaKind(Enum):
     """Library that reads the sound of a file."""
 
     SOUND = auto()
-    """libsndfile: WAV, AIFF, FLAC, Ogg, MP3 and what else it knows; also what no one knows."""
+    """Sound for libsndfile: WAV, AIFF, FLAC, Ogg, MP3 and its other formats; also unknown files."""
     ADTS = auto()
     """AAC without a container: ffmpeg, which takes nothing off its beginning."""
     FILM = auto()

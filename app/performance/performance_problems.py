@@ -29,7 +29,7 @@ second, and then fewer players are looked at."""
 NOTE_WORK: Final = 3.0
 """Work for each note, in the same measure: it is read, planned and printed."""
 PLAYER_WORK, CURVE_WORK = 1300, 1.0
-"""Work for each player who is looked at, who is posed, and for each of their notes, of which curves are made."""
+"""Work for each examined player, for each posed player, and for each of their notes with curves."""
 SPARSE_S: Final = 4.0
 """Seconds of a player for each note from which a piece counts as one with few notes: slower than any chorale ..."""
 SPARSE_FRAMES, SPARSE_PER_NOTE = 50_000, 4

@@ -14,7 +14,7 @@ from instrument_maps.fingering_words import in_words
 from instrument_maps.model import InstrumentMap
 
 Wording: TypeAlias = Callable[[Message], str]
-"""Words a message, in the language of who reads it."""
+"""Function that returns a message's text in the reader's language."""
 
 NOTES: Final = frozenset({"note", "other", "first_note", "after_note", "anchor"})
 """Arguments of messages that name a note by its id; an anchor may also be an event or a name."""

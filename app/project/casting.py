@@ -24,7 +24,7 @@ CONDUCTOR_AWAY_M, CONDUCTOR_STEP_M = 1.9, 0.05
 FRONT_RADIUS_M, ROW_DEPTH_M = 2.6, 1.5
 """Radius of the first of several rows, and room behind it for a slide and a stand."""
 ELBOW_M = 0.36
-"""From a player's middle to an elbow: no one needs less room to a side."""
+"""Distance in metres from a player's middle to an elbow, the least space needed at a side."""
 BACK_M = 0.35
 """From a player's middle to the back of a chair."""
 CLEAR_M = 0.12

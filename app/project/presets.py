@@ -80,7 +80,7 @@ def save_preset(folder: Path, preset: Preset) -> None:
 
 
 def delete_preset(folder: Path, name: str) -> None:
-    """Raises UsageError ``preset.none_of_name``, FileError."""
+    """Delete a preset. Raises UsageError for an unknown name, FileError if its file cannot be deleted."""
     _delete(folder, name, _PRESETS)
 
 
@@ -101,7 +101,7 @@ def save_expression(folder: Path, expression: Expression) -> None:
 
 
 def delete_expression(folder: Path, name: str) -> None:
-    """Raises UsageError ``preset.none_of_name``, FileError."""
+    """Delete an expression. Raises UsageError for an unknown name, FileError if its file cannot be deleted."""
     _delete(folder, name, _EXPRESSIONS)
 
 

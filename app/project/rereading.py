@@ -177,7 +177,7 @@ def _says_who(channel: TrackChannel, mark: TrackMark, choices: Sequence[MapChoic
 
 
 def _understood(track: TrackChannel | TrackMark) -> int:
-    """Return how well the names of a track identify an instrument: 2: clearly; 1: vaguely; 0: not at all."""
+    """Return a score of how well the names of a track identify an instrument: 2: clearly; 1: vaguely; 0: not at all."""
     named = [vocabulary().by_name(text) for text in (track.name, track.instrument_name) if text]
     return max((1 if found.vague else 2 for found in named if found is not None), default=0)
 

@@ -64,7 +64,7 @@ class Presence:
     note : PresenceNote
         Note about the open project, whether or not it could be written.
     refusal : FileError or None
-        Why the folder could not be used when the editor started: ``presence.refused`` (file, reason).
+        Error with the reason why the folder could not be used when the editor started.
     """
 
     def __init__(self, folder: Path) -> None:

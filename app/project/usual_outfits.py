@@ -42,14 +42,14 @@ def _has(channels: Sequence[TrackChannel], programs: frozenset[int]) -> bool:
 
 
 def with_outfit(project: Project, outfit_id: str) -> Project:
-    """The project with everyone who plays in an outfit, in its own colours."""
+    """Return the project with all players in an outfit in its own colours."""
     choice = OutfitChoice(outfit_id)
     players = (msgspec.structs.replace(player, outfit=choice) for player in project.players)
     return replace(project, players=tuple(players)) if outfit_id else project
 
 
 def common_outfit(project: Project) -> OutfitChoice:
-    """Return what most players on the stage wear, for one who comes; in an empty piece as in a concert."""
+    """Return the outfit of most players on the stage, for a new player; in an empty piece that for a concert."""
     worn = Counter(player.outfit for player in project.bodies)
     if worn:
         return worn.most_common(1)[0][0]

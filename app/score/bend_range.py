@@ -18,7 +18,7 @@ import msgspec
 from app.score.model import MOST_BEND
 
 USUAL_SEMITONES: Final = 2.0
-"""Range of a channel that no one set; the unit of pitch bend curves (`app.score.model.ControllerCurve`)."""
+"""Default range of pitch bends in semitones; the unit of pitch bend curves (`app.score.model.ControllerCurve`)."""
 _MEMBER_SEMITONES: Final = 48.0
 """Range of the members of a new MPE zone."""
 _DATA, _DATA_FINE, _INCREMENT, _DECREMENT = 6, 38, 96, 97

@@ -182,8 +182,8 @@ def is_muted(spans: Sequence[Span], tick: int) -> bool:
 
 
 def said_of_mute(text: str) -> How | None:
-    """Return what a text means for the mute: inserted (and which), hand stopping, or the end of both; None if it means
-    none of these.
+    """Return the meaning of a text for the mute: insertion with its kind, hand stopping, or the end of both; None for
+    other texts.
     """
     words = " ".join(text[:MOST_NAME].split()).strip("()[]")
     if _OFF.fullmatch(words):

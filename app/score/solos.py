@@ -30,7 +30,7 @@ _LEGATO_SHARE: Final = 0.5
 """Share of the shorter of two notes that they overlap at most in a line."""
 
 Word = tuple[int, int]
-"""Tick, and the player who is on their own from there on, from 1; 0: all play."""
+"""Tick, and the number of the player who plays alone from there on, from 1; 0 for all."""
 
 
 def words_of_players(texts: Sequence[tuple[int, str]]) -> tuple[Word, ...]:

@@ -57,7 +57,7 @@ class VoiceSpans(NamedTuple):
 
 
 def spans_of(notes: Sequence[Note], tempo_map: TempoMap) -> VoiceSpans:
-    """Return when notes sound."""
+    """Return the time spans of notes."""
     onset_ticks = np.array([note.onset_tick for note in notes], np.float64)
     end_ticks = onset_ticks + np.array([note.duration_tick for note in notes], np.float64)
     onsets, ends = tempo_map.seconds(onset_ticks), tempo_map.seconds(end_ticks)

@@ -134,7 +134,7 @@ class _Encoding(msgspec.Struct, frozen=True):
 
 
 def _evidence(encoding: str, data: bytes) -> float:
-    """Return how strongly a text in an encoding matches instrument names; ASCII letters alone count nothing."""
+    """Return a score of how well a text in an encoding matches instrument names; ASCII letters do not count."""
     text = data[:_MOST_BYTES].decode(encoding, errors="replace")
     found = vocabulary().by_name(text)
     if found is None or found == vocabulary().by_name(_NOT_ASCII.sub(" ", text)):

@@ -24,7 +24,7 @@ _SAYS_NOTHING = re.compile(
     r"дорожка|трек|канал|パート|トラック|チャンネル|트랙|채널|音轨|音軌|轨道|軌道|通道|[\W\d_])*",
     re.IGNORECASE,
 )
-"""Names that programs give a track that no one has named."""
+"""Names that programs give to unnamed tracks."""
 _ORDINAL = r"(?:1[0-6]|[1-9]|VIII|VII|VI|IV|V|III|II|I)(?:st|nd|rd|th|er|[.aoºª°])?"
 _NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 _PLAYERS = re.compile(

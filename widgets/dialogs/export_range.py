@@ -99,7 +99,7 @@ class RangeChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """Return why the bars are invalid; empty if they are valid."""
+        """Return the reason why the bars are invalid; empty if they are valid."""
         first, last = self.bars or (0, 0)
         return self.tr("range_chooser.last_bar_comes_before_first") if first > last else ""
 

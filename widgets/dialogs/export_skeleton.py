@@ -107,7 +107,7 @@ class SkeletonChooser(Retranslated, QWidget):
 
     @property
     def problem(self) -> str:
-        """Return why the export cannot start; empty if it can."""
+        """Return the reason why the export cannot start; empty if it can."""
         if self._comparing:
             return self.tr("skeleton_chooser.skeletons_are_being_compared")
         if self._error is not None:

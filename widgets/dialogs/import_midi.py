@@ -298,7 +298,7 @@ class ImportDialog(Retranslated, QDialog):
         self._warnings.setVisible(self._warnings.count() > 0)
 
     def _unplayed(self, part: UnplayedPart) -> str:
-        """Return why a part is not played, or that it is for dancers."""
+        """Return the reason why a part is not played, or that it is for dancers."""
         reason = message_text(part.reason)
         if part.is_of_played_part:
             return self.tr("import_dialog.excluded_part").format(name=part.name, reason=reason)

@@ -215,7 +215,7 @@ class ImportTable(Retranslated, QTableWidget):
         self._show_instruments(place)
 
     def _take_reason(self, row: ImportRow) -> TakeReason:
-        """Return why a row's tracks look like takes; empty if one of them does not."""
+        """Return the reason why a row's tracks look like takes; empty if one of them does not."""
         own = (self.contents.channels[channel] for channel in row.assignment.channels)
         reasons = [take_reason(channel, self.contents.tempo_map) for channel in own]
         return reasons[0] if all(reasons) else ""

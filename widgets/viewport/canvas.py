@@ -25,7 +25,7 @@ Picture = tuple[Camera, ViewportLook, Emphasis]
 
 
 def why_no_gl() -> str | None:
-    """Return why GL does not work, in the driver's words; None if it works."""
+    """Return the reason why GL does not work, in the driver's words; None if it works."""
     platform = QGuiApplication.platformName()
     if platform in NO_GL_PLATFORMS:
         return f"Qt platform '{platform}'"

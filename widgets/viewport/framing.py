@@ -63,7 +63,7 @@ def view_camera(view: View, stage: Stage, rows: Sequence[int], camera: Camera, a
     rows : sequence of int
         Rows of the selected players, the active one first.
     camera : Camera
-        Previous camera: gives the angle of view, and is kept if there is nobody to show.
+        Previous camera: gives the angle of view, and is kept if there is no player to show.
     aspect : float
         Width over height.
     """

@@ -38,7 +38,7 @@ def _choreographer(choreography: str, version: tuple[int, int]) -> Choreographer
 
 
 def too_long_to_dance(frame: TimeFrame) -> Message | None:
-    """Return why a performance cannot be danced to (a dance is made as a whole); None if it can."""
+    """Return the reason why a performance cannot be danced to (a dance is made as a whole); None if it can."""
     length_s = frame.end_s - frame.first_frame_s
     if length_s <= MOST_DANCED_S:
         return None
@@ -46,7 +46,7 @@ def too_long_to_dance(frame: TimeFrame) -> Message | None:
 
 
 def unfit_choreography(player: Player, frame: TimeFrame) -> Message | None:
-    """Return why a player cannot dance the selected choreography; None if it can or none is selected."""
+    """Return the reason why a player cannot dance the selected choreography; None if it can or none is selected."""
     choreography = player.parameters.choreography
     if not choreography:
         return None

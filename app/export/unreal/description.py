@@ -30,10 +30,10 @@ from app.score.model import Score
 from app.score.tempo import TempoMap
 
 SCHEMA: Final = 5
-"""Rises when a script that knows the schema before would misread the file: one that knows 1 would take dancers, one
-that knows 2 the instruments that a player changes to for figures that are not needed any more; one that knows 3 does
-not know that players share a mesh, and would leave an instrument that hangs on a socket at the origin; one that knows
-4 takes no images for files of ours."""
+"""Version of the description, increased when a script for the previous version would misread it. Version 2 added
+dancers; 3 added instruments that a player changes to; 4 added meshes shared by players, and instruments at sockets; 5
+added image files.
+"""
 
 
 class Rate(msgspec.Struct, frozen=True):

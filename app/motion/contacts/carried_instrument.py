@@ -67,7 +67,7 @@ def held_angles(carriage: Carriage, motion: BodyMotion) -> tuple[FloatArray, Flo
 
 
 def freedom(carriage: Carriage) -> float:
-    """Return how freely an instrument moves with the body: 1 if it is carried, 0 if it rests on something without
+    """Return the freedom of an instrument to move with the body: 1 if it is carried, 0 if it rests on something without
     play.
     """
     ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)

@@ -12,7 +12,7 @@ from app.motion.curves.path import Path
 from app.plan.model import GestureEvent
 
 QUICK_S = 0.6
-"""Gestures shorter than this are smaller in proportion: no one leans as far in half the time."""
+"""Length in seconds below which gestures are smaller in proportion."""
 
 
 def follow(events: Sequence[GestureEvent], transition_s: float) -> Curve:

@@ -35,7 +35,7 @@ ACCENT_IN_HIPS = 0.35
 BREATHES_WITH_TRUNK = (0.3, 1.0)
 """Range of the share of the trunk's motion with which players breathe: together, but not alike."""
 SHOULDERS_INSTEAD = 0.6
-"""... and who has less of it by one lifts the shoulders more by this share."""
+"""Rise of the shoulders of a player whose value for it is lower by one."""
 SEATED_ROLL = 0.5
 """Share of a standing player's sideways lean of the pelvis that a seated player has; a seated one does not turn it."""
 

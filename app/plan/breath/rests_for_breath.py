@@ -34,7 +34,9 @@ MIDDLE_PLAYED_S: Final = 2.5
 MIDDLE_SHARE: Final = 0.2
 SHORT_SHARES: Final = (0.4, 0.35)
 SHORT_PLAYED_S: Final = (5.0, 3.5)
-"""For a rest of `SHORT_S`, and for one of nearly `MIDDLE_S`: who has large lungs breathes by habit then."""
+"""Seconds of playing before a rest of `SHORT_S`, and before one of nearly `MIDDLE_S`, from which players with large
+lungs breathe by habit.
+"""
 LEAST_PLAYED_S: Final = 1.0
 """Playing before any breath in a rest shorter than `ALWAYS_S`, however small the lungs are."""
 SHORT_LEAST_PLAYED_S: Final = 1.5

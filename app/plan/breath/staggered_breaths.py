@@ -42,7 +42,9 @@ APART_S = 2.0
 LED_TO_SHARE = 0.4
 """Part of a lungful that there is at least for a held note that other notes lead to."""
 FROM_EDGES_S = 1.0
-"""No one breathes so soon after a held note begins, or before it ends, unless the lungs are too small for that."""
+"""Seconds after the start and before the end of a held note without breaths, unless the lungs are too small for
+that.
+"""
 LEAST_STEP_S = 2 * FULL_BREATH_S
 """Least seconds between breaths within one note, however small the lungs are: half of the note sounds."""
 TRIED = 17

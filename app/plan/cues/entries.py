@@ -25,7 +25,9 @@ HELD_S, HELD_BEATS = 3.0, 3.0
 HELD_SILENCE_BEATS = 0.5
 """From this silence on it was left; one of `COMMON_REST_BEATS` is a rest that is counted."""
 LONG_HELD_S, LONG_HELD_BEATS = 6.0, 6.0
-"""Length of a common note beyond which no one counts: players need a cue even where they go on without any silence."""
+"""Length of a common note in seconds and beats beyond which counting is unreliable, so that players need a cue even if
+they continue without silence.
+"""
 STEADY_TEMPO, STEADY_BEATS = 1.1, 4
 """A new tempo gets a cue if it keeps within this factor for this number of beats; a tempo that goes on changing is
 followed."""
@@ -37,7 +39,7 @@ LONG_REST_S, LONG_REST_BARS = 8.0, 4
 LONG_REST_LEAST_S, LONG_REST_LEAST_BARS = 4.0, 2
 """Least length that a rest must have in both units to count for `LONG_REST_S`."""
 ON_BEAT = 0.12
-"""Distance from a beat, in beats, within which a note is on it: no one plays more exactly."""
+"""Distance from a beat, in beats, within which a note is on it, about the precision of players."""
 
 Reason: TypeAlias = Literal[
     "cue.start", "cue.after_rest", "cue.after_pause", "cue.after_fermata", "cue.tempo", "cue.joins"

@@ -25,7 +25,7 @@ PLAYING_HEAD: Final = 0.3
 FREE_HEAD: Final = 0.65
 """Share of a look that the head turns while the instrument is not at the lips."""
 MOST_RAD: Final = 1.1
-"""No one looks further aside for it."""
+"""Greatest sideways angle of a glance in radians."""
 MOST_UP_RAD: Final = 0.35
 LEVEL_RAD: Final = 0.02
 """Pitch of looks at what has no known height, below the player's own eyes."""

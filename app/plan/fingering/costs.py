@@ -82,11 +82,11 @@ LEGATO_COST = 1.25
 REVERSAL_COST = 0.5
 """Turning the slide back at speed."""
 OTHER_PLACE_COST = 4.0
-"""A note in another place of the slide than the same pitch two notes before, in hurried steps: no one changes it within
-a figure for little."""
+"""Cost of a note at another place of the slide than the same pitch two notes before, in hurried steps."""
 REPEATED_COST, REPEATED_HOME_COST = 8.0, 0.8
-"""Another fingering for a note that is repeated: no one changes it without a trill, a correction or a silence, but to
-come back to a better one where there is time."""
+"""Costs of another fingering for a repeated note without a trill, correction or silence; lower for returning to a
+better one if there is time.
+"""
 REPEATED_HURRIED_S, REPEATED_EASY_S = 0.3, 0.4
 """There is none in steps as short as the one, and enough from the other on."""
 REPEATED_REST_S = 0.5

@@ -38,7 +38,7 @@ AFTER_BEATS: Final = 4
 OTHER_TEMPO: Final = 1.15
 """Factor from which a tempo counts as a different one."""
 TOGETHER_BEATS: Final = 0.12
-"""Onsets nearer to one another are one: no one plays more exactly."""
+"""Distance in beats below which onsets are simultaneous, about the precision of players."""
 ROUNDING: Final = 1e-3
 """Tempi in a file are whole microseconds."""
 

@@ -17,7 +17,7 @@ from app.plan.music.piece import EPSILON, LineTimes
 AUDIBLE_S = 0.3
 """Length of a silence that is a rest after a long note, whatever the notes around do."""
 LONG_NOTE_S = 0.8
-"""Sounding time of a long note: no one plays it staccato."""
+"""Sounding time in seconds of a long note, which is never played staccato."""
 SILENT_S = 0.75
 """Length of a silence that is a rest after any note: no staccato is as slow."""
 LEAST_BEATS = 0.1

@@ -179,7 +179,7 @@ def characters() -> Mapping[str, Path]:
 
 
 def character_revision(id: str) -> int:
-    """Return how often the character of an id was replaced; part of the keys of caches."""
+    """Return the number of times that the character of an id was replaced; part of the keys of caches."""
     return character_library().revisions.get(id, 0)
 
 

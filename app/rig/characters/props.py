@@ -58,7 +58,7 @@ def props_in_hands(figure: Figure, joints: Mapping[str, int]) -> tuple[str, ...]
 
 
 def _below(figure: Figure, bone: int) -> BoolArray:
-    """Return which bones (B,) are a bone or its descendants."""
+    """Return whether each bone (B,) is a given bone or its descendant."""
     below = np.zeros(len(figure.parents), dtype=np.bool_)
     below[bone] = True
     for other, parent in enumerate(figure.parents):

@@ -197,6 +197,6 @@ def _t_posed(fit: Fit, joint_from_mesh: FloatArray, mesh: Mesh) -> FloatArray:
 
 
 def _held(mesh: Mesh, joints: Sequence[int]) -> BoolArray:
-    """Return which vertices belong to some joints."""
+    """Return whether each vertex belongs to some joints."""
     held: BoolArray = np.where(np.isin(mesh.joints, joints), mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
     return held

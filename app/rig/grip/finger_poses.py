@@ -267,7 +267,7 @@ class _Given:
     wrist: tuple[FloatArray, FloatArray]
 
     def waits(self, offset: WristOffset) -> FloatArray:
-        """Return how far (K,) an offset is from being fully applied, 0..1."""
+        """Return the share (K,) of an offset that is not applied yet, 0..1."""
         weight = next((weight[self.frames] for one, weight in self.leans if one is offset), np.zeros(len(self.frames)))
         return 1.0 - weight
 

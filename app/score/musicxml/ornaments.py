@@ -41,7 +41,7 @@ def place_graces(chords: Sequence[PlayedChord], tempo: TempoMap) -> None:
 
 
 def _ticks(seconds: float, tick: int, tempo: TempoMap) -> int:
-    """Return how many ticks some seconds are at a tick."""
+    """Return the number of ticks of a time in seconds at a tick."""
     return max(round(tempo.ticks(tempo.seconds(float(tick)) + seconds) - tick), 1)
 
 

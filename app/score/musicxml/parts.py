@@ -14,7 +14,7 @@ from instrument_maps.instrument_names import vocabulary
 from instrument_maps.instruments import Instrument
 
 _NO_NAME = re.compile(r"(?:MusicXML Part|Part[_ ]?\d*|P\d+)", re.IGNORECASE)
-"""Names that converters give a part or an instrument that no one has named."""
+"""Names that converters give to unnamed parts and instruments."""
 MOST_MEASURES: Final = 400_000
 """Most measures of all parts together: two thousand in two hundred parts."""
 _MOST_LISTED: Final = 4 * MOST_STREAMS
@@ -66,7 +66,8 @@ class WrittenPart:
 
 
 def written_parts(root: Element, place: Place) -> list[WrittenPart]:
-    """The parts of a score in the order of their list, those that the list does not have behind them.
+    """Return the parts of a score in the order of their list, followed by parts missing in it. Raises FileError if
+    there are too many parts or measures.
 
     Raises FileError ``musicxml.too_many_parts`` and ``musicxml.too_many_measures``.
     """

@@ -12,7 +12,7 @@ from typing import Final
 from app.score.musicxml.played_chords import Desk, PlayedChord
 
 _MOST_VOICES: Final = 8
-"""Voices of a measure; in more no one plays a line."""
+"""Greatest number of voices of a measure that are played by separate players."""
 
 
 def seat(measure: Sequence[PlayedChord]) -> None:

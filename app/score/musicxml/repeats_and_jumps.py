@@ -23,7 +23,7 @@ _STRAINS: Final = 4
 
 
 class Order(msgspec.Struct, frozen=True):
-    """Places of measures in the order they are played, and the numbers of those whose jump leads nowhere."""
+    """Indices of measures in the order of playing, and the indices of those with an invalid jump."""
 
     measures: tuple[int, ...]
     lost: tuple[str, ...] = ()
@@ -35,7 +35,7 @@ def playing_order(bars: Sequence[Bar], file: str) -> Order:
     Raises
     ------
     FileError
-        ``musicxml.too_many_repeats`` (file, most): more measures would be played than a piece may have.
+        More measures would be played than a piece may have.
     """
     _explain(bars)
     return _Player(bars, file).play()
@@ -80,8 +80,9 @@ def _explain(bars: Sequence[Bar]) -> None:
 
 
 def _unnamed_trio(bars: Sequence[Bar]) -> int:
-    """Return where the trio of a minuet begins that no word names: a piece of four repeated strains and nothing else,
-    with a *D.C.*, has it in the third and fourth. 0: it is no such piece."""
+    """Return the start of the unmarked trio of a minuet: the third strain in a piece of exactly four repeated strains
+    with a *D.C.*; 0 for other pieces.
+    """
     groups = [*_groups(bars, _endings(bars)), None]
     ends = [
         place
@@ -136,7 +137,7 @@ class _Player:
         return self.turn in group.numbers
 
     def _after(self, place: int, bar: Bar) -> int | None:
-        """Return where it goes on after a measure; None: it ends there."""
+        """Return the next measure; None at the end."""
         if bar.backward and (not self.jumped or bar.after_jump):
             if self.turn < self._times(place, bar):
                 self.turn += 1
@@ -160,7 +161,7 @@ class _Player:
         return place + 1
 
     def _times(self, place: int, bar: Bar) -> int:
-        """Return how often a section is played that ends at a measure."""
+        """Return the number of times that a section ending at a measure is played."""
         group = self.groups[place]
         if group is None:
             return bar.backward

@@ -30,7 +30,8 @@ class Place:
         )
 
     def number(self, owner: Element, tag: str) -> Time | None:
-        """The number in a child of an element; None where there is no such child.
+        """Return the number in a child of an element; None if there is no such child. Raises FileError for an invalid
+        number.
 
         Raises FileError ``musicxml.bad_value`` where it is none.
         """

@@ -77,7 +77,7 @@ class DanceLane(RowLane):
         return "" if self.dancers else self.tr("dance_lane.no_dancers_yet_add_one")
 
     def reason(self, dance: DanceSteps) -> str:
-        """Return why a dancer does not dance; empty otherwise."""
+        """Return the reason why a dancer does not dance; empty otherwise."""
         if dance.error is not None:
             return sentence(dance.error, self.session, dance.dancer.id)
         return "" if dance.steps else self.tr("dance_lane.no_beat_of_music_is")

@@ -283,7 +283,7 @@ class TakesLane(RowLane):
         return 0 if instrument is None else instrument.transposition_semitones
 
     def why(self, fault: Fault) -> str:
-        """Return why cleaning omits a note."""
+        """Return the reason why cleaning omits a note."""
         return {
             "": "",
             "ghost": self.tr("takes_lane.short_and_soft_ghost_note"),

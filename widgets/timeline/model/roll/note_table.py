@@ -58,7 +58,7 @@ class NoteTable(TimedNotes):
         return {note_id: place for place, note_id in enumerate(map(attrgetter("id"), self.part.notes))}
 
     def flags(self, note_ids: Collection[str]) -> BoolArray:
-        """Return which notes have given ids."""
+        """Return whether each note has one of given ids."""
         result = np.zeros(len(self), np.bool_)
         if self.index.keys().isdisjoint(note_ids):
             # So it is for most players.

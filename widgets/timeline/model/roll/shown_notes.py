@@ -266,7 +266,7 @@ class RollModel:
         return frozenset(notes[place].id for place in np.flatnonzero(front[0].pitch == pitch).tolist())
 
     def selected(self, table: NoteTable) -> BoolArray | None:
-        """Return which notes of a table are selected; None if there are none."""
+        """Return whether each note of a table is selected; None if none is."""
         selection = self._session.selection
         if not selection.notes:
             return None
