@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import mido
+import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
@@ -222,6 +225,29 @@ def test_a_bad_pair_is_named_and_the_others_stay(
     select(dialog, 1)
     press(dialog, "learn_remove")
     assert [draft.motion for draft in dialog.drafts] == [folder / "swings.bvh"]
+
+
+def test_learning_waits_for_a_pair_that_fits(dialog: LearnDialog, folder: Path) -> None:
+    """The reason stands below before anything is pressed: of a body that does not move, and of music that ends before
+    the motion begins."""
+    still = arm_swings(60)
+    write_clip(folder / "still.bvh", replace(still, rotations=np.repeat(still.rotations[:1], len(still), axis=0)))
+    learn_button = child(dialog, QPushButton, "learn_start")
+    drop(dialog, folder / "still.bvh", folder / "drums.mid")
+    assert "Pair 1: no motion to learn from was found in still.bvh" in state(dialog)
+    assert not learn_button.isEnabled()
+    QTest.mouseClick(learn_button, Qt.MouseButton.LeftButton)
+    assert not (folder / "choreography.choreography").exists()
+    drop(dialog, folder / "swings.bvh", folder / "steps.mid")
+    assert "Pair 1 is left out: no motion" in state(dialog)
+    press(dialog, "learn_start")
+    assert [one.motion_name for one in read_model(folder / "choreography.choreography").sources] == ["swings.bvh"]
+    select(dialog, 0)
+    press(dialog, "learn_remove")
+    least_s = float(-mido.MidiFile(folder / "steps.mid").length)
+    type_number(dialog, "learn_offset", f"{least_s + 0.2:.3f}")
+    assert not learn_button.isEnabled()
+    assert "nothing of steps.mid sounds during swings.bvh" in state(dialog)
 
 
 def test_a_file_that_cannot_be_written_is_named(dialog: LearnDialog, folder: Path) -> None:

@@ -12,11 +12,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QTreeWidgetItem
 
-from app.choreography.learn import Pair
+from app.choreography.learn import Pair, require_usable
 from app.choreography.music_offset import CONFIDENT
 from app.editor.design_tokens import Tokens
 from app.editor.translated import tr
 from app.encoding import shown
+from app.errors import Message, UsageError
 from widgets.common.controls import ColumnList
 from widgets.common.text import message_text
 from widgets.dialogs.character_draft import DraftHistory
@@ -59,6 +60,8 @@ class PairRow:
         Number of the current reading; 0 for none.
     states : int or None
         Number of basic motions learned from the pair in its present state.
+    judged : tuple or None
+        State of the pair for which `why_unusable` was found last, and its answer.
     """
 
     draft: PairDraft
@@ -68,6 +71,7 @@ class PairRow:
     cut_clip: tuple[float, int] | None = None
     reading: int = 0
     states: int | None = None
+    judged: tuple[tuple[object, ...], Message | None] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +101,29 @@ def training_pair(row: PairRow) -> Pair | None:
     # Typed is a time of the file, of which the clip may be a later part.
     of_clip_s = None if offset_s is None else offset_s - read.motion.start_s
     return replace(read.pair, offset_s=of_clip_s, cuts=row.draft.cuts)
+
+
+def why_unusable(row: PairRow) -> Message | None:
+    """Return the reason why nothing can be learned from a pair: its files, or a motion without cuts or music; None for
+    a usable pair and before its files are read.
+    """
+    read, analysis = row.found.read, row.found.analysis
+    if read is None or analysis is None:
+        return row.found.error
+    key = (row.found, row.draft.offset_s, row.draft.cuts)
+    if row.judged is None or row.judged[0] != key:
+        cuts = analysis.segmentation.cuts if row.draft.cuts is None else row.draft.cuts
+        offset_s = offset_s_of(row.draft, row.found) - read.motion.start_s
+        row.judged = key, _unusable(replace(read.pair, offset_s=offset_s, cuts=tuple(cuts)))
+    return row.judged[1]
+
+
+def _unusable(pair: Pair) -> Message | None:
+    try:
+        require_usable(pair)
+    except UsageError as error:
+        return error.message
+    return None
 
 
 def offset_confidence(row: PairRow) -> float:
@@ -129,14 +156,13 @@ def missing_text(rows: Sequence[PairRow]) -> str:
             return tr("learn_dialog.motion_missing").format(n=at + 1)
         if row.draft.music is None:
             return tr("learn_dialog.music_missing").format(n=at + 1)
-        if row.found.error is not None:
-            if all(other.found.error is not None for other in rows):
-                return tr("learn_dialog.pair").format(n=at + 1, error=message_text(row.found.error))
-            continue
         bounds = offset_range_s(row.found)
         if bounds is not None and is_offset_outside(row.draft, row.found):
             least, most = (f"{bound_s:.3f}" for bound_s in bounds)
             return tr("learn_dialog.pair_offset_outside").format(n=at + 1, least=least, most=most)
+        error = why_unusable(row)
+        if error is not None and all(why_unusable(other) is not None for other in rows):
+            return tr("learn_dialog.pair").format(n=at + 1, error=message_text(error))
     if any(row.reading for row in rows):
         return tr("learn_dialog.reading_files")
     return ""
@@ -145,9 +171,9 @@ def missing_text(rows: Sequence[PairRow]) -> str:
 def left_out_text(rows: Sequence[PairRow]) -> str:
     """Return the text of the pairs that are not used, with reasons, one per line."""
     texts = [
-        tr("learn_dialog.pair_left_out").format(n=at + 1, error=message_text(row.found.error))
+        tr("learn_dialog.pair_left_out").format(n=at + 1, error=message_text(error))
         for at, row in enumerate(rows)
-        if row.found.error is not None
+        if (error := why_unusable(row)) is not None
     ]
     return "\n".join(texts)
 
@@ -174,7 +200,7 @@ class PairList(ColumnList):
                 item.setText(column, text)
                 if column > 1:
                     item.setTextAlignment(column, _RIGHT)
-            wrong = row.found.error is not None
+            wrong = why_unusable(row) is not None
             doubtful = row.draft.offset_s is None and offset_confidence(row) < CONFIDENT
             for column, name in enumerate(COLUMNS):
                 colour = tokens.error if wrong else tokens.text

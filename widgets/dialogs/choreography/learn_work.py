@@ -16,7 +16,7 @@ from app.choreography.read_pair import read_pair
 from app.encoding import shown
 from app.errors import AppError, Cancelled, Message, Progress, StopRequested
 from widgets.dialogs.choreography.learn_draft import PairContents, PairDraft
-from widgets.dialogs.choreography.learn_rows import PairRead, PairRow, training_pair
+from widgets.dialogs.choreography.learn_rows import PairRead, PairRow, training_pair, why_unusable
 from widgets.dialogs.progress_dialog import stopping
 
 
@@ -60,7 +60,7 @@ def learning(
     share : list of float
         List whose only number is set to the completed share, 0..1.
     """
-    rows = tuple(row for row in rows if row.found.error is None)
+    rows = tuple(row for row in rows if why_unusable(row) is None)
     pairs = [pair for row in rows if (pair := training_pair(row)) is not None]
 
     def work(progress: Progress, stop_requested: StopRequested) -> LearnedChoreography:
