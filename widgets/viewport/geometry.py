@@ -247,7 +247,7 @@ class _Whole:
             metallic = np.array([material.metallic for material in plain], np.float32)
             self._surface["a_color"][own] = colors[split.materials]
             self._surface["a_metallic"][own] = metallic[split.materials]
-            self._texture(own, split, looks)
+            self._texture(own, split, looks, plain)
             two_sided = np.array([material.double_sided for material in mesh.materials])
             self._two_sided[own] = two_sided[split.materials]
         colors = np.ascontiguousarray(self._surface["a_color"]).view(np.int32)
@@ -257,11 +257,11 @@ class _Whole:
         self._surface["a_color"][:, :3] *= self._shades
         self._morphs = self._all_morphs()
 
-    def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...]) -> None:
+    def _texture(self, own: slice, split: SplitMesh, looks: tuple[Material, ...], plains: tuple[Material, ...]) -> None:
         """Note texture coordinates, looks and colours of a mesh's vertices."""
         mesh, uvs = split.mesh, split.mesh.uvs[split.vertices]
         self._uvs[own] = uvs
-        for number, (material, plain) in enumerate(zip(mesh.materials, plain_materials(mesh), strict=True)):
+        for number, (material, plain) in enumerate(zip(mesh.materials, plains, strict=True)):
             if material not in looks:
                 continue
             here = np.flatnonzero(split.materials == number)
