@@ -29,10 +29,10 @@ from app.project.performers import Dancer, Player
 from app.score.model import Score
 from app.score.tempo import TempoMap
 
-SCHEMA: Final = 5
+SCHEMA: Final = 6
 """Version of the description, increased when a script for the previous version would misread it. Version 2 added
 dancers; 3 added instruments that a player changes to; 4 added meshes shared by players, and instruments at sockets; 5
-added image files.
+added image files; 6 moved textures to a folder that all pieces share.
 """
 
 

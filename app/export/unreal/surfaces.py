@@ -10,6 +10,7 @@ from typing import Literal
 
 import msgspec
 
+from app.export.unreal.layout import CONTENT
 from app.export.unreal.names import asset_name
 from app.formats.images import resized
 from app.formats.scene import Material
@@ -149,7 +150,7 @@ class Surfaces:
             return None
         file = _file(use.texture)
         self._images[file] = use.texture
-        asset = f"{self.content}/{TEXTURES_FOLDER}/T_{PurePosixPath(file).stem}_{_SUFFIX[kind]}"
+        asset = f"{CONTENT}/{TEXTURES_FOLDER}/T_{PurePosixPath(file).stem}_{_SUFFIX[kind]}"
         self._textures[asset] = UnrealTexture(file, asset, kind)
         scale, offset = (tuple(map(float, pair)) for pair in (use.scale, use.offset))
         return UnrealMap(asset, (scale[0], scale[1]), (offset[0], offset[1]))

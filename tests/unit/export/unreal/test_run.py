@@ -85,7 +85,7 @@ def test_what_is_there_and_what_it_says(unreal: UnrealProject, export: Export) -
     assert {path.as_posix() for path in written.plan.written} == set(tree) - THEIRS
     reported = description(unreal)
     assert (reported["schema"], reported["frames"], reported["rate"]) == (
-        5,
+        6,
         request.span.count,
         {"numerator": 12, "denominator": 1},
     )

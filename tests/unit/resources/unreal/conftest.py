@@ -56,6 +56,10 @@ class Editor:
     def update_performance(self) -> str:
         return self.choose("Update Performance")
 
+    def pieces(self) -> set[str]:
+        """Folders of the pieces that are imported; textures are in one that they share."""
+        return {path.split("/")[3] for path in self.studio.assets} - {"Textures"}
+
     def sequence(self, piece: str = "quartet") -> Any:
         return self.studio.assets[f"/Game/Suisou/{piece}/LS_{piece}"]
 

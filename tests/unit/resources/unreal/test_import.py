@@ -112,7 +112,7 @@ def test_the_quartet_is_imported(editor: Editor) -> None:
         tags = editor.studio.metadata[path]
         assert tags["SuisouFirstFrame"] == str(exported["first_frame"])
         assert float(tags["SuisouFirstSecond"]) == pytest.approx(exported["first_frame_s"], abs=1e-6)
-    assert editor.studio.saved == [ROOT]
+    assert editor.studio.saved == [ROOT, "/Game/Suisou/Textures"]
     assert editor.studio.opened == [f"{ROOT}/LS_quartet"]
     assert editor.studio.actors == []
 
@@ -430,7 +430,7 @@ def test_names_never_become_code_or_paths(plugin: None, tmp_path: Path) -> None:
     exported(tmp_path / "Game", renamed(quartet(), names), tuple(names[:2]), source="'; raise SystemExit.mid")
     editor = Editor(tmp_path / "Game")
     editor.import_performance()
-    (piece,) = {path.split("/")[3] for path in editor.studio.assets}
+    (piece,) = editor.pieces()
     assert all(part.replace("_", "").isalnum() for path in own_assets(editor) for part in path.split("/")[1:])
     shown = {binding._display_name for binding in editor.sequence(piece)._bindings}
     assert {names[0], names[1]} <= shown

@@ -64,7 +64,7 @@ def test_those_that_cannot_be_read_are_named_and_the_others_are_imported(editor:
         reported = editor.studio.dialogs[-2]
         assert "everything else can" in reported
         assert [name for name in DAMAGE if f"/{name}/performance.json" not in reported] == []
-    assert {path.split("/")[3] for path in editor.studio.assets} == {"quartet"}
+    assert editor.pieces() == {"quartet"}
     assert editor.studio.errors == []
 
 

@@ -57,7 +57,7 @@ def player(field: str, value: object) -> Callable[[dict[str, Any]], None]:
         (write("performance.json", b"{"), "cannot be read"),
         (write("performance.json", b"[]"), "cannot be read"),
         (damage_json(lambda content: content.pop("rate")), "'rate'"),
-        (damage_json(lambda content: content.update(schema=6)), "newer Suisou"),
+        (damage_json(lambda content: content.update(schema=7)), "newer Suisou"),
         (damage_json(lambda content: content.update(frames=0)), "cannot be read"),
         (damage_json(lambda content: content.update(content="/Game/Other")), "cannot be read"),
         (damage_json(player("mesh", "/Game/Mine/SK_Trumpet_1")), "cannot be read"),
@@ -163,7 +163,7 @@ def test_several_are_asked_for(editor: Editor, answers: list[str], imported: set
     shutil.rmtree(sources / "quartet")
     editor.studio.answers = [getattr(editor.unreal.AppReturnType, answer) for answer in answers]
     exec(editor.studio.commands["Import Performance"], {})
-    assert {path.split("/")[3] for path in editor.studio.assets} == imported
+    assert editor.pieces() == imported
     assert not editor.studio.errors
 
 

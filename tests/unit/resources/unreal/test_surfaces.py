@@ -88,7 +88,7 @@ def test_cards_are_masked_and_seen_from_both_sides(shown: Editor) -> None:
             assert (output, factor) == ("A", "A")
             assert color._properties["texture"] is shown.studio.assets[asked["color"]["texture"]]
             assert tint._properties["default_value"].a == pytest.approx(asked["base_color"][3])
-    assert masked >= 2, "hair and brows"
+    assert masked == 1, "hair, brows and lashes"
 
 
 def test_the_skin_is_colour_normal_roughness_and_occlusion(shown: Editor) -> None:
@@ -124,6 +124,25 @@ def test_an_update_makes_nothing_twice_and_leaves_what_the_artist_changed(shown:
     assert {material._compiled for material in before.values() if getattr(material, "_nodes", ())} == {1}
     assert slots(shown)[changed[0].material_slot_name] is mine
     assert slot in slots(shown)
+
+
+def test_pieces_share_their_textures_until_no_one_needs_them(shown: Editor) -> None:
+    def textures() -> set[str]:
+        return {path for path in shown.studio.assets if path.startswith("/Game/Suisou/Textures/")}
+
+    before = textures()
+    assert before == {one["asset"] for one in description(shown)["textures"]}
+    exported(shown.folder, cast(BODY, BODY), ("Trumpet 1",), source="other.mid", texture_px=512)
+    count, answers = len(shown.studio.imports), shown.unreal.AppReturnType
+    shown.studio.answers = [answers.YES_ALL]
+    shown.import_performance()
+    assert textures() == before
+    assert not [one for one in shown.studio.imports[count:] if "/Textures" in one["destination_path"]]
+    for source, left in (("quartet.mid", before), ("other.mid", set())):
+        exported(shown.folder, cast(BODY, BODY), ("Trumpet 1",), source=source, texture_px=0)
+        shown.studio.answers = [answers.YES_ALL]
+        shown.update_performance()
+        assert textures() == left, source
 
 
 def test_another_size_renames_nothing_and_none_takes_them_away(shown: Editor) -> None:

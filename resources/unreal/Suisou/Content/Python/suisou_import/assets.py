@@ -12,8 +12,8 @@ from typing import TypeVar
 import unreal
 
 from suisou_import.fbx_options import animation_options, mesh_options, older_importer
-from suisou_import.performance import Figure, Performance
-from suisou_import.problem import problem, text
+from suisou_import.performance import SHARED, Figure, Performance, found, read
+from suisou_import.problem import Problem, problem, text
 
 _Asset = TypeVar("_Asset", bound=unreal.Object)
 
@@ -33,6 +33,12 @@ def existing(path: str) -> unreal.Object | None:
 def is_ours(asset: unreal.Object, piece: str) -> bool:
     """Return whether an asset was made here for a piece."""
     return unreal.EditorAssetLibrary.get_metadata_tag(asset, PIECE_TAG) == piece
+
+
+def is_replaceable(path: str, asset: unreal.Object, piece: str) -> bool:
+    """Return whether an asset was made here for a piece, or for any where all share it."""
+    made_for = unreal.EditorAssetLibrary.get_metadata_tag(asset, PIECE_TAG)
+    return made_for == piece or (path.startswith(SHARED) and bool(made_for))
 
 
 def tag(asset: unreal.Object, performance: Performance) -> None:
@@ -131,6 +137,24 @@ def remove_leftovers(performance: Performance, shown: set[str]) -> list[str]:
         if others:
             reported.append(text("kept", asset=path, user=others[0]))
         else:
+            _delete(path)
+            reported.append(text("removed", asset=path))
+    return reported + _remove_shared(performance, requested)
+
+
+def _remove_shared(performance: Performance, requested: set[str]) -> list[str]:
+    """Remove textures that no piece asks for and nothing uses; what is reported of it."""
+    try:
+        others = [read(folder) for folder in found(performance.folder.parent) if folder != performance.folder]
+    except Problem:
+        return []  # What that piece needs is not known.
+    needed = requested | {texture.asset for one in others for texture in one.textures}
+    reported = []
+    for path in sorted(_listed(SHARED.rstrip("/")) - needed):
+        asset = existing(path)
+        if asset is None or not is_replaceable(path, asset, performance.piece):
+            continue
+        if not unreal.EditorAssetLibrary.find_package_referencers_for_asset(path):
             _delete(path)
             reported.append(text("removed", asset=path))
     return reported

@@ -55,7 +55,7 @@ def check_performance(performance: Performance) -> None:
     check_files(performance)
     for path in performance.assets:
         asset = assets.existing(path)
-        if asset is not None and not assets.is_ours(asset, performance.piece):
+        if asset is not None and not assets.is_replaceable(path, asset, performance.piece):
             raise problem("not_ours", asset=path)
     sequence = assets.existing(performance.sequence)
     if isinstance(sequence, unreal.LevelSequence) and sequence.is_read_only():

@@ -11,9 +11,11 @@ from typing import Any, NamedTuple
 
 from suisou_import.problem import problem
 
-SCHEMA = 5
+SCHEMA = 6
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
+SHARED = ROOT + "Textures/"
+"""Where textures are, which all pieces share."""
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
 _MOST_BYTES = 256 << 20
 _FILE = re.compile(r"[A-Za-z0-9_]+/[A-Za-z0-9_]+\.(fbx|wav|png|jpg)")
@@ -260,7 +262,10 @@ def _performance(folder: Path, content: dict[str, Any]) -> Performance:
     surfaces = {one.asset for one in read_performance.surfaces}
     count = 2 * len(alike) + len(figures) + 2 + len(read_performance.textures) + len(read_performance.surfaces)
     apart = len({path.lower() for path in assets}) == len(assets) == count
-    if not apart or not all(path.startswith(inside) for path in [*assets, *read_performance.staying]):
+    # Those of an export of an earlier Suisou are in the piece's folder.
+    shared = {path for path in textures if path.startswith(SHARED)}
+    own = [path for path in [*assets, *read_performance.staying] if path not in shared]
+    if not apart or not all(path.startswith(inside) for path in own):
         raise ValueError("its assets are not apart, or not in its own folder")
     shown_in = {path for figure in figures for path in figure.materials.values()}
     mapped = {path for one in read_performance.surfaces for path in one.textures}

@@ -8,7 +8,7 @@ import unreal
 
 from suisou_import import assets, checks, materials, sequence
 from suisou_import.fbx_options import sample_rate
-from suisou_import.performance import Performance
+from suisou_import.performance import SHARED, Performance
 from suisou_import.problem import Cancelled, problem, text
 
 
@@ -70,8 +70,10 @@ def _assets(performance: Performance, step: Callable[..., None], reported: list[
     shown |= materials.in_use({figure.mesh for figure in performance.bodies} | performance.staying | shown)
     reported += assets.remove_leftovers(performance, shown)
     step("step_save")
-    if not unreal.EditorAssetLibrary.save_directory(performance.content, only_if_is_dirty=True, recursive=True):
-        raise problem("not_saved", folder=performance.content)
+    folders = [performance.content, *([SHARED.rstrip("/")] if performance.textures else [])]
+    for folder in folders:
+        if not unreal.EditorAssetLibrary.save_directory(folder, only_if_is_dirty=True, recursive=True):
+            raise problem("not_saved", folder=folder)
 
 
 def show(performance: Performance) -> None:
