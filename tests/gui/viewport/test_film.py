@@ -44,7 +44,7 @@ def test_frames_are_the_pictures_of_the_window(
     viewport: ViewportPanel, session: Session, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "frames"
-    options = ("--view", "hands", "--player", "Trombone 1", "--from-bar", "3", "--to-bar", "3")
+    options = ("--view", "hands", "--player", "Trombone 1", "--from-bar", "3", "--to-bar", "3", "--outfit", "own")
     said = film(capsys, "--to", folder, "--fps", "1", "--size", "160x90", *options)
     names = sorted(path.name for path in folder.iterdir())
     assert said.startswith(f"{folder}: {len(names)} frames of 160x90 from ")
