@@ -33,8 +33,8 @@ def outfit_of_piece(contents: PieceContents, players: int) -> str:
     """
     rhythm = any(use_of(channel) == "rhythm" for channel in contents.channels)
     jazz = rhythm and players <= MOST_IN_JAZZ and all(_has(contents.channels, one) for one in (BASSES, CHORDS))
-    chosen = JAZZ if jazz else CONCERT
-    return chosen if chosen in wardrobe() else OWN_CLOTHES
+    wanted = (JAZZ, CONCERT) if jazz else (CONCERT,)
+    return next((id for id in wanted if id in wardrobe()), OWN_CLOTHES)
 
 
 def _has(channels: Sequence[TrackChannel], programs: frozenset[int]) -> bool:
