@@ -15,7 +15,7 @@ SCHEMA = 6
 DESCRIPTION = "performance.json"
 ROOT = "/Game/Suisou/"
 SHARED = ROOT + "Textures/"
-"""Where textures are, which all pieces share."""
+"""Folder of textures, which all pieces share."""
 _ASSET = re.compile(r"/Game/Suisou(/[A-Za-z0-9_]+)+")
 _MOST_BYTES = 256 << 20
 _FILE = re.compile(r"[A-Za-z0-9_]+/[A-Za-z0-9_]+\.(fbx|wav|png|jpg)")
