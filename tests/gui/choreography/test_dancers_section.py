@@ -74,6 +74,11 @@ def test_a_dancer_comes_is_changed_and_goes_and_all_is_undone(
     assert [source.itemText(row) for row in range(source.count())] == ["None", "one", "other"]
     source.setCurrentIndex(2)
     source.activated.emit(2)
+    outfit = child(section, Combo, "dancer_outfit")
+    assert outfit.shown == ""
+    outfit.setFocus()
+    QTest.keyClick(outfit, Qt.Key.Key_Down)
+    assert session.project.dancers[0].outfit.id == outfit.shown != ""
     (changed,) = session.project.dancers
     assert (changed.size, changed.weight, changed.delay_beats) == (1.25, -0.5, 4.0)
     assert (changed.mirrored, changed.source) == (True, 1)

@@ -97,6 +97,17 @@ def test_a_track_no_one_plays_is_ticked_and_given_an_instrument_and_a_character(
     assert "4" in summary.text()
 
 
+def test_what_everyone_wears_is_by_the_piece_until_it_is_chosen(dialog: ImportDialog) -> None:
+    assert dialog.assignment.outfit is None
+    box = child(dialog, QComboBox, "import_outfit")
+    box.setFocus()
+    QTest.keyClick(box, Qt.Key.Key_Down)
+    assert box.currentText() == "Own clothes"
+    assert dialog.assignment.outfit == ""
+    QTest.keyClick(box, Qt.Key.Key_Up)
+    assert dialog.assignment.outfit is None
+
+
 def test_what_is_left_out_says_why(dialog: ImportDialog) -> None:
     reported = child(dialog, QListWidget, "import_warnings")
     assert any("tuba" in reported.item(row).text().lower() for row in range(reported.count()))

@@ -11,6 +11,7 @@ from app.cli.characters import joints_of, morphs_of
 from app.errors import MapError, UsageError
 from app.rig.characters import character_library, figure_build
 from app.rig.characters.character_library import FOLDER_VARIABLE, characters
+from tests.support.wardrobe import wardrobe_in, write_outfit
 
 DATA = Path(__file__).parents[2] / "data" / "characters"
 
@@ -68,6 +69,22 @@ def test_a_correction_is_kept_with_the_character(folder: Path, capsys: pytest.Ca
     assert main(["characters", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [row["id"] for row in found["characters"] if row["own"]] == ["the_baby"]
+
+
+def test_outfits_are_listed_with_their_colours_and_unknown_ones_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_outfit(tmp_path / "test_suit.glb")
+    with wardrobe_in(tmp_path):
+        assert main(["characters", "--json"]) == 0
+        (suit,) = json.loads(capsys.readouterr().out)["outfits"]
+        assert (suit["id"], suit["title"], [*suit["colours"]]) == ("test_suit", "Test suit", ["main", "second"])
+        assert main(["characters"]) == 0
+        assert f"test_suit                  Test suit (main {suit['colours']['main']}" in capsys.readouterr().out
+        quartet = str(Path(__file__).parents[3] / "resources" / "examples" / "quartet.mid")
+        assert main(["inspect", quartet, "--no-contacts", "--outfit", "sailor"]) == 2
+        assert "own, test_suit" in capsys.readouterr().err
+        assert main(["inspect", quartet, "--no-contacts", "--outfit", "*1=test_suit,#8a1b2c"]) == 0
 
 
 def test_what_is_odd_in_a_file_is_said_when_it_is_added(
