@@ -70,8 +70,8 @@ class Performer:
 
     @cached_property
     def dressed(self) -> Character:
-        """Return the player's character in the chosen outfit."""
-        return dressed_character(self.player)
+        """Return the character in the player's outfit; one of another file is dressed as it is there."""
+        return self.character if self.character.own is not None else dressed_character(self.player)
 
 
 def attempt(players: Iterable[P], make: Callable[[P], T], stop_requested: StopRequested = lambda: False) -> Attempt[T]:

@@ -197,5 +197,6 @@ def playing() -> Iterator[None]:
     with (
         patch.object(characters.LIBRARY, "last", replace(library, items=sources)),
         patch("app.performance.bodies.character_named", either),
+        patch("app.rig.characters.dressed_characters.character_named", either),
     ):
         yield
