@@ -148,12 +148,12 @@ def with_dance(motion: BodyMotion, dance: FloatArray, amount: float, body: Body,
     return replace(
         moved,
         hips_side_m=motion.hips_side_m + of["side_m"],
-        hips_bob_m=motion.hips_bob_m + amount * SINKS_M - of["up_m"],
+        hips_bob_m=motion.hips_bob_m + amount**GROWTH * SINKS_M - of["up_m"],
         hips_roll_rad=motion.hips_roll_rad + of["hips_left_rad"],
         hips_turn_rad=motion.hips_turn_rad + of["hips_turn_rad"],
         hips_danced={
             "ahead_m": of["ahead_m"],
             "forward_rad": of["hips_forward_rad"],
-            "ease_m": np.full(len(dance), amount * LEGS_EASE_M),
+            "ease_m": np.full(len(dance), amount**GROWTH * LEGS_EASE_M),
         },
     )

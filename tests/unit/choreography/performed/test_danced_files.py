@@ -127,10 +127,9 @@ def test_hips_legs_and_chest_dance_and_no_knee_snaps(
     assert ((played.at_m("leftFoot") - played.at_m("rightFoot")) @ across).min() > 0.12
     for knee in ("leftLowerLeg", "rightLowerLeg"):
         bend = played.bend_deg(knee)
-        assert 3.0 < bend.min() < 25.0
+        assert 5.0 < bend.min() < 25.0
         assert 35.0 < bend.max() < 90.0
-        # Knees of the captures themselves reach 257 where nothing is damaged.
-        assert np.abs(np.diff(np.deg2rad(bend), 2)).max() * float(FPS) ** 2 < 260.0
+        assert np.abs(np.diff(np.deg2rad(bend), 2)).max() * float(FPS) ** 2 < 200.0
 
 
 def test_a_seated_player_taps_on_the_beat_and_stays(

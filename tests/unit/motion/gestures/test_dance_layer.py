@@ -57,6 +57,17 @@ def same(one: Motion, other: Motion) -> bool:
     )
 
 
+@pytest.mark.parametrize("amount", [0.1, 0.5, 1.0])
+def test_the_highest_of_a_dance_leaves_knees_as_bent_as_without_it(amount: float) -> None:
+    values = np.zeros((900, len(CHANNELS)))
+    values[:, CHANNELS.index("up_m")] = MOST["up_m"]
+    highest_m, usual_m = (
+        playing(layer, dance_amount=amount, posture="standing").motion(FPS, 0, 60).hips_m[:, 1]
+        for layer in (BodyLayer(-2.0, 1 / 30, values), None)
+    )
+    assert (highest_m <= usual_m + 1e-6).all()
+
+
 @pytest.mark.parametrize("posture", ["standing", "seated"])
 def test_nothing_of_a_dance_is_the_generated_motion_to_the_bit(posture: str) -> None:
     generated = made(posture=posture, frames=FRAMES)
