@@ -20,17 +20,22 @@ BENT: Final = 0.09
 """Limits of the bend of a nearly straight knee, relative to the leg's length."""
 STRETCHED_RAD: Final = 0.15
 """Greatest angle in radians of a knee that would bend backwards, as in a blend of two motions."""
+FOLDED_RAD: Final = 2.6
+"""Angle in radians that the bend of a knee exceeds by at most `STRETCHED_RAD`, also in a blend of a kick."""
 _ACROSS: Final = (1.0, 0.0, 0.0)
 
 
 def unbroken(clip: MotionClip) -> MotionClip:
-    """Return the motion without knees that bend backwards."""
+    """Return the motion without knees that bend backwards, or so far that the shank would go through the thigh."""
     rotations = clip.rotations.copy()
     for side in SIDES:
         shank = rotations[:, SEGMENTS.index(f"{side}LowerLeg")]
         bent_rad = quaternion.twist_angle(shank, _ACROSS)
-        behind_rad = np.minimum(bent_rad, 0.0)
-        back_rad = STRETCHED_RAD * np.expm1(behind_rad / STRETCHED_RAD) - behind_rad
+        # A knee that is bent by more than half a turn is no knee that bends backwards by nearly as much.
+        bent_rad = np.where(bent_rad < -0.5 * np.pi, bent_rad + 2.0 * np.pi, bent_rad)
+        behind_rad, beyond_rad = np.minimum(bent_rad, 0.0), np.minimum(FOLDED_RAD - bent_rad, 0.0)
+        back_rad = STRETCHED_RAD * (np.expm1(behind_rad / STRETCHED_RAD) - np.expm1(beyond_rad / STRETCHED_RAD))
+        back_rad += beyond_rad - behind_rad
         shank[:] = quaternion.multiply(shank, quaternion.from_rotation_vector(back_rad[:, None] * np.array(_ACROSS)))
     return replace(clip, rotations=quaternion.continuous(rotations))
 

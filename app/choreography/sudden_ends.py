@@ -35,8 +35,8 @@ AROUND_S: Final = 0.2
 """Time in seconds before and after within which a path is bent."""
 TRIES: Final = 3
 """Greatest number of passes over a motion, since corrections may leave an excess beside them."""
-PASSES: Final = 4
-"""Number of alternations between two points, since bending one path moves the other slightly."""
+PASSES: Final = 12
+"""Greatest number of alternations between two points, since bending one path moves the other slightly."""
 ROUNDS: Final = 400
 STEP: Final = 1.0 / 16.0
 """Share of an excess removed at a time: the inverse of the largest eigenvalue of the second difference times its
@@ -110,8 +110,8 @@ def _calm(
     planted: BoolArray,
     rotations: FloatArray,
 ) -> bool:
-    """Write the rotations of a limb with a sudden end, and return whether it has one; ``planted`` are the frames with a
-    fixed tip.
+    """Write the rotations of a limb with a sudden end, and return whether any are changed; ``planted`` are the frames
+    with a fixed tip.
     """
     fps = float(clip.fps)
     most = MOST * usual * height_m(clip) / fps**2
@@ -121,6 +121,7 @@ def _calm(
         return False
     around = 2 * round(AROUND_S * fps) + 1
     end_at = 1 + SEGMENTS.index(limb[-1])
+    changed = False
     for start, stop in runs(maximum_filter1d(np.pad(sudden, 1), around)):
         here = slice(start, stop)
         beside = slice(max(0, start - 2), min(len(clip), stop + 2))
@@ -128,6 +129,10 @@ def _calm(
         held[start - beside.start : stop - beside.start] = False
         inside = slice(start - beside.start, stop - beside.start)
         joint, tip = _calm_points(points[beside, 0], points[beside, 1], _ROOM * most, held, planted[beside])
+        if _suddenness(np.stack([joint, tip], axis=1), most) >= _suddenness(points[beside], most):
+            # Between stands that are close together there may be no calmer path.
+            continue
+        changed = True
         was, now = (points[here, 1] - points[here, 0]), (tip - joint)[inside]
         part = JointTransforms(world.joints, world.positions_m[here], world.rotations[here].copy())
         part.rotations[:, end_at] = quaternion.multiply(
@@ -135,7 +140,12 @@ def _calm(
         )
         reached = joint[inside]
         bend(clip, part, limb, reached, ahead, rotations[here])
-    return True
+    return changed
+
+
+def _suddenness(points: FloatArray, most: FloatArray) -> float:
+    """Largest second difference of paths (N, 2, 3) of a joint and its tip, in those that are allowed."""
+    return float((np.linalg.norm(np.diff(points, 2, axis=0), axis=-1) / most).max(initial=0.0))
 
 
 def _calm_points(
@@ -149,6 +159,8 @@ def _calm_points(
         calm = _bent(tip, float(most[1]), held | planted)
         joint, tip = joint + calm - tip, calm
         joint = tip - length * _unit(tip - _bent(joint, float(most[0]), held))
+        if _suddenness(np.stack([joint, tip], axis=1), most) <= 1.01:
+            break
     return joint, tip
 
 

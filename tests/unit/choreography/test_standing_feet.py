@@ -11,7 +11,7 @@ from app.arrays import BoolArray
 from app.choreography.body import SEGMENTS
 from app.choreography.clip import MotionClip
 from app.choreography.contacts import foot_contacts, tips_m
-from app.choreography.limbs import STRETCHED_RAD, unbroken
+from app.choreography.limbs import FOLDED_RAD, STRETCHED_RAD, unbroken
 from app.choreography.standing_feet import DEEPER, HIGHER, STEP_S, FootPlant, planted, stands
 from app.rig import quaternion
 from tests.support.dance_measures import angular_jumps
@@ -126,3 +126,16 @@ def test_knees_do_not_bend_backwards() -> None:
     # The foot goes along, and nothing else turns.
     others = [at for at, name in enumerate(SEGMENTS) if name != "leftLowerLeg"]
     assert unbroken(clip).rotations[:, others] == pytest.approx(clip.rotations[:, others])
+
+
+def test_a_knee_that_would_fold_through_the_thigh_stays_folded() -> None:
+    """A bend by more than half a turn, as of a kick that fades into another motion, is not one backwards."""
+    clip = still(61)
+    bends_rad = 2.2 + 1.6 * np.sin(np.linspace(0.0, np.pi, 61))
+    turns = quaternion.from_rotation_vector(bends_rad[:, None] * np.array((1.0, 0.0, 0.0)))
+    clip.rotations[:, SEGMENTS.index("leftLowerLeg")] = turns
+    found = quaternion.twist_angle(unbroken(clip).rotations[:, SEGMENTS.index("leftLowerLeg")], (1.0, 0.0, 0.0))
+    assert found.max() < FOLDED_RAD + STRETCHED_RAD
+    assert np.abs(np.diff(found)).max() < 1.01 * np.abs(np.diff(bends_rad)).max()
+    kept = bends_rad < FOLDED_RAD
+    assert found[kept] == pytest.approx(bends_rad[kept], abs=1e-9)
