@@ -32,6 +32,12 @@ LEAST_SPEED: Final = 0.3
 """Least speed of a draft, relative to the source, at which its motion is useful."""
 FALLS_SHARE: Final = 0.3
 """Weight of footfalls in how well a dance meets the beats."""
+COPIES: Final = 240
+"""Number of shifted copies of footfalls with which they are compared."""
+AS_WELL: Final = 0.1
+"""Share of copies that meet the beats as well from which footfalls are taken to be random."""
+BY_CHANCE: Final = 0.2
+"""Cost of random footfalls."""
 TRIES: Final = 3
 """Greatest number of time maps tried after the first one."""
 
@@ -65,8 +71,39 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
     return float(fits.max(axis=1).mean() + fits.max(axis=0).mean())
 
 
+def beats_met(arrivals_s: FloatArray, falls_s: FloatArray, grid: AccentGrid) -> float:
+    """Return how well a dance meets the beats: arrivals those of the piece, and footfalls those that are felt."""
+    felt_s = grid.times_s[grid.on_beat]
+    met = alignment(arrivals_s, grid.times_s[grid.strengths == 1.0]) + FALLS_SHARE * alignment(falls_s, felt_s)
+    return met - BY_CHANCE * chance_of_falls(falls_s, felt_s)
+
+
+def chance_of_falls(falls_s: FloatArray, beats_s: FloatArray) -> float:
+    """Return how little footfalls keep to the beats: 0 if they meet them better than all shifted copies of them do, 1
+    if `AS_WELL` of the copies or more meet them as well.
+
+    Copies are shifted evenly, by up to the time from the first to the last beat, round the end to the start.
+    """
+    if len(beats_s) < 2 or not len(falls_s):
+        return 0.0
+    length_s = float(np.ptp(beats_s))
+    shifts_s = length_s * np.arange(COPIES) / COPIES
+    places_s = beats_s[0] + (falls_s - beats_s[0] + shifts_s[:, None]) % length_s
+    after = np.clip(np.searchsorted(beats_s, places_s), 1, len(beats_s) - 1)
+    off_s = np.minimum(np.abs(beats_s[after] - places_s), np.abs(places_s - beats_s[after - 1]))
+    fits = np.exp(-np.square(off_s) / (2.0 * NEAR_S**2)).mean(axis=1)
+    return float(min(1.0, (fits[1:] >= fits[0]).mean() / AS_WELL))
+
+
 def best_arrival_map(
-    draft: MotionClip, first_s: float, shown: TimeMap, plain: TimeMap, grid: AccentGrid, falls: FloatArray
+    draft: MotionClip,
+    first_s: float,
+    shown: TimeMap,
+    plain: TimeMap,
+    grid: AccentGrid,
+    falls: FloatArray,
+    *,
+    with_falls: bool,
 ) -> TimeMap:
     """Return the best of a few time maps that are derived from one another.
 
@@ -82,6 +119,8 @@ def best_arrival_map(
         With a knot at each segment's place: see `app.choreography.warp.map_with_arrivals`.
     falls : (N,) float64
         Times of footfalls in the draft in seconds.
+    with_falls : bool
+        Put also footfalls without an arrival on beats.
     """
     along, speeds = shown.at(first_s + np.arange(len(draft)) / float(draft.fps))
     seen = speeds > LEAST_SPEED
@@ -99,5 +138,5 @@ def best_arrival_map(
         if value > best_value:
             best, best_value = tried, value
         if number < TRIES:
-            tried = map_with_arrivals(plain, places[frames], grid, falls_along)
+            tried = map_with_arrivals(plain, places[frames], grid, falls_along, with_falls=with_falls)
     return best

@@ -11,15 +11,13 @@ from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.accent_grid import AccentGrid, grid_of
 from app.choreography.arrivals import (
-    FALLS_SHARE,
     FPS,
-    alignment,
     arrival_frames,
+    beats_met,
     best_arrival_map,
     joint_speed_m_s,
     smoothed,
@@ -44,15 +42,15 @@ from app.choreography.segment_arrivals import accents_s, meets_of
 from app.choreography.sequence import Constraints, SegmentCandidates, Weights, choose
 from app.choreography.spins import hips_rad, without_haste
 from app.choreography.standing_feet import STEP_S, FootPlant, foot_speeds_m_s, planted, stands, steps_s
-from app.choreography.stitch import STAGE_M, Frames, Stitcher
+from app.choreography.stitch import Frames, Stitcher, on_stage
 from app.choreography.sudden_ends import UsualAccelerations, usual_accelerations, without_twitches
 from app.choreography.warp import REST_S, TimeMap, map_with_arrivals
 from app.rig import quaternion
 
-DRAFT_FPS: Final = Fraction(30)
-"""Frame rate of the draft in which arrivals are found."""
+DRAFT_FPS: Final = Fraction(60)
+"""Frame rate of the drafts in which arrivals and footfalls are found; at half of it contacts differ from the dance."""
 DRAFTS: Final = 4
-"""Greatest number of drafts, each with the best time map of the previous one."""
+"""Greatest number of drafts, each with the best time map of the previous one, with and without footfalls on beats."""
 _LEAST_S: Final = 0.01
 """Margin in seconds beyond the first start and the last end, since a segment's beat may be at either."""
 STANDING: Final = 4.0
@@ -61,10 +59,6 @@ PREFERRED: Final = 12.0
 """Log odds of a segment of the preferred source."""
 BEAT_S: Final = 0.5
 """Time in seconds between footfalls for a capture without steps."""
-WANDERS_S: Final = 1.2
-"""Standard deviation in seconds that separates a path from sway and steps."""
-LEAST_ROOM: Final = 0.4
-"""Least share of the stage that stays free for paths, however large the sway."""
 ARM: Final = ("UpperArm", "LowerArm", "Hand")
 UPPER_BODY: Final = ("spine", "chest", "head", *(f"left{part}" for part in ARM), *(f"right{part}" for part in ARM))
 """Joints whose motion `Manner.size` scales; steps are unchanged."""
@@ -267,7 +261,8 @@ class Choreographer:
             initial=initial + self._standing([one.start for one in segments]),
             final=self._standing([one.end for one in segments]),
         )
-        return self._timed(chosen, grid, manner.source or 0)
+        held = set() if constraints is None else {*constraints.pinned, *constraints.segments}
+        return self._timed(chosen, grid, manner.source or 0, np.array([place in held for place, _ in chosen], bool))
 
     def _take_shares(self, rhythm: Rhythm, grid: AccentGrid) -> TakeShares:
         """Return the result of `app.choreography.drums_of_dancers.take_shares`."""
@@ -281,8 +276,8 @@ class Choreographer:
         """
         return np.asarray(0.5 * STANDING * (self._stitcher.feet_standing(frames) - 2.0))
 
-    def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int) -> _Plan:
-        """Segments at their first places, then with all arrivals of the body on beats."""
+    def _timed(self, chosen: Sequence[tuple[int, int]], grid: AccentGrid, body: int, held: BoolArray) -> _Plan:
+        """Segments at their first places, then with all arrivals of the body on beats; ``held`` ones stay."""
         if not chosen:
             return _Plan((), None, np.zeros(0))
         candidates, segments = self.candidates, np.array([segment for _, segment in chosen])
@@ -292,6 +287,7 @@ class Choreographer:
         plain = TimeMap(
             np.array([places_s[0] - before[0] - _LEAST_S, *places_s, places_s[-1] + after[-1] + _LEAST_S]),
             np.array([-before[0] - _LEAST_S, *hits, hits[-1] + after[-1] + _LEAST_S]),
+            np.array([False, *held, False]),
         )
 
         def planned(times: TimeMap) -> _Plan:
@@ -302,24 +298,24 @@ class Choreographer:
             )
             return _Plan(tuple(steps), times, hits)
 
-        beats_s, felt_s = grid.times_s[grid.strengths == 1.0], grid.times_s[grid.on_beat]
-        first = map_with_arrivals(plain, self._arrivals_s(segments, hits), grid, self._falls_along(segments, hits))
         first_s = float(plain.times_s[0])
-        count = math.ceil((float(plain.times_s[-1]) - first_s) * float(DRAFT_FPS))
-        if count < 2:
-            return planned(first)
-        draft_s = first_s + np.arange(count) / float(DRAFT_FPS)
-        shown, best, best_value = first, first, -1.0
-        for _ in range(DRAFTS):
-            clip, falls_s, down_s = self._draft(planned(shown), body, draft_s, grid)
-            arrivals = draft_s[arrival_frames(joint_speed_m_s(clip), float(DRAFT_FPS))]
-            value = alignment(arrivals, beats_s) + FALLS_SHARE * alignment(down_s, felt_s)
-            if value > best_value:
-                best, best_value = shown, value
-            following = best_arrival_map(clip, first_s, shown, plain, grid, falls_s)
-            if following is shown:
-                break
-            shown = following
+        fps = float(DRAFT_FPS)
+        draft_s = first_s + np.arange(math.ceil((float(plain.times_s[-1]) - first_s) * fps)) / fps
+        arrivals, falls = self._arrivals_s(segments, hits), self._falls_along(segments, hits)
+        best, best_worth = plain, -np.inf
+        for with_falls in (False, True):
+            shown = map_with_arrivals(plain, arrivals, grid, falls, with_falls=with_falls)
+            if len(draft_s) < 2:
+                return planned(shown)
+            for _ in range(DRAFTS):
+                clip, falls_s, down_s = self._draft(planned(shown), body, draft_s, grid)
+                worth = beats_met(draft_s[arrival_frames(joint_speed_m_s(clip), fps)], down_s, grid)
+                if worth > best_worth:
+                    best, best_worth = shown, worth
+                following = best_arrival_map(clip, first_s, shown, plain, grid, falls_s, with_falls=with_falls)
+                if following is shown:
+                    break
+                shown = following
         return planned(best)
 
     def _draft(
@@ -376,17 +372,6 @@ class Choreographer:
         clip, contacts, seams = self._stitcher.stitched(frames, body, fps)
         hips_m = on_stage(clip.hips_m, float(fps))
         return _Motion(unbroken(replace(clip, hips_m=hips_m)), hips_m - clip.hips_m, contacts, seams, speeds)
-
-
-def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:
-    """Return the path (F, 3) scaled to within `STAGE_M` of the place, with sway, steps and heights unchanged."""
-    way = gaussian_filter1d(hips_m, WANDERS_S * fps, axis=0, mode="nearest") * (1.0, 0.0, 1.0)
-    sway = np.linalg.norm((hips_m - way) * (1.0, 0.0, 1.0), axis=1)
-    wide = 2 * round(2.5 * WANDERS_S * fps) + 1
-    room = STAGE_M - gaussian_filter1d(maximum_filter1d(sway, wide, mode="nearest"), WANDERS_S * fps, mode="nearest")
-    room = np.maximum(room, LEAST_ROOM * STAGE_M)[:, None]
-    far = np.linalg.norm(way, axis=1, keepdims=True)
-    return np.asarray(hips_m - way * (1.0 - np.tanh(far / room) * room / np.maximum(far, 1e-9)))
 
 
 def _sized(clip: MotionClip, size: float) -> MotionClip:

@@ -14,7 +14,7 @@ from app.choreography.transition_scores import SegmentMeets
 STEPPED_S: Final = 0.12
 """Greatest distance in seconds of a footfall from an arrival for both to coincide."""
 ARRIVES: Final = 1.0
-FALLS: Final = 0.5
+FALLS: Final = 0.8
 """Worth of an arrival of the body and of a footfall on a beat."""
 _SAME_S: Final = 1e-6
 

@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from app.arrays import BoolArray, FloatArray, IntArray
 from app.choreography.body import SEGMENTS
@@ -29,6 +30,10 @@ MOST_TURN_RAD: Final = math.radians(70.0)
 STEP_BACK: Final = 0.2
 MOST_STEP_M: Final = 0.08
 """Share of an excess over these that each join corrects, and greatest correction."""
+WANDERS_S: Final = 1.2
+"""Standard deviation in seconds that separates a path from sway and steps."""
+LEAST_ROOM: Final = 0.4
+"""Least share of the stage that stays free for paths, however large the sway."""
 LATELY_S: Final = 1.0
 """Seconds of motion whose mean is the dancer's place."""
 _UP: Final = np.array([0.0, 1.0, 0.0])
@@ -288,3 +293,14 @@ def _placed(hips: FloatArray, rotations: FloatArray, turn: float, moved: complex
     rotations = rotations.copy()
     rotations[:, 0] = quaternion.multiply(quaternion.from_axis_angle(_UP, turn), rotations[:, 0])
     return np.stack([flat.imag, hips[:, 1], flat.real], axis=1), rotations
+
+
+def on_stage(hips_m: FloatArray, fps: float) -> FloatArray:
+    """Return the path (F, 3) scaled to within `STAGE_M` of the place, with sway, steps and heights unchanged."""
+    way = gaussian_filter1d(hips_m, WANDERS_S * fps, axis=0, mode="nearest") * (1.0, 0.0, 1.0)
+    sway = np.linalg.norm((hips_m - way) * (1.0, 0.0, 1.0), axis=1)
+    wide = 2 * round(2.5 * WANDERS_S * fps) + 1
+    room = STAGE_M - gaussian_filter1d(maximum_filter1d(sway, wide, mode="nearest"), WANDERS_S * fps, mode="nearest")
+    room = np.maximum(room, LEAST_ROOM * STAGE_M)[:, None]
+    far = np.linalg.norm(way, axis=1, keepdims=True)
+    return np.asarray(hips_m - way * (1.0 - np.tanh(far / room) * room / np.maximum(far, 1e-9)))

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from app.arrays import FloatArray
+from app.arrays import BoolArray, FloatArray
 from app.choreography.accent_grid import AccentGrid
 from app.choreography.segment_arrivals import STEPPED_S
 from app.choreography.transition_scores import SPEEDS
@@ -25,14 +25,18 @@ REST_S: Final = 0.4
 """Seconds of motion before and after a dance, increasingly slow, that lead from and to standing."""
 MOST_S: Final = 0.6
 """Greatest shift of an arrival in seconds."""
-LOOK_BACK: Final = 6
-"""Greatest number of consecutive unchanged arrivals."""
+LOOK_BACK: Final = 10
+"""Greatest number of consecutive unchanged arrivals and footfalls."""
 ARRIVES: Final = 1.0
 ARRIVES_BETWEEN: Final = -0.1
 ANCHOR: Final = 0.05
 """Values of an arrival on a beat, in the middle between beats, and of a segment that stays in place."""
+HELD: Final = 6.0
+"""Value of a segment that stays in a place set by hand, above those of all arrivals that it may keep from beats."""
 STEPPED: Final = 0.2
 """Additional value of an arrival on a beat with a footfall."""
+FALLS: Final = 0.5
+"""Value of a footfall on a beat without an arrival."""
 SPEED: Final = 0.2
 """Cost of a speed at a limit of `SPEEDS`; quadratic between."""
 MOVED: Final = 0.2
@@ -52,10 +56,13 @@ class TimeMap:
         In the piece, ascending.
     along_s : (N,) float64
         Position along the captured motions in seconds, ascending.
+    held : (N,) bool, optional
+        Knots set by hand, which stay when arrivals are put on beats.
     """
 
     times_s: FloatArray
     along_s: FloatArray
+    held: BoolArray | None = None
 
     @cached_property
     def _inside(self) -> PchipInterpolator:
@@ -87,7 +94,12 @@ class TimeMap:
 
 
 def map_with_arrivals(
-    plain: TimeMap, arrivals: FloatArray, grid: AccentGrid, footfalls: FloatArray | None = None
+    plain: TimeMap,
+    arrivals: FloatArray,
+    grid: AccentGrid,
+    footfalls: FloatArray | None = None,
+    *,
+    with_falls: bool = False,
 ) -> TimeMap:
     """Return the map that puts arrivals on beats, preferably those with footfalls, within the limits of speed.
 
@@ -99,15 +111,19 @@ def map_with_arrivals(
         Along the motions, ascending.
     footfalls : (N,) float64, optional
         Likewise.
+    with_falls : bool
+        Put footfalls on beats too where no body arrives.
     """
-    anchors = [
-        (float(along), float(time)) for time, along in zip(plain.times_s[1:-1], plain.along_s[1:-1], strict=True)
-    ]
-    items: list[_Item] = [_Item(along, ((time, ANCHOR),)) for along, time in anchors]
+    held = np.zeros(len(plain.times_s), bool) if plain.held is None else plain.held
+    knots = zip(plain.times_s.tolist(), plain.along_s.tolist(), np.where(held, HELD, ANCHOR).tolist(), strict=True)
+    items = [_Item(along, ((time, worth),)) for time, along, worth in list(knots)[1:-1]]
     falls = np.zeros(0) if footfalls is None else footfalls
     stepped = np.abs(arrivals[:, None] - falls).min(axis=1, initial=np.inf) <= STEPPED_S
     items += _to_meet(plain, arrivals[stepped], grid, ARRIVES + STEPPED)
     items += _to_meet(plain, arrivals[~stepped], grid, ARRIVES)
+    if with_falls:
+        alone = np.abs(falls[:, None] - arrivals).min(axis=1, initial=np.inf) > STEPPED_S
+        items += _to_meet(plain, falls[alone], grid, FALLS)
     met = _met(sorted(items, key=lambda item: item.along_s))
     if not met:
         return plain
@@ -117,10 +133,10 @@ def map_with_arrivals(
         (first_s - (first_along - plain.along_s[0]), plain.along_s[0]),
         (last_s + (plain.along_s[-1] - last_along), plain.along_s[-1]),
     )
-    knots = np.array([ends[0], *met, ends[1]])
-    apart = np.ones(len(knots), bool)
-    apart[0], apart[-1] = first_along - knots[0, 1] > 1e-3, knots[-1, 1] - last_along > 1e-3
-    return TimeMap(knots[apart, 0], knots[apart, 1]) if apart.sum() > 1 else plain
+    all_met = np.array([ends[0], *met, ends[1]])
+    apart = np.ones(len(all_met), bool)
+    apart[0], apart[-1] = first_along - all_met[0, 1] > 1e-3, all_met[-1, 1] - last_along > 1e-3
+    return TimeMap(all_met[apart, 0], all_met[apart, 1]) if apart.sum() > 1 else plain
 
 
 @dataclass(frozen=True)

@@ -66,3 +66,24 @@ def test_of_two_arrivals_that_with_a_footfall_comes_on_the_beat() -> None:
     assert np.median(np.abs(found.when(steps) - 0.5 * np.round(found.when(steps) / 0.5))) < 0.01
     without = map_with_arrivals(even(18.0, 6.0), arrivals, grid_of(beaten(37)))
     assert np.median(np.abs(without.when(steps) - 0.5 * np.round(without.when(steps) / 0.5))) > 0.2
+
+
+def test_footfalls_between_arrivals_come_on_the_beats_where_they_are_asked_to() -> None:
+    arrivals = 1.1 * np.arange(1, 30)
+    steps = arrivals + 0.35
+    for with_falls in (True, False):
+        found = map_with_arrivals(even(36.0, 6.0), arrivals, grid_of(beaten(73)), steps, with_falls=with_falls)
+        off_s = np.abs(found.when(steps) - 0.5 * np.round(found.when(steps) / 0.5))
+        assert (np.median(off_s) < 0.02) == with_falls
+        assert np.median(np.abs(found.when(arrivals) - 0.5 * np.round(found.when(arrivals) / 0.5))) < 0.02
+
+
+def test_what_was_put_there_by_hand_stays_when_arrivals_beside_it_come_on_beats() -> None:
+    arrivals, grid = 0.5 * np.arange(1, 39) + 0.23, grid_of(beaten(41))
+    plain = even(20.0, 2.0)
+    held = np.isin(np.arange(len(plain.times_s)), (2, 5))
+    at_s = plain.times_s[held] + 0.25
+    by_hand = TimeMap(plain.times_s + 0.25 * held, plain.along_s + 0.23 * held, held)
+    assert map_with_arrivals(by_hand, arrivals, grid).when(by_hand.along_s[held]) == pytest.approx(at_s, abs=0.005)
+    moved = TimeMap(by_hand.times_s, by_hand.along_s)
+    assert np.abs(map_with_arrivals(moved, arrivals, grid).when(by_hand.along_s[held]) - at_s).max() > 0.2
