@@ -69,7 +69,11 @@ STEPS = (
     ),
     Step(
         "wardrobe",
-        ("resources/characters/wardrobe/*.glb", "resources/characters/wardrobe/*.jpg"),
+        (
+            "resources/characters/wardrobe/*.bin",
+            "resources/characters/wardrobe/*.glb",
+            "resources/characters/wardrobe/*.jpg",
+        ),
         lambda arguments: (
             (("resources/build/build_wardrobe.py", "--assets", str(arguments.assets)),)
             if arguments.characters_python is not None and arguments.assets is not None

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import struct
 from pathlib import Path
 
 # One thread: sums in one order, so that a second build is the same to the bit.
@@ -23,11 +24,12 @@ from character_skeleton import fit_skeleton
 from character_skin import skin_layout
 from character_source import Source, load_model
 from character_textures import Texture
+from pygltflib import GLTF2, Buffer
 from wardrobe_atlas import CLOTH_MEAN_LINEAR, write_atlas
 from wardrobe_outfits import OUTFITS, Outfit, Pieces
 from wardrobe_pieces import Wearer
 
-WEARERS = {"man": "man_adult", "woman": "woman_adult", "": "man_adult"}
+WEARERS = {"man": "man_adult", "woman": "woman_adult"}
 
 
 def _materials(outfit: Outfit, folder: Path) -> dict[str, Material]:
@@ -70,6 +72,34 @@ def build(outfit: Outfit, pieces: Pieces, wearer: Wearer, path: Path) -> None:
     add_breath(path)
 
 
+def share_buffer(paths: list[Path], shared: Path) -> None:
+    """Put what files hold beside them, each part once: outfits have jackets and trousers in common."""
+    data, starts, documents = bytearray(), dict[bytes, int](), []
+    for path in paths:
+        gltf = GLTF2().load(str(path))
+        blob = gltf.binary_blob()
+        for view in gltf.bufferViews:
+            start = view.byteOffset or 0
+            part = bytes(blob[start : start + view.byteLength])
+            if part not in starts:
+                data.extend(b"\0" * (-len(data) % 4))
+                starts[part] = len(data)
+                data.extend(part)
+            view.byteOffset = starts[part]
+        documents.append(gltf)
+    for path, gltf in zip(paths, documents, strict=True):
+        gltf.set_binary_blob(b"")
+        for accessor in gltf.accessors:
+            if accessor.bufferView is None:
+                accessor.byteOffset = None
+        gltf.buffers = [Buffer(uri=shared.name, byteLength=len(data))]
+        text = gltf.to_json(separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        head = struct.pack("<4sII", b"glTF", 2, 20 + len(text)) + struct.pack("<I4s", len(text), b"JSON")
+        path.write_bytes(head + text)
+    shared.write_bytes(bytes(data))
+
+
 def wearer_of(character: Character, source: Source, assets: Path) -> Wearer:
     """Prepare a finished body for its clothes; it stands on its own shoes."""
     fit = fit_skeleton(source)
@@ -84,7 +114,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--to", type=Path, default=CHARACTERS_FOLDER / "wardrobe", help="folder the files go to")
     parser.add_argument("--assets", type=Path, required=True, help="folder with MakeHuman's assets")
-    parser.add_argument("outfits", nargs="*", help="ids; none: all")
     arguments = parser.parse_args()
     write_atlas(arguments.assets, arguments.to)
     model = load_model()
@@ -92,10 +121,13 @@ def main() -> None:
         wearer = wearer_of(character, load_person(model, character.phenotype), arguments.assets)
         for outfit in OUTFITS:
             for ending, pieces in outfit.pieces.items():
-                if WEARERS[ending] == character.name and outfit.id in (arguments.outfits or [outfit.id]):
-                    path = arguments.to / f"{outfit.id}{'_' if ending else ''}{ending}.glb"
+                if WEARERS[ending] == character.name:
+                    path = arguments.to / f"{outfit.id}_{ending}.glb"
                     build(outfit, pieces(wearer), wearer, path)
-                    print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
+        for ending in (name for name, body in WEARERS.items() if body == character.name):
+            share_buffer(sorted(arguments.to.glob(f"*_{ending}.glb")), arguments.to / f"{ending}.bin")
+    for path in sorted(arguments.to.iterdir()):
+        print(f"{path} {path.stat().st_size / 1e6:.2f} MB")
 
 
 if __name__ == "__main__":

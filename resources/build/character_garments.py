@@ -106,14 +106,14 @@ def above_collar(tailoring: Tailoring, points: np.ndarray) -> np.ndarray:
     return (points - tailoring.collar_point) @ tailoring.collar_normal
 
 
-def _weights_from(cloth: Cloth, points: np.ndarray) -> np.ndarray:
+def weights_from(cloth: Cloth, points: np.ndarray) -> np.ndarray:
     distances, nearest = cKDTree(cloth.points).query(points, k=4)
     shares = 1.0 / (distances + 0.002) ** 2
     weights = np.einsum("nk,nkj->nj", shares, cloth.weights[nearest])
     return weights / weights.sum(axis=1, keepdims=True)
 
 
-def _move_out(
+def move_out(
     points: np.ndarray, profile: Profile, axes: tuple[int, int, int], target: np.ndarray, share: np.ndarray
 ) -> np.ndarray:
     """Points moved from the profile's axis to the radius `target` (N,) where that is further out, by `share` (N,)."""
@@ -145,7 +145,7 @@ def _drape_torso(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
     share = (1 - smoothstep(arm, 0.15, 0.6)) * (
         1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.03, tailoring.shoulder[1] + 0.01)
     )
-    return replace(cloth, points=_move_out(points, fall, (1, 0, 2), target, share))
+    return replace(cloth, points=move_out(points, fall, (1, 0, 2), target, share))
 
 
 def _drape_sleeves(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth:
@@ -168,7 +168,7 @@ def _drape_sleeves(tailoring: Tailoring, cloth: Cloth, arm: np.ndarray) -> Cloth
         bend = np.exp(-(((share - 0.55) / 0.25) ** 2))
         crease = folds(mirrored[:, 0], angle, 0.10, seed=21 if sign > 0 else 22) * (0.001 + 0.0025 * bend)
         target = np.maximum(sleeve.radius_at(mirrored[:, 0], angle) + 0.005, roomy * gather) + crease * gather
-        moved = _move_out(mirrored, sleeve, (0, 1, 2), target, smoothstep(arm[own], 0.6, 0.98))
+        moved = move_out(mirrored, sleeve, (0, 1, 2), target, smoothstep(arm[own], 0.6, 0.98))
         points[own] = moved * np.array([sign, 1.0, 1.0])
     return replace(cloth, points=points)
 
@@ -216,14 +216,14 @@ def _cuffs(tailoring: Tailoring, fit: SkeletonFit) -> Cloth:
     return join(*parts)
 
 
-def _front(cloth: Cloth) -> LinearNDInterpolator:
+def front_of(cloth: Cloth) -> LinearNDInterpolator:
     """z of the foremost layer of a cloth over (x, y)."""
     points = cloth.points[np.unique(cloth.faces)]
     near = points[(np.abs(points[:, 0]) < 0.12) & (points[:, 2] > np.median(points[np.abs(points[:, 0]) < 0.12, 2]))]
     return LinearNDInterpolator(near[:, :2], near[:, 2])
 
 
-def _neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.ndarray) -> np.ndarray:
+def neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.ndarray) -> np.ndarray:
     """(N, 3) where the plane `height_m` above the collar's seam cuts a cloth, by angle about the neck (0 at the nape;
     the last angle is the first one, a turn later)."""
     neck = cut(
@@ -240,11 +240,11 @@ def _neck_ring(tailoring: Tailoring, cloth: Cloth, height_m: float, angles: np.n
     return np.concatenate([found, found[:1]])
 
 
-def _collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> Cloth:
+def collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> Cloth:
     """A turned-down collar on the shirt's neck seam, buttoned, its points spread."""
     columns = np.linspace(-np.pi, np.pi, 73)
-    base = _neck_ring(tailoring, tailoring.suit, 0.0, columns)
-    upper = _neck_ring(tailoring, tailoring.suit, 0.030, columns)
+    base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
+    upper = neck_ring(tailoring, tailoring.suit, 0.030, columns)
     outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
     up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
     throat = smoothstep(np.abs(columns), 0.62 * np.pi, np.pi)[:, None]
@@ -266,11 +266,11 @@ def _collar(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator) -> 
         fall[:, 2] = np.where(throat[:, 0] > 0.02, np.maximum(fall[:, 2], lying + 0.004), fall[:, 2])
         rows.append(fall)
     points = np.concatenate(rows)
-    weights = np.tile(_weights_from(shirt, base + outward * 0.001), (len(rows), 1))
+    weights = np.tile(weights_from(shirt, base + outward * 0.001), (len(rows), 1))
     return to_triangles(Cloth(points, weights, grid_faces(len(rows), 73, closed=False)))
 
 
-def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, top_m: float) -> tuple[Cloth, Cloth]:
+def placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, top_m: float) -> tuple[Cloth, Cloth]:
     """The buttoned strip down the front, and its buttons."""
     heights = np.linspace(top_m, tailoring.belt_m - 0.02, 40)
     columns = np.array([-0.0165, -0.0155, 0.0, 0.0155, 0.0165])
@@ -278,9 +278,7 @@ def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, to
     x, y = np.meshgrid(columns, heights)
     z = front(x.ravel(), y.ravel()) + np.tile(lift, len(heights))
     points = np.stack([x.ravel(), y.ravel(), z], axis=1)
-    strip = to_triangles(
-        Cloth(points, _weights_from(shirt, points), grid_faces(len(heights), 5, closed=False)[:, ::-1])
-    )
+    strip = to_triangles(Cloth(points, weights_from(shirt, points), grid_faces(len(heights), 5, closed=False)[:, ::-1]))
     buttons = []
     angles = 2 * np.pi * np.arange(12) / 12
     for height in np.arange(top_m - 0.03, tailoring.belt_m + 0.03, -0.085):
@@ -292,12 +290,12 @@ def _placket(tailoring: Tailoring, shirt: Cloth, front: LinearNDInterpolator, to
                 for r, out in rings
             ]
         )
-        weights = np.tile(_weights_from(shirt, np.array([[0.0, height, depth]])), (len(disc), 1))
+        weights = np.tile(weights_from(shirt, np.array([[0.0, height, depth]])), (len(disc), 1))
         buttons.append(to_triangles(Cloth(disc, weights, grid_faces(len(rings), 12, closed=True))))
     return strip, join(*buttons)
 
 
-def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]]) -> Cloth:
+def band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]]) -> Cloth:
     """A ring round the waist from (height, distance from the drape) rows."""
     columns = 72
     angles = 2 * np.pi * np.arange(columns) / columns
@@ -313,7 +311,7 @@ def _band(profile: Profile, suit: Cloth, rows: list[tuple[float, float]]) -> Clo
         ]
     )
     # One weight for the whole height of a column: a belt does not shear.
-    column = _weights_from(suit, np.stack([points[:columns, 0], np.full(columns, level), points[:columns, 2]], axis=1))
+    column = weights_from(suit, np.stack([points[:columns, 0], np.full(columns, level), points[:columns, 2]], axis=1))
     return to_triangles(
         Cloth(points, np.tile(column, (len(rows), 1)), grid_faces(len(rows), columns, closed=True)[:, ::-1])
     )
@@ -328,12 +326,12 @@ def shirt(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     cloth = cut(
         cloth, np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
     )
-    front = _front(cloth)
+    front = front_of(cloth)
     throat = cloth.points[
         (np.abs(cloth.points[:, 0]) < 0.01) & (cloth.points[:, 2] > tailoring.collar_point[2] + 0.03)
     ][:, 1].max()
-    strip, buttons = _placket(tailoring, cloth, front, float(throat) - 0.004)
-    whole = join(cloth, _cuffs(tailoring, fit), _collar(tailoring, cloth, front), strip)
+    strip, buttons = placket(tailoring, cloth, front, float(throat) - 0.004)
+    whole = join(cloth, _cuffs(tailoring, fit), collar(tailoring, cloth, front), strip)
     return cloth_surface("shirt", {"shirt": whole, "buttons": buttons}, fit)
 
 
@@ -355,7 +353,7 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     target = drape.radius_at(points[:, 1], angle) + 0.007
     # Only the outside of the seat: what lies between the legs stays there.
     share = smoothstep(points[:, 1], tailoring.crotch_m - 0.04, tailoring.crotch_m + 0.04) * (tailoring.arm < 0.3)
-    moved = _move_out(points, drape, (1, 0, 2), target, share * smoothstep(radius / target, 0.45, 0.8))
+    moved = move_out(points, drape, (1, 0, 2), target, share * smoothstep(radius / target, 0.45, 0.8))
     joint = fit.positions_t[fit.index("leftUpperLeg")]
     for sign in (1.0, -1.0):
         own = (points[:, 0] * sign > 0) & (points[:, 1] < tailoring.crotch_m + 0.02)
@@ -367,7 +365,7 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
         crease = folds(leg[:, 1], leg_angle, 0.07, seed=31 if sign > 0 else 32) * (0.0014 * low + 0.0012 * knee)
         target = profile.radius_at(leg[:, 1], leg_angle) + 0.007 + crease
         share = 1 - smoothstep(leg[:, 1], tailoring.crotch_m - 0.03, tailoring.crotch_m + 0.015)
-        draped = _move_out(leg, profile, (1, 0, 2), target, share)
+        draped = move_out(leg, profile, (1, 0, 2), target, share)
         draped[:, 0] = np.maximum(draped[:, 0], np.minimum(leg[:, 0], 0.003))
         moved[own] = draped * np.array([sign, 1.0, 1.0])
     weights = suit.weights.copy()
@@ -391,12 +389,12 @@ def trousers(tailoring: Tailoring, fit: SkeletonFit) -> Surface:
     points[low, 1] = top - reach * (top - hem_m) + slope
     cloth = replace(cloth, points=points)
     belt = tailoring.belt_m
-    waistband = _band(
+    waistband = band(
         tailoring.trunk,
         suit,
         [(belt - WAISTBAND_M, 0.005), (belt - WAISTBAND_M, 0.010), (belt, 0.010), (belt + 0.002, 0.008), (belt, 0.004)],
     )
     leather = [(belt - 0.033, 0.009), (belt - 0.032, 0.0125), (belt - 0.004, 0.0125), (belt - 0.003, 0.009)]
     return cloth_surface(
-        "trousers", {"trousers": join(cloth, waistband), "belt": _band(tailoring.trunk, suit, leather)}, fit
+        "trousers", {"trousers": join(cloth, waistband), "belt": band(tailoring.trunk, suit, leather)}, fit
     )

@@ -26,13 +26,15 @@ LINEN = 0.25
 @dataclass(frozen=True)
 class Patch:
     """A source's picture in the atlas: `box` (left, top, right, bottom) of its 512 pixels, put at `corner` (left, top)
-    of the atlas, `scale` times as large. Of a print nothing is taken but folds: it has no `structure`."""
+    of the atlas, `scale` times as large. Of a print nothing is taken but folds: it has no `structure`.
+    A `tone` below 1 is for what stays darker than the rest of its material: grey trousers beside a white shirt."""
 
     folder: str
     box: tuple[int, int, int, int]
     corner: tuple[int, int]
     scale: int = 2
     structure: bool = True
+    tone: float = 1.0
     source_px: int = 512
 
     def uvs(self, uvs: np.ndarray) -> np.ndarray:
@@ -51,10 +53,13 @@ class Patch:
 PATCHES = {
     "suit": Patch("male_elegantsuit01", (0, 0, 512, 512), (0, 0)),
     "blouse": Patch("female_elegantsuit01", (0, 0, 512, 512), (1024, 0), structure=False),
+    "dark_trousers": Patch("male_elegantsuit01", (0, 240, 384, 512), (1280, 1024), tone=0.10),
     "tee": Patch("male_casualsuit06", (0, 0, 512, 216), (0, 1024), structure=False),
 }
 PLAIN = (0, 1456, 1024, 2048)
 """Part of the atlas (left, top, right, bottom) of plain cloth with soft folds, for garments of our own."""
+CHECK = (1024, 1568, 2048, 2048)
+"""Part of the atlas of checked cloth."""
 GOLD = (1024, 1024, 1280, 1280)
 """Part of the atlas of smooth shining metal and braid."""
 PLAIN_M = (2.0, 1.156)
@@ -104,6 +109,17 @@ def _structure(colour: np.ndarray) -> np.ndarray:
     return np.clip(ratio, 0.45, 1.25)
 
 
+def _check(rows: int, columns: int) -> np.ndarray:
+    """A check (rows, columns) of dark grey with lighter and darker bands, 96 pixels wide."""
+
+    def bands(count: int) -> np.ndarray:
+        place = np.arange(count) % 96
+        broad = np.where(place < 34, 0.55, 1.0)
+        return np.where((place > 60) & (place < 66), 2.4, broad)
+
+    return 0.12 * np.sqrt(bands(rows)[:, None] * bands(columns)[None, :])
+
+
 def _weave(size: int) -> np.ndarray:
     """Fine twill (size, size), mean 0, deviation 1."""
     return noise(size, 1.2, 6.0, 71) + 0.6 * noise(size, 6.0, 60.0, 72)
@@ -131,7 +147,7 @@ def _laid(assets: Path) -> Layers:
         if colour is None:
             raise FileNotFoundError(f"{stem}_diffuse.png")
         structure = _structure(colour) if patch.structure else np.ones(colour.shape[:2])
-        grey[rows, columns] = structure
+        grey[rows, columns] = structure * patch.tone
         heights[rows, columns] = 0.5 * (gaussian_filter(structure, 1.0) - 1.0)
         shade = _picture(Path(f"{stem}_ao.png"), patch)
         if shade is not None:
@@ -142,6 +158,8 @@ def _laid(assets: Path) -> Layers:
     left, top, right, bottom = PLAIN
     folds = noise(1024, 40.0, 300.0, 73)[: bottom - top, : right - left]
     heights[top:bottom, left:right] += 0.10 * gaussian_filter(folds, 6.0)
+    left, top, right, bottom = CHECK
+    grey[top:bottom, left:right] = _check(bottom - top, right - left)
     left, top, right, bottom = GOLD
     roughness[top:bottom, left:right] = 0.38
     return Layers(grey, occlusion, heights, bent, roughness)

@@ -6,12 +6,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from character_surface import Surface
-from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, linen_apart, piece, skin
+from character_cloth import Cloth, cut, relaxed
+from character_garments import collar, front_of, shirt
+from character_surface import Surface, modelled
+from wardrobe_pieces import ACCENT, MAIN, SECOND, Wearer, all_of, four_bones, linen_apart, piece, skin
+from wardrobe_sailor import sailor_collar, scarf
+from wardrobe_sewn import Skirt, bow_tie, moved_to, neck_band, over, plain, sewn_surface, shell, skirt, throat
+from wardrobe_tunic import buttons, close_dress, front_strip, ribbon, stand_collar, tunic
 
 Colour = tuple[float, float, float]
 Pieces = list[tuple[Surface, str]]
 BLACK, NEAR_BLACK, WHITE = (0.012, 0.012, 0.014), (0.018, 0.018, 0.021), (0.80, 0.80, 0.79)
+NAVY, GOLD = (0.012, 0.016, 0.042), (0.55, 0.36, 0.10)
+OWN = ("shirt", "trousers")
 
 
 @dataclass(frozen=True)
@@ -21,16 +28,16 @@ class Outfit:
     Attributes
     ----------
     title : in English and Japanese.
-    pieces : makes, by the ending of the file's name ("man", "woman"; "" where one cut does for all), the surfaces with
-        their slots.
+    pieces : makes, by the ending of the file's name ("man" or "woman"), the surfaces with their slots.
     colours : linear, by material.
+    hides : the finished bodies' meshes that it takes the place of.
     """
 
     id: str
     title: tuple[str, str]
     pieces: dict[str, Callable[[Wearer], Pieces]]
     colours: dict[str, Colour]
-    hides: tuple[str, ...] = ("shirt", "trousers")
+    hides: tuple[str, ...] = OWN
 
 
 def _trousers_part(uvs: np.ndarray) -> np.ndarray:
@@ -52,9 +59,14 @@ def suit_jacket(wearer: Wearer, linen: str = SECOND, tie: str = ACCENT) -> Surfa
     return piece(wearer, "jacket", "suit", _jacket_part, linen_apart(MAIN, linen, tie))
 
 
-def suit_trousers(wearer: Wearer, material: str = MAIN) -> Surface:
+def suit_trousers(wearer: Wearer, material: str = MAIN, patch: str = "suit") -> Surface:
     """Straight trousers."""
-    return piece(wearer, "trousers", "suit", _trousers_part, all_of(material))
+    return piece(wearer, "trousers", patch, _trousers_part, all_of(material))
+
+
+def grey_trousers(wearer: Wearer) -> Surface:
+    """Trousers of the linen's material that stay grey beside it."""
+    return suit_trousers(wearer, SECOND, "dark_trousers")
 
 
 def blouse(wearer: Wearer, material: str = MAIN) -> Surface:
@@ -62,12 +74,9 @@ def blouse(wearer: Wearer, material: str = MAIN) -> Surface:
     return piece(wearer, "blouse", "blouse", lambda uvs: ~_skirt_part(uvs), all_of(material))
 
 
-def _suit(wearer: Wearer) -> Pieces:
-    return [(suit_jacket(wearer), "top"), (suit_trousers(wearer), "bottom")]
-
-
-def _blouse_and_trousers(wearer: Wearer) -> Pieces:
-    return [(blouse(wearer), "top"), (suit_trousers(wearer), "bottom"), (bare_chest(wearer), "skin")]
+def tee(wearer: Wearer, material: str = MAIN) -> Surface:
+    """A shirt with short sleeves."""
+    return piece(wearer, "shirt", "tee", lambda uvs: uvs[:, 1] > 0.58, all_of(material))
 
 
 def bare_chest(wearer: Wearer, depth_m: float = 0.17, width_m: float = 0.05) -> Surface:
@@ -82,11 +91,240 @@ def bare_chest(wearer: Wearer, depth_m: float = 0.17, width_m: float = 0.05) -> 
     return skin(wearer, "skin_chest", shown)
 
 
+def bare_shoulders(wearer: Wearer) -> Surface:
+    """The skin about the neck that a round neckline leaves bare."""
+
+    def shown(places: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        return (np.abs(places[:, 0]) < 0.16) & (places[:, 1] > wearer.tailoring.collar_point[1] - 0.25)
+
+    return skin(wearer, "skin_chest", shown)
+
+
+def bare_arms(wearer: Wearer, from_m: float) -> Surface:
+    """The skin of the arms from so far off the middle of the body, in the T-pose, to the hands."""
+    return skin(wearer, "skin_arms", lambda places, weights: np.abs(places[:, 0]) > from_m)
+
+
+def bare_legs(wearer: Wearer, low_m: float, high_m: float) -> Surface:
+    """The skin of the legs between two heights."""
+
+    def shown(places: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        legs = np.abs(places[:, 0]) < wearer.tailoring.shoulder[0]
+        return legs & (places[:, 1] > low_m) & (places[:, 1] < high_m)
+
+    return skin(wearer, "skin_legs", shown)
+
+
+def sleeve_end_m(wearer: Wearer, surface: Surface) -> float:
+    """Distance off the middle of the body where the sleeves end in the T-pose."""
+    return float(np.abs(wearer.fit.to_t_pose(surface.positions, surface.weights)[:, 0]).max())
+
+
+def cloth_of(wearer: Wearer, surface: Surface) -> Cloth:
+    """A surface in the T-pose."""
+    return Cloth(wearer.fit.to_t_pose(surface.positions, surface.weights), surface.weights, surface.all_triangles())
+
+
+def _suit(wearer: Wearer) -> Pieces:
+    return [(suit_jacket(wearer), "top"), (suit_trousers(wearer), "bottom")]
+
+
+def _blouse_and_trousers(wearer: Wearer) -> Pieces:
+    return [(blouse(wearer), "top"), (suit_trousers(wearer), "bottom"), (bare_chest(wearer), "skin")]
+
+
+def _tie_alone(wearer: Wearer) -> Pieces:
+    own = cloth_of(wearer, shirt(wearer.tailoring, wearer.fit))
+    tie = bow_tie(wearer, throat(wearer, own.points, 0.004))
+    return [(sewn_surface("bow_tie", {ACCENT: [tie]}, wearer), "tie")]
+
+
+def _blazer(wearer: Wearer) -> Pieces:
+    return [(suit_jacket(wearer), "top"), (grey_trousers(wearer), "bottom")]
+
+
+def _school_legs(wearer: Wearer, material: str, checked: bool, socks: str) -> Pieces:
+    """A pleated skirt to the knee, bare knees, socks below them."""
+    tailoring = wearer.tailoring
+    hem, sock = tailoring.knee_m + 0.015, tailoring.knee_m - 0.10
+    pleated = skirt(wearer, Skirt(tailoring.belt_m + 0.02, hem, 0.05, 0.012), checked=checked)
+    return [
+        (sewn_surface("skirt", {material: [pleated]}, wearer), "bottom"),
+        (sewn_surface("socks", {socks: [shell(wearer, tailoring.foot_m + 0.045, sock, 0.002)]}, wearer), "bottom"),
+        (bare_legs(wearer, sock - 0.05, hem + 0.16), "skin"),
+    ]
+
+
+def worn_over(wearer: Wearer, outer: Surface, inner: Surface, margin_m: float = 0.007) -> Surface:
+    """A top that hangs over what is worn below it."""
+    cloth = cloth_of(wearer, outer)
+    moved = over(wearer, cloth, cloth_of(wearer, inner), wearer.tailoring.belt_m + 0.05, margin_m)
+    return moved_to(wearer, outer, moved.points)
+
+
+def _blazer_and_skirt(wearer: Wearer) -> Pieces:
+    legs = _school_legs(wearer, SECOND, True, MAIN)
+    return [(worn_over(wearer, suit_jacket(wearer), legs[0][0]), "top"), *legs]
+
+
+def hemmed(wearer: Wearer, top: Surface, hem_m: float) -> Surface:
+    """A top cut off at a height in the T-pose."""
+    joints = top.weights.shape[1]
+    places = wearer.fit.to_t_pose(top.positions, top.weights)
+    ((material, faces),) = top.triangles.items()
+    # Texture coordinates are cut as the weights are.
+    own = cut(Cloth(places, np.concatenate([top.weights, top.uvs], axis=1), faces), places[:, 1] - hem_m)
+    weights, uvs = own.weights[:, :joints], own.weights[:, joints:]
+    rest = wearer.fit.to_rest_pose(own.points, weights)
+    return modelled(top.name, rest, four_bones(weights), {material: own.faces}, uvs=uvs)
+
+
+def _sailor(wearer: Wearer) -> Pieces:
+    legs = _school_legs(wearer, MAIN, False, MAIN)
+    whole = worn_over(wearer, tee(wearer, SECOND), legs[0][0], 0.009)
+    top = hemmed(wearer, whole, wearer.tailoring.belt_m - 0.05)
+    cloth = cloth_of(wearer, top)
+    cape, stripes = sailor_collar(wearer, cloth)
+    over_it = sewn_surface("collar", {MAIN: [cape], SECOND: [stripes], ACCENT: scarf(wearer, cloth)}, wearer)
+    arms = bare_arms(wearer, sleeve_end_m(wearer, top) - 0.06)
+    return [(top, "top"), (over_it, "top"), *legs, (bare_chest(wearer), "skin"), (arms, "skin")]
+
+
+def _closed(wearer: Wearer, hem_m: float, below: Surface) -> Cloth:
+    own = tunic(wearer, hem_m)
+    behind = (np.abs(own.points[:, 0]) < 0.035) & (own.points[:, 1] < wearer.tailoring.belt_m - 0.03)
+    own = relaxed(own, behind * (own.points[:, 1] > hem_m + 0.004) * 1.0, 30)
+    return over(wearer, own, cloth_of(wearer, below), wearer.tailoring.belt_m + 0.05, 0.008)
+
+
+def _gakuran(wearer: Wearer) -> Pieces:
+    hem, legs = wearer.tailoring.crotch_m + 0.09, suit_trousers(wearer)
+    own = _closed(wearer, hem, legs)
+    top = wearer.tailoring.collar_point[1] - 0.055
+    heights = np.linspace(top - 0.025, wearer.tailoring.belt_m - 0.01, 5)
+    row = buttons(own, np.stack([np.zeros(5), heights], axis=1))
+    edge = front_strip(own, top, hem + 0.01)
+    parts = {MAIN: [plain(own), plain(stand_collar(wearer, own)), edge], ACCENT: [row]}
+    return [(sewn_surface("tunic", parts, wearer), "top"), (legs, "bottom")]
+
+
+def _marching(wearer: Wearer) -> Pieces:
+    tailoring, legs = wearer.tailoring, grey_trousers(wearer)
+    hem = tailoring.crotch_m + 0.14
+    own = _closed(wearer, hem, legs)
+    top, low = tailoring.collar_point[1] - 0.085, tailoring.belt_m + 0.03
+    heights = np.linspace(top, low, 6)
+    cords, places = [], []
+    for height in heights:
+        half = 0.085 + 0.045 * (height - low) / (top - low)
+        x = np.linspace(-half, half, 25)
+        cords.append(
+            plain(ribbon(own, np.stack([x, height + 0.012 * np.cos(x / half * np.pi)], axis=1), 0.0055, 0.004))
+        )
+        places += [(-half, height - 0.012), (0.0, height + 0.012), (half, height - 0.012)]
+    parts = {
+        MAIN: [plain(own), front_strip(own, top + 0.03, hem + 0.01)],
+        SECOND: [plain(stand_collar(wearer, own)), *cords],
+        ACCENT: [buttons(own, np.array(places))],
+    }
+    return [(sewn_surface("tunic", parts, wearer), "top"), (legs, "bottom")]
+
+
+def _polo(wearer: Wearer) -> Pieces:
+    legs = grey_trousers(wearer)
+    top = worn_over(wearer, tee(wearer), legs)
+    cloth = cloth_of(wearer, top)
+    yoke = neck_band(wearer, -0.06, 0.012, 0.0015)
+    turned = collar(wearer.tailoring, cloth, front_of(cloth))
+    row = wearer.tailoring.collar_point[1] - 0.075
+    strip = front_strip(cloth, row, row - 0.14)
+    parts = {MAIN: [plain(turned), strip, yoke]}
+    arms = bare_arms(wearer, sleeve_end_m(wearer, top) - 0.06)
+    return [
+        (top, "top"),
+        (sewn_surface("collar", parts, wearer), "top"),
+        (legs, "bottom"),
+        (arms, "skin"),
+    ]
+
+
+def _dress(wearer: Wearer) -> Pieces:
+    tailoring = wearer.tailoring
+    waist = tailoring.belt_m + 0.01
+    long = skirt(wearer, Skirt(waist + 0.012, tailoring.foot_m + 0.06, 0.085, 0.010, 22))
+    bodice = plain(close_dress(wearer, waist - 0.01))
+    start = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.60 + tailoring.shoulder[0]
+    return [
+        (sewn_surface("dress", {MAIN: [bodice, long]}, wearer), "dress"),
+        (bare_shoulders(wearer), "skin"),
+        (bare_arms(wearer, start), "skin"),
+    ]
+
+
+def _dinner_suit(wearer: Wearer) -> Pieces:
+    jacket = suit_jacket(wearer, SECOND, SECOND)
+    tie = bow_tie(wearer, throat(wearer, cloth_of(wearer, jacket).points, 0.0))
+    return [
+        (jacket, "top"),
+        (suit_trousers(wearer), "bottom"),
+        (sewn_surface("bow_tie", {MAIN: [tie]}, wearer), "tie"),
+    ]
+
+
 OUTFITS = (
     Outfit(
         "concert_black",
         ("Concert black", "黒の演奏会服"),
         {"man": _suit, "woman": _blouse_and_trousers},
         {MAIN: BLACK, SECOND: NEAR_BLACK, ACCENT: (0.008, 0.008, 0.009)},
+    ),
+    Outfit(
+        "white_shirt",
+        ("White shirt and bow tie", "白シャツに蝶ネクタイ"),
+        {"man": _tie_alone, "woman": _tie_alone},
+        {ACCENT: (0.010, 0.010, 0.011)},
+        (),
+    ),
+    Outfit(
+        "school_blazer",
+        ("School blazer", "制服（ブレザー）"),
+        {"man": _blazer, "woman": _blazer_and_skirt},
+        {MAIN: NAVY, SECOND: WHITE, ACCENT: (0.26, 0.02, 0.03)},
+    ),
+    Outfit(
+        "school_uniform",
+        ("Sailor uniform and gakuran", "制服（セーラー服・学ラン）"),
+        {"woman": _sailor},
+        {MAIN: NAVY, SECOND: WHITE, ACCENT: (0.36, 0.02, 0.03)},
+    ),
+    Outfit(
+        "school_uniform",
+        ("Sailor uniform and gakuran", "制服（セーラー服・学ラン）"),
+        {"man": _gakuran},
+        {MAIN: (0.010, 0.010, 0.013), ACCENT: GOLD},
+    ),
+    Outfit(
+        "marching",
+        ("Marching uniform", "マーチングの制服"),
+        {"man": _marching, "woman": _marching},
+        {MAIN: (0.30, 0.012, 0.02), SECOND: WHITE, ACCENT: GOLD},
+    ),
+    Outfit(
+        "polo",
+        ("Polo shirt", "ポロシャツ"),
+        {"man": _polo, "woman": _polo},
+        {MAIN: (0.02, 0.09, 0.26), SECOND: (0.75, 0.72, 0.62)},
+    ),
+    Outfit(
+        "jazz_suit",
+        ("Jazz suit", "ジャズのスーツ"),
+        {"man": _suit, "woman": _suit},
+        {MAIN: (0.045, 0.010, 0.020), SECOND: (0.012, 0.012, 0.014), ACCENT: (0.42, 0.40, 0.36)},
+    ),
+    Outfit(
+        "evening",
+        ("Long dress and dinner suit", "ロングドレス・タキシード"),
+        {"man": _dinner_suit, "woman": _dress},
+        {MAIN: BLACK, SECOND: WHITE},
     ),
 )

@@ -1,0 +1,238 @@
+"""Parts of outfits of our own, sewn in the T-pose: skirts, bare limbs' socks, ties, collars, braid, buttons, hats."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from character_cloth import Cloth, Profile, cut, grid_faces, hull_profile, join, smoothed, smoothstep, to_triangles
+from character_garments import above_collar, move_out
+from character_surface import Surface, modelled, smooth_normals
+from scipy.spatial import cKDTree
+from wardrobe_atlas import CHECK, GOLD, plain_uvs, spot_uvs
+from wardrobe_pieces import Wearer, four_bones
+
+PLEATS, PER_PLEAT = 24, 4
+FARTHEST_M = 0.030
+"""Most that a garment is let out to lie over another one."""
+
+
+@dataclass(frozen=True)
+class Sewn:
+    """A piece in the T-pose with its texture coordinates (N, 2)."""
+
+    cloth: Cloth
+    uvs: np.ndarray
+
+
+def plain(cloth: Cloth) -> Sewn:
+    """A piece of plain cloth, laid on its part of the atlas as seen from the front."""
+    return Sewn(cloth, plain_uvs(cloth.points[:, 0], cloth.points[:, 1]))
+
+
+def gold(cloth: Cloth) -> Sewn:
+    """A piece of smooth shining stuff: metal, braid, silk."""
+    spread = np.ptp(cloth.points, axis=0)[:2].max() + 1e-9
+    return Sewn(cloth, spot_uvs(GOLD, (cloth.points[:, :2] - cloth.points[:, :2].min(axis=0)) / spread))
+
+
+def sewn_surface(name: str, parts: dict[str, list[Sewn]], wearer: Wearer) -> Surface:
+    """Pieces by material as one surface of the file."""
+    pieces = [piece for own in parts.values() for piece in own]
+    whole = join(*(piece.cloth for piece in pieces))
+    weights = four_bones(whole.weights)
+    triangles, start = {}, 0
+    for material, own in parts.items():
+        count = sum(len(piece.cloth.faces) for piece in own)
+        triangles[material] = whole.faces[start : start + count]
+        start += count
+    places = wearer.fit.to_rest_pose(whole.points, weights)
+    return modelled(name, places, weights, triangles, uvs=np.concatenate([piece.uvs for piece in pieces]))
+
+
+def weights_near(cloth: Cloth, points: np.ndarray) -> np.ndarray:
+    """Skin weights (N, J) of a cloth's six nearest vertices."""
+    far, rows = cKDTree(cloth.points).query(points, k=6)
+    shares = 1.0 / (far + 0.004) ** 2
+    return np.einsum("nk,nkj->nj", shares / shares.sum(axis=1, keepdims=True), cloth.weights[rows])
+
+
+def _leg_weights(wearer: Wearer, points: np.ndarray) -> np.ndarray:
+    """Skin weights of what hangs from the hips about both legs."""
+    fit = wearer.fit
+    weights = np.zeros((len(points), len(fit.names)))
+    hip, knee = (fit.positions_t[fit.index(f"left{part}Leg")] for part in ("Upper", "Lower"))
+    hips = smoothstep(points[:, 1], hip[1] - 0.13, hip[1] + 0.09)
+    shin = 1.0 - smoothstep(points[:, 1], knee[1] - 0.10, knee[1] + 0.11)
+    left = smoothstep(points[:, 0], -0.09, 0.09)
+    weights[:, fit.index("hips")] = hips
+    for side, share in (("left", left), ("right", 1.0 - left)):
+        weights[:, fit.index(f"{side}UpperLeg")] = (1.0 - hips) * share * (1.0 - shin)
+        weights[:, fit.index(f"{side}LowerLeg")] = (1.0 - hips) * share * shin
+    return weights
+
+
+def _about_both_legs(wearer: Wearer, low: float, high: float) -> Profile:
+    """Hull of trunk and both legs by height."""
+    suit, tailoring = wearer.tailoring.suit, wearer.tailoring
+    own = tailoring.arm < 0.3
+    levels = np.arange(low - 0.01, high + 0.02, 0.015)
+    points = suit.points[own]
+    middle = wearer.fit.positions_t[wearer.fit.index("hips")][2]
+    centres = np.tile([0.0, middle], (len(levels), 1))
+    hulls = hull_profile(points[:, 1], points[:, [0, 2]], levels, centres, 0.02)
+    return smoothed(hulls, 2.0, 1.5)
+
+
+@dataclass(frozen=True)
+class Skirt:
+    """A skirt from waist to hem (heights, m), how much wider it becomes per metre, and how deep its pleats are."""
+
+    top_m: float
+    hem_m: float
+    flare: float
+    pleat_m: float
+    rows: int = 12
+
+
+def skirt(wearer: Wearer, shape: Skirt, *, checked: bool = False) -> Sewn:
+    """A skirt about both legs that falls from the hips."""
+    profile = _about_both_legs(wearer, shape.hem_m, shape.top_m)
+    columns = PLEATS * PER_PLEAT
+    angles = 2 * np.pi * np.arange(columns + 1) / columns
+    heights = np.linspace(shape.top_m, shape.hem_m, shape.rows)
+    saw = np.tile([0.0, 1.0, 0.55, 0.15], PLEATS)
+    saw = np.append(saw, saw[0])
+    # Heads of pleats are sewn down over the hips.
+    widest = np.zeros(columns + 1)
+    rows, uvs = [], []
+    for height in heights:
+        down = shape.top_m - height
+        ease = 0.003 + 0.006 * smoothstep(np.array([down]), 0.0, 0.12)[0]
+        hull = profile.radius_at(np.full(columns + 1, height), angles) + ease
+        widest = np.maximum(widest, hull) if down < 0.25 else np.maximum(widest * 0.997, hull)
+        open_pleat = shape.pleat_m * smoothstep(np.array([down]), 0.04, 0.30)[0]
+        radius = widest + shape.flare * down**1.3 + open_pleat * (saw - 0.4)
+        middle = np.array([np.interp(height, profile.levels, profile.centres[:, k]) for k in range(2)])
+        rows.append(
+            np.stack(
+                [
+                    middle[0] + radius * np.cos(angles),
+                    np.full(columns + 1, height),
+                    middle[1] + radius * np.sin(angles),
+                ],
+                axis=1,
+            )
+        )
+        turn = angles / (2 * np.pi)
+        if checked:
+            uvs.append(spot_uvs(CHECK, np.stack([turn, np.full(columns + 1, down / 0.55)], axis=1)))
+        else:
+            uvs.append(plain_uvs(turn * 1.6 - 0.8, np.full(columns + 1, height)))
+    points = np.concatenate(rows)
+    faces = grid_faces(shape.rows, columns + 1, closed=False)[:, ::-1]
+    return Sewn(to_triangles(Cloth(points, _leg_weights(wearer, points), faces[:, ::-1])), np.concatenate(uvs))
+
+
+def _layer(suit: Cloth, out_m: float) -> Cloth:
+    corners = suit.points[suit.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.zeros_like(suit.points)
+    for corner in range(3):
+        np.add.at(normals, suit.faces[:, corner], across)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    return replace(suit, points=suit.points + out_m * normals)
+
+
+def shell(wearer: Wearer, low_m: float, high_m: float, out_m: float) -> Sewn:
+    """A close layer over the legs between two heights: socks."""
+    layer = _layer(wearer.tailoring.suit, out_m)
+    layer = cut(layer, 0.3 - _arm_share(wearer, layer))
+    layer = cut(layer, high_m - layer.points[:, 1])
+    return plain(cut(layer, layer.points[:, 1] - low_m))
+
+
+def neck_band(wearer: Wearer, low_m: float, high_m: float, out_m: float) -> Sewn:
+    """A close layer about the neck between two heights above the collar's seam."""
+    layer = _layer(wearer.tailoring.suit, out_m)
+    layer = cut(layer, 0.13 - np.abs(layer.points[:, 0]))
+    layer = cut(layer, high_m - above_collar(wearer.tailoring, layer.points))
+    return plain(cut(layer, above_collar(wearer.tailoring, layer.points) - low_m))
+
+
+def _arm_share(wearer: Wearer, cloth: Cloth) -> np.ndarray:
+    """Share (N,) of arms and hands in a cloth's weights."""
+    names = wearer.fit.names
+    arms = [index for index, name in enumerate(names) if any(part in name for part in ("Arm", "Hand"))]
+    return cloth.weights[:, arms].sum(axis=1)
+
+
+def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float) -> Cloth:
+    """A garment moved out below a height until it lies over another one; sleeves stay."""
+    low = float(outer.points[:, 1].min()) - 0.02
+    levels = np.arange(low, from_m + 0.04, 0.012)
+    arm = _arm_share(wearer, inner) < 0.3
+    points = inner.points[arm]
+    middle = wearer.fit.positions_t[wearer.fit.index("hips")][2]
+    centres = np.tile([0.0, middle], (len(levels), 1))
+    profile = smoothed(hull_profile(points[:, 1], points[:, [0, 2]], levels, centres, 0.02), 1.0, 1.0)
+    angle, radius, _ = profile.polar(outer.points[:, 1], outer.points[:, [0, 2]])
+    # The upper edge of what is below gives no whole hull: nothing goes far.
+    target = profile.radius_at(outer.points[:, 1], angle) + margin_m
+    share = 1.0 - smoothstep(outer.points[:, 1], from_m - 0.02, from_m + 0.03)
+    share *= _arm_share(wearer, outer) < 0.3
+    target = np.minimum(target, radius + FARTHEST_M)
+    return replace(outer, points=move_out(outer.points, profile, (1, 0, 2), target, share))
+
+
+def moved_to(wearer: Wearer, surface: Surface, points: np.ndarray) -> Surface:
+    """A surface with its vertices at other T-pose places."""
+    return smooth_normals(replace(surface, positions=wearer.fit.to_rest_pose(points, surface.weights)))
+
+
+def _loft(sections: list[np.ndarray], weights: np.ndarray) -> Cloth:
+    """A closed tube through sections (K, 3) each, all with one weight (J,)."""
+    count = len(sections[0])
+    points = np.concatenate(sections)
+    faces = grid_faces(len(sections), count, closed=True)
+    return to_triangles(Cloth(points, np.tile(weights, (len(points), 1)), faces))
+
+
+def _rounded(centre: np.ndarray, half_high: float, half_deep: float, count: int = 10) -> np.ndarray:
+    """A flat oval section (K, 3) across X."""
+    angles = 2 * np.pi * np.arange(count) / count
+    return centre + np.stack([np.zeros(count), half_high * np.sin(angles), half_deep * np.cos(angles)], axis=1)
+
+
+def bow_tie(wearer: Wearer, front: np.ndarray) -> Sewn:
+    """A bow tie whose knot lies at a place (3,)."""
+    weights = weights_near(wearer.tailoring.suit, front[None] - np.array([0.0, 0.01, 0.02]))[0]
+    parts = []
+    for sign in (1.0, -1.0):
+        outline = ((0.004, 0.0075), (0.012, 0.011), (0.030, 0.0165), (0.050, 0.021), (0.054, 0.0205), (0.0545, 0.001))
+        sections = [
+            _rounded(front + np.array([sign * x, 0.0, -6.0 * x * x - 0.001]), high, 0.0045 if x < 0.053 else 0.001)
+            for x, high in outline
+        ]
+        wing = _loft(sections, weights)
+        parts.append(Cloth(wing.points, wing.weights, wing.faces if sign < 0 else wing.faces[:, ::-1]))
+    knot = [
+        _rounded(front + np.array([x, 0.0, 0.002]), high, deep)
+        for x, high, deep in (
+            (-0.0085, 0.001, 0.001),
+            (-0.008, 0.0085, 0.005),
+            (0.008, 0.0085, 0.005),
+            (0.0085, 0.001, 0.001),
+        )
+    ]
+    parts.append(_loft(knot, weights))
+    return gold(join(*parts))
+
+
+def throat(wearer: Wearer, points: np.ndarray, above_m: float) -> np.ndarray:
+    """The foremost place (3,) in the middle of a garment's T-pose points, so high above the collar's seam."""
+    middle = points[np.abs(points[:, 0]) < 0.02]
+    ring = middle[np.abs(above_collar(wearer.tailoring, middle) - above_m) < 0.012]
+    ring = ring[ring[:, 2] > wearer.tailoring.collar_point[2] + 0.03]
+    place = ring[np.argmax(ring[:, 2])]
+    return np.array([0.0, place[1], place[2]])

@@ -1,0 +1,154 @@
+"""A buttoned tunic with a stand-up collar, and what is sewn on it: gakuran and marching jacket; a close dress."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from character_cloth import Cloth, cut, folds, grid_faces, hang, hull_profile, join, smoothed, smoothstep, to_triangles
+from character_garments import NECK_HALF_WIDTH_M, above_collar, front_of, move_out, neck_ring
+from wardrobe_pieces import Wearer
+from wardrobe_sewn import Sewn, gold, plain, weights_near
+
+COLUMNS = 49
+BUTTON_M = 0.0075
+
+
+def _grown(cloth: Cloth, out_m: np.ndarray) -> Cloth:
+    """The cloth moved out along its normals by `out_m` (N,)."""
+    corners = cloth.points[cloth.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.zeros_like(cloth.points)
+    for corner in range(3):
+        np.add.at(normals, cloth.faces[:, corner], across)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    return replace(cloth, points=cloth.points + out_m[:, None] * normals)
+
+
+def tunic(wearer: Wearer, hem_m: float) -> Cloth:
+    """Trunk and sleeves of stiff cloth: straight from chest to hem, sleeves of even width."""
+    tailoring = wearer.tailoring
+    suit, arm = tailoring.suit, tailoring.arm
+    points = suit.points
+    fall = smoothed(hang(tailoring.trunk, 0.12), 2.0, 1.5)
+    angle, _, _ = fall.polar(points[:, 1], points[:, [0, 2]])
+    crease = folds(points[:, 1], angle, 0.16, seed=41) * 0.0012
+    target = fall.radius_at(points[:, 1], angle) + 0.013 + crease
+    share = (1 - smoothstep(arm, 0.15, 0.6)) * (
+        1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.02, tailoring.shoulder[1] + 0.01)
+    )
+    cloth = _grown(suit, 0.007 * np.ones(len(points)))
+    cloth = replace(cloth, points=move_out(cloth.points, fall, (1, 0, 2), target, share))
+    cloth = _even_sleeves(wearer, cloth)
+    cloth = cut(cloth, cloth.points[:, 1] - hem_m)
+    cloth = cut(cloth, tailoring.wrist_m + 0.006 - np.abs(cloth.points[:, 0]))
+    neck = np.maximum(-above_collar(tailoring, cloth.points), np.abs(cloth.points[:, 0]) - NECK_HALF_WIDTH_M)
+    return cut(cloth, neck)
+
+
+def _even_sleeves(wearer: Wearer, cloth: Cloth) -> Cloth:
+    tailoring, points = wearer.tailoring, cloth.points.copy()
+    levels = np.arange(tailoring.shoulder[0], tailoring.wrist_m + 0.03, 0.01)
+    centres = np.tile(tailoring.shoulder[[1, 2]], (len(levels), 1))
+    for sign in (1.0, -1.0):
+        own = (tailoring.arm > 0.3) & (points[:, 0] * sign > 0)
+        arm = points[own] * np.array([sign, 1.0, 1.0])
+        solid = tailoring.arm[own] > 0.9
+        sleeve = smoothed(hull_profile(arm[solid, 0], arm[solid][:, [1, 2]], levels, centres, 0.016), 4.0, 1.5)
+        angle, _, _ = sleeve.polar(arm[:, 0], arm[:, [1, 2]])
+        share = (arm[:, 0] - levels[0]) / (levels[-1] - levels[0])
+        bend = np.exp(-(((share - 0.5) / 0.2) ** 2))
+        crease = folds(arm[:, 0], angle, 0.09, seed=42 if sign > 0 else 43) * 0.0022 * bend
+        target = np.maximum(sleeve.radius_at(arm[:, 0], angle), 0.044 - 0.006 * share) + crease
+        moved = move_out(arm, sleeve, (0, 1, 2), target, smoothstep(tailoring.arm[own], 0.6, 0.98))
+        points[own] = moved * np.array([sign, 1.0, 1.0])
+    return replace(cloth, points=points)
+
+
+def stand_collar(wearer: Wearer, shell: Cloth) -> Cloth:
+    """A stand-up collar, closed in front by hooks."""
+    tailoring = wearer.tailoring
+    columns = np.linspace(-np.pi, np.pi, 73)
+    base = neck_ring(tailoring, tailoring.suit, 0.0, columns)
+    upper = neck_ring(tailoring, tailoring.suit, 0.026, columns)
+    outward = np.stack([np.sin(columns), np.zeros(73), -np.cos(columns)], axis=1)
+    up = tailoring.collar_normal * 0.8 + np.array([0.0, 0.2, 0.05])
+    top = upper + outward * 0.004 + up * 0.003
+    rows = [base + outward * 0.006 - up * 0.012, base + outward * 0.0055, (base + upper) / 2 + outward * 0.006]
+    rows += [top + outward * 0.001, top + up * 0.001, top - outward * 0.0025, base + outward * 0.001]
+    points = np.concatenate(rows)
+    weights = np.tile(weights_near(shell, base), (len(rows), 1))
+    return to_triangles(Cloth(points, weights, grid_faces(len(rows), 73, closed=False)))
+
+
+def buttons(shell: Cloth, places: np.ndarray, radius_m: float = BUTTON_M) -> Sewn:
+    """Domed buttons on the front at (x, y) places (N, 2)."""
+    front = front_of(shell)
+    angles = 2 * np.pi * np.arange(10) / 10
+    rings = ((1.0, -0.001), (0.95, 0.0025), (0.55, 0.0045), (0.0, 0.005))
+    parts = []
+    for x, y in places:
+        depth = float(np.nan_to_num(front(x, y)))
+        disc = np.concatenate(
+            [
+                np.stack(
+                    [
+                        x + radius_m * r * np.cos(angles),
+                        y + radius_m * r * np.sin(angles),
+                        np.full(len(angles), depth + out),
+                    ],
+                    axis=1,
+                )
+                for r, out in rings
+            ]
+        )
+        weights = np.tile(weights_near(shell, np.array([[x, y, depth]])), (len(disc), 1))
+        parts.append(to_triangles(Cloth(disc, weights, grid_faces(len(rings), len(angles), closed=True))))
+    return gold(join(*parts))
+
+
+def ribbon(shell: Cloth, path: np.ndarray, half_m: float, lift_m: float) -> Cloth:
+    """A flat ribbon laid on the front of a shell along (x, y) places (K, 2)."""
+    front = front_of(shell)
+    along = np.gradient(path, axis=0)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    rows = []
+    for side, lift in ((-1.0, -0.001), (-0.8, lift_m), (0.0, lift_m * 1.3), (0.8, lift_m), (1.0, -0.001)):
+        flat = path + side * half_m * across
+        depth = front(flat[:, 0], flat[:, 1])
+        good = ~np.isnan(depth)
+        depth = np.interp(np.arange(len(depth)), np.flatnonzero(good), depth[good])
+        rows.append(np.stack([flat[:, 0], flat[:, 1], depth + lift], axis=1))
+    points = np.concatenate(rows)
+    faces = grid_faces(len(rows), len(path), closed=False)
+    return to_triangles(Cloth(points, weights_near(shell, points), faces[:, ::-1]))
+
+
+def close_dress(wearer: Wearer, waist_m: float) -> Cloth:
+    """The bodice of a dress: close to the body, a round neckline, sleeves to below the elbow."""
+    tailoring = wearer.tailoring
+    suit = tailoring.suit
+    fall = smoothed(hang(tailoring.trunk, 1.2), 1.5, 1.5)
+    points = suit.points
+    angle, _, _ = fall.polar(points[:, 1], points[:, [0, 2]])
+    target = fall.radius_at(points[:, 1], angle) + 0.006
+    share = (1 - smoothstep(tailoring.arm, 0.15, 0.5)) * (
+        1 - smoothstep(points[:, 1], tailoring.armpit_m - 0.03, tailoring.armpit_m + 0.05)
+    )
+    cloth = _grown(suit, np.full(len(points), 0.004))
+    cloth = replace(cloth, points=move_out(cloth.points, fall, (1, 0, 2), target, share))
+    cloth = cut(cloth, cloth.points[:, 1] - waist_m)
+    along = (tailoring.wrist_m - tailoring.shoulder[0]) * 0.68 + tailoring.shoulder[0]
+    cloth = cut(cloth, along - np.abs(cloth.points[:, 0]))
+    ahead = smoothstep(cloth.points[:, 2], tailoring.collar_point[2] + 0.02, tailoring.collar_point[2] + 0.12)
+    aside = np.clip(np.abs(cloth.points[:, 0]) / 0.13, 0.0, 1.0)
+    depth = 0.030 + 0.065 * ahead * np.sqrt(1.0 - aside**2)
+    neck = np.maximum(-above_collar(tailoring, cloth.points) - depth, np.abs(cloth.points[:, 0]) - 0.135)
+    return cut(cloth, neck)
+
+
+def front_strip(shell: Cloth, top_m: float, low_m: float) -> Sewn:
+    """The edge where a tunic closes."""
+    path = np.stack([np.full(30, 0.012), np.linspace(top_m, low_m, 30)], axis=1)
+    return plain(ribbon(shell, path, 0.013, 0.0025))
