@@ -26,7 +26,7 @@ class Message(msgspec.Struct, frozen=True, gc=False):
     Attributes
     ----------
     id : str
-        Dotted, e.g. ``"midi.track_truncated"``; names the template.
+        Id of the template: the name of an area, a dot, and the name of the message in it.
     arguments : dict of str to str, int, float or bool
         Values for the template (file, track, bar, note and so on). Texts are made readable (`app.encoding.shown`),
         since file names are among them and messages are stored, printed and displayed.

@@ -123,7 +123,7 @@ def _new(
 
 
 def _ask(requirements: Sequence[Requirement], python: str, system: System) -> list[dict] | None:
-    """Return what pip would install; None where it cannot."""
+    """Return the distributions that pip would install; None if it cannot."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
         asked = subprocess.run(

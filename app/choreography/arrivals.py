@@ -72,17 +72,18 @@ def alignment(arrivals_s: FloatArray, beats_s: FloatArray) -> float:
 
 
 def beats_met(arrivals_s: FloatArray, falls_s: FloatArray, grid: AccentGrid) -> float:
-    """Return how well a dance meets the beats: arrivals those of the piece, and footfalls those that are felt."""
+    """Return a score of how well a dance meets the beats: arrivals those of the piece, and footfalls those that are
+    felt.
+    """
     felt_s = grid.times_s[grid.on_beat]
     met = alignment(arrivals_s, grid.times_s[grid.strengths == 1.0]) + FALLS_SHARE * alignment(falls_s, felt_s)
     return met - BY_CHANCE * chance_of_falls(falls_s, felt_s)
 
 
 def chance_of_falls(falls_s: FloatArray, beats_s: FloatArray) -> float:
-    """Return how little footfalls keep to the beats: 0 if they meet them better than all shifted copies of them do, 1
-    if `AS_WELL` of the copies or more meet them as well.
-
-    Copies are shifted evenly, by up to the time from the first to the last beat, round the end to the start.
+    """Return a measure of how little footfalls keep to the beats: 0 if they meet them better than all shifted copies of
+    them do, 1 if `AS_WELL` of the copies or more meet them as well. Copies are shifted evenly, by up to the time from
+    the first to the last beat, round the end to the start.
     """
     if len(beats_s) < 2 or not len(falls_s):
         return 0.0

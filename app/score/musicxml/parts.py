@@ -68,8 +68,6 @@ class WrittenPart:
 def written_parts(root: Element, place: Place) -> list[WrittenPart]:
     """Return the parts of a score in the order of their list, followed by parts missing in it. Raises FileError if
     there are too many parts or measures.
-
-    Raises FileError ``musicxml.too_many_parts`` and ``musicxml.too_many_measures``.
     """
     listed = [one for parts in root.iterfind("part-list") for one in parts.iter("score-part")]
     with_measures = root.iterfind("part" if root.tag == "score-partwise" else "measure/part")

@@ -32,8 +32,6 @@ class Place:
     def number(self, owner: Element, tag: str) -> Time | None:
         """Return the number in a child of an element; None if there is no such child. Raises FileError for an invalid
         number.
-
-        Raises FileError ``musicxml.bad_value`` where it is none.
         """
         text = owner.findtext(tag)
         return None if text is None else self.number_of(text, tag)
