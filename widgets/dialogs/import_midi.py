@@ -49,7 +49,7 @@ from widgets.dialogs.import_table import ImportTable
 _SIZE = QSize(1280, 580)
 _TITLE_PX = 600
 _SLOW_MS = 300
-_OUTFIT_LETTERS = 12
+_OUTFIT_LETTERS = 20
 _BY_PIECE = "\0by_piece"
 """Value of the option that leaves the outfits to the piece; no outfit has this id."""
 """After this long the dialog says that it is working."""
