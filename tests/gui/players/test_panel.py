@@ -463,7 +463,7 @@ def test_many_players_are_few_widgets(session: Session, show_players: ShowPlayer
         project, _ = duplicate_players(project, [player.id for player in project.players])
     session.document.open(project)
     panel = show_players(session)
-    assert len(panel.findChildren(QWidget)) < 280
+    assert len(panel.findChildren(QWidget)) < 310
     assert isinstance(panel.list, PlayerList)
     session.set_players(tuple(ids(session)))
     assert len(panel.list.selectionModel().selectedIndexes()) == len(project.players)
