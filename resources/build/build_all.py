@@ -171,7 +171,7 @@ def main(texts: list[str] | None = None) -> int:
 
 
 def _display() -> tuple[str, ...] | None:
-    """Return what goes before a command that draws; None: there is no screen to draw on."""
+    """Return the words to put before a command that draws (none if there is a display); None: no display can be had."""
     if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or sys.platform != "linux":
         return ()
     return SCREEN if shutil.which(SCREEN[0]) else None

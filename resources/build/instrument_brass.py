@@ -45,7 +45,7 @@ def on_round(centre: Array, radius: float, normal: Array) -> tuple[Array, Array]
 
 
 def direction(pitch_down_deg: float, yaw_left_deg: float) -> Array:
-    """Return where something points in the player's frame, as the angles of a carriage say it."""
+    """Return the unit vector, in the player's frame, of a direction given by pitch (down) and yaw (to the left)."""
     pitch, yaw = np.radians(pitch_down_deg), np.radians(yaw_left_deg)
     return np.array([np.sin(yaw) * np.cos(pitch), -np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
 
@@ -282,7 +282,7 @@ def _walls(shape: Bell, middle: Array, way: Array, across: Array, over: Array, d
 
 
 def _next_edge(shape: Bell, start: float) -> float:
-    """Return how far a straight piece may go along the profile."""
+    """Return the place along the bell (m) up to which one straight piece is close enough to the profile."""
     end = start
     while end < start + 0.12:
         end += 0.001

@@ -45,7 +45,7 @@ class Pin:
 
     @property
     def upper(self) -> float:
-        """Return where the rod's upper end is when it is pushed in."""
+        """Return the place along the pin of the rod's upper end while the rod is pushed in, m."""
         return self.tube[1] - self.kept_m - self.most_m
 
 

@@ -80,7 +80,8 @@ class Sizes:
     body_material: str = "silver"
 
     def hole_along(self, semitones: float) -> float:
-        """Return where the hole is that, when it is the first open one, gives the note so far above C."""
+        """Return the place along the tube (m) of the hole that gives a note ``semitones`` above C when it is the first
+        open hole."""
         return self.column * 2 ** (-semitones / 12) - self.correction
 
 

@@ -84,7 +84,7 @@ class Hand:
 
 
 def hand() -> Hand:
-    """Return where the right hand is put into the bell."""
+    """Return the place and directions of the right hand in the bell."""
     f = frame()
     centre, out = _bell_axis(f)
     up = root_from_player(PITCH_DOWN_DEG, YAW_LEFT_DEG) @ np.array([0.0, 1.0, 0.0])
@@ -298,7 +298,7 @@ def _hook(model: Model, f: Frame) -> None:
 
 
 def contacts(double: bool = True) -> list[dict[str, object]]:
-    """Return where a trained player's hands touch it, in the root frame."""
+    """Return the contacts of a trained player's hands with the instrument, in the root frame."""
     f = frame()
     front, inside, off = f.way(0, 0, 1), f.way(-0.17, 0, 0.985), f.way(0, 0.35, -0.94)
     pipe = f.at((FIRST_LEVER + 0.010, COIL[1] - COIL_R, 0.052))

@@ -375,7 +375,7 @@ class Cup:
         return found
 
     def top(self, lift_m: float) -> Array:
-        """Return where a finger meets the cup itself."""
+        """Return the place at which a finger touches the cup itself, lifted by ``lift_m``."""
         high = self.thick_m if self.open_hole else self.thick_m + 0.0004
         return self.seat + (lift_m + high) * self.normal
 
@@ -454,7 +454,7 @@ def turn_of(rod: Rod, point: ArrayLike, normal: ArrayLike, travel_m: float) -> t
 
 
 def sink_of(rod: Rod, axis: Array, angle_rad: float, point: ArrayLike, normal: ArrayLike) -> float:
-    """Return how far a point goes against a normal when the key turns; negative where it rises."""
+    """Return the distance (m) that a point sinks against a normal when the key turns; negative if it rises."""
     return float(-angle_rad * np.cross(axis, np.asarray(point, float) - rod.a) @ unit(normal))
 
 
@@ -658,7 +658,8 @@ class Keywork:
         return {"axis": axis, "angle_rad": angle, "pivot_m": rod.a}
 
     def control(self, name: str, kind: str, label: str, part: str, **more: object) -> None:
-        """Return what a finger works, by the part of it that touches; ``more`` of None is left out."""
+        """Add a control of the map, worked by the finger that ``part`` belongs to. Entries of ``more`` that are None
+        are left out."""
         row: dict[str, object] = {"name": name, "kind": kind, "role": "pitch", "label": label}
         row |= {"finger": ".".join(part.split(".")[:2]), "hover_m": self.hover_m, **more}
         self.controls.append({key: value for key, value in row.items() if value is not None})
@@ -673,8 +674,8 @@ class Keywork:
 def entry(
     make: Callable[[], Keywork],
 ) -> tuple[Callable[[], Model], Callable[[], list[dict[str, object]]], Callable[[], str]]:
-    """Return what a family's table ``INSTRUMENTS`` holds of an instrument with keys: model, contacts, tables of the
-    keys."""
+    """Return the entry of an instrument with keys in a family's table ``INSTRUMENTS``: functions that give its model,
+    its contacts and the map's tables of its keys."""
     made = lru_cache(maxsize=1)(make)
     return lambda: made().model, lambda: made().contacts, lambda: made().tables()
 

@@ -129,7 +129,7 @@ class SingleReed:
 
     @property
     def end_z(self) -> float:
-        """Return where it ends and barrel or neck begins."""
+        """Return the z at which the mouthpiece ends and the barrel or neck begins, m."""
         return self.length - self.tip_m
 
     def _reed_at(self, from_tip: ArrayLike) -> Array:
@@ -254,7 +254,7 @@ class DoubleReed:
 
     @property
     def end_z(self) -> float:
-        """Return where its staple goes into the instrument or onto the bocal."""
+        """Return the z at which the reed's staple goes into the instrument or onto the bocal, m."""
         return self.blade + self.thread + self.staple - self.tip_m
 
     def pieces(self) -> Pieces:

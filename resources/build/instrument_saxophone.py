@@ -187,7 +187,7 @@ class Saxophone:
         self.left_share, self.right_share = layout.left_share, self.share(layout.right, ALTO.right)
 
     def directions(self) -> tuple[Array, Array]:
-        """Return where the body goes to from the neck, and its front."""
+        """Return the direction of the body, from the neck down, and the direction of its front."""
         right, back = np.radians([self.layout.right_deg, self.layout.back_deg])
         down = unit((-np.sin(right), -np.cos(right) * np.cos(back), -np.cos(right) * np.sin(back)))
         return down, unit(Z - down * (Z @ down))
@@ -201,7 +201,7 @@ class Saxophone:
     # Places
 
     def share(self, along: float, of_alto: float) -> float:
-        """Return how far around this body a hand reaches, as a share of the alto's angle."""
+        """Return the angle that a hand reaches around this body, as a share of the angle around the alto's."""
         alto = float(np.interp(of_alto, *np.transpose(ALTO.body)))
         return (alto + FINGER_M) / (self.body.radius(along) + FINGER_M)
 
@@ -323,7 +323,7 @@ class Saxophone:
 
     @property
     def socket(self) -> tuple[Array, float]:
-        """Return where the neck goes in, and how wide the tube is there."""
+        """Return the place at which the neck is put in, and the tube's radius there (m)."""
         return np.asarray(self.body.start), self.body.radius(0.0)
 
     def bow_and_bell(self) -> None:
@@ -403,7 +403,7 @@ class Saxophone:
 
     @property
     def _pearl_height(self) -> float:
-        """Return where a finger meets a pearl of the left hand, over the body."""
+        """Return the height above the body at which a finger touches a pearl of the left hand, m."""
         return 0.0030 + 0.0048 + 0.0038 + 0.0034 - 0.0002
 
     def front_f(self, first: float, angle: float) -> None:
@@ -666,7 +666,7 @@ class Baritone(Saxophone):
 
     @property
     def socket(self) -> tuple[Array, float]:
-        """Return where the neck goes in, and how wide that tube is."""
+        """Return the place at which the neck is put in, and the radius of the tube that takes it (m)."""
         return self.receiver, self.layout.neck_radius[1] + 0.0010
 
     def tubes(self) -> None:

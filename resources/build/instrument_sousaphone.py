@@ -160,7 +160,7 @@ def grip() -> tuple[Array, Array, Array, Array]:
 
 
 def contacts() -> list[dict[str, object]]:
-    """Return where a trained player's hands touch it, in the root frame."""
+    """Return the contacts of a trained player's hands with the instrument, in the root frame."""
     middle, _, palm, ahead = grip()
     r = radius(GRIP_DEG)
     around = 0.085 / r

@@ -272,7 +272,7 @@ def _trigger(model: Model) -> None:
 
 
 def contacts(at: Layout = TENOR) -> list[dict[str, object]]:
-    """Return where a trained player's hands touch it, in the root frame."""
+    """Return the contacts of a trained player's hands with the instrument, in the root frame."""
     bar, inner, pull = OUTER_BRACE_Z * Z, INNER_BRACE_Z * Z, Z + 0.2 * LEFT
     # Ring and little finger close around the lower leg as far as the hand's size lets them: no fixed touch.
     return [

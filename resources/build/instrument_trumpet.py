@@ -70,7 +70,7 @@ class Layout:
 
     @property
     def shift(self) -> float:
-        """Return how much further ahead than the trumpet's the valves are, and all that lies about them."""
+        """Return the distance by which the valves, and the parts around them, lie further ahead than a trumpet's, m."""
         return self.first_valve - TRUMPET_FIRST_VALVE
 
     @property
@@ -389,7 +389,7 @@ def _hook(model: Model, at: Layout) -> None:
 
 
 def contacts(at: Layout = TRUMPET) -> list[dict[str, object]]:
-    """Return where a trained player's hands touch it, in the root frame."""
+    """Return the contacts of a trained player's hands with the instrument, in the root frame."""
     first, _, last = at.valves
     inside, within, ahead = unit([0, 0.985, -0.174]), unit([0, 0.65, 0.76]), np.array([0, 0.6, -0.8])
     casing = np.array([-0.42, 0, 0.907])

@@ -99,8 +99,8 @@ class Layout:
 
     @property
     def inner_branch(self) -> tuple[float, float, float]:
-        """Return where the branch in front of the valves stands: along the width, to the front, and its radius at the
-        top."""
+        """Return the place of the branch in front of the valves (along the width, to the front) and the radius of its
+        top bend, m."""
         return (2.4 * self.branch_r + 0.012, self.branch_r + self.piston.casing_r + 0.014, 0.62 * self.branch_r)
 
     @property
@@ -296,7 +296,7 @@ def thumb_ring(model: Model, at: Layout, f: Frame) -> None:
 
 
 def row_contacts(at: Layout, f: Frame) -> list[dict[str, object]]:
-    """Return where the right hand touches: the fingers on the row of valves, the thumb in its ring."""
+    """Return the contacts of the right hand: the fingers on the row of valves, the thumb in its ring."""
     up, inward = f.way(0, 1, 0), unit(f.way(-1, 0, 0.25))
     found = [
         contact(f"right.{finger}.pad", f"valve_{k + 1}", f.at(at.valve(k, at.button)), up, f"valve_{k + 1}")
@@ -307,7 +307,7 @@ def row_contacts(at: Layout, f: Frame) -> list[dict[str, object]]:
 
 
 def contacts(at: Layout) -> list[dict[str, object]]:
-    """Return where a trained player's hands touch it, in the root frame."""
+    """Return the contacts of a trained player's hands with the instrument, in the root frame."""
     f = at.frame()
     row = row_contacts(at, f)
     if at.side_valve:

@@ -159,7 +159,7 @@ def _axle(model: Model, at: Rotary, f: Frame) -> None:
 
 
 def contacts(at: Rotary) -> list[dict[str, object]]:
-    """Return where a trained player's hands touch it, in the root frame."""
+    """Return the contacts of a trained player's hands with the instrument, in the root frame."""
     f = at.frame()
     front = f.way(0, 0, 1)
     v, degrees = at.left_grip

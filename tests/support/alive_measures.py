@@ -87,12 +87,12 @@ class Read:
         return self.world[:, self.bone(name), :3, 3]
 
     def forward_rad(self, name: str) -> FloatArray:
-        """Return how far a joint is bowed in the world, (F,)."""
+        """Return the angle by which a joint leans forward in the world, in each frame, (F,)."""
         ahead = self.world[:, self.bone(name), :3, 2]
         return np.arcsin(np.clip(-ahead[:, 1], -1.0, 1.0))
 
     def aside_rad(self, name: str) -> FloatArray:
-        """Return how far a joint is turned from how it usually is, about the axis the body looks along, (F,)."""
+        """Return the angle by which a joint leans aside from its mean pose, in each frame, (F,)."""
         turns = Rotation.from_matrix(self.world[:, self.bone(name), :3, :3])
         aside: FloatArray = -(turns * turns.mean().inv()).as_rotvec()[:, 2]
         return aside
@@ -198,7 +198,7 @@ def accents_lag_s(read: Read) -> tuple[float, int]:
 
 
 def overlap_ms(read: Read) -> tuple[str, str]:
-    """Return how much later the chest does what the hips did, and the head what the chest did: the lag of the greatest
+    """Return the delay of the chest behind the hips, and of the head behind the chest: the lag of the greatest
     correlation of their leans aside (0.15 to 3 Hz), ms, and that correlation, from the first note to the last. Keyed
     gestures are left out. The peak is that of a parabola. Below a correlation of about 0.8 a lag is a matter of
     chance."""
@@ -221,16 +221,16 @@ def overlap_ms(read: Read) -> tuple[str, str]:
 
 
 def pelvis_cm(read: Read) -> tuple[float, float]:
-    """Return how far the hips go fore and aft, and aside: from the 2nd to the 98th percentile, cm, while there are
-    notes."""
+    """Return the range of the hips' motion fore and aft, and aside, while there are notes: from the 2nd to the 98th
+    percentile, cm."""
     hips = read.place_m("hips")[read.playing]
     ranges = 100.0 * np.subtract(*np.percentile(hips, [98, 2], axis=0))
     return float(ranges[2]), float(ranges[0])
 
 
 def feet_mm(read: Read) -> tuple[float, float]:
-    """Return how far feet are from where they usually stand (ankle and toe joints), outside of planned steps and taps
-    and within them: the greatest distance, mm. Seated feet count too."""
+    """Return the greatest distance of a foot (ankle and toe joints) from its usual place, mm: outside of planned steps
+    and taps, and within them. Seated feet count too."""
     planned = np.zeros(len(read.times_s), np.bool_)
     for event in read.plan.gestures:
         if event.kind in ("step", "tap", "bow", "heel"):
@@ -249,8 +249,8 @@ def feet_mm(read: Read) -> tuple[float, float]:
 
 
 def girth_cm(read: Read) -> float:
-    """Return how much the chest's girth (the convex hull of a slab of the trunk's vertices) grows from the smallest to
-    the largest of the deepest breaths, cm. Trunk: vertices that chest and spine carry."""
+    """Return the growth of the chest's girth (the convex hull of a slab of the trunk's vertices) in the deepest
+    breaths, from the smallest to the largest, cm. Trunk: vertices that chest and spine carry."""
     depths = sorted(read.plan.breaths, key=lambda event: -event.depth if event.kind == "breath" else 0.0)[:4]
     trunk = [read.bone(name) for name in ("spine", "chest", "upperChest") if name in read.playback.bone_names]
     chest, grown = read.bone("upperChest"), []

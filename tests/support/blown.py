@@ -39,7 +39,7 @@ def ticks(seconds: float) -> int:
 def breath_curve(
     blows: Sequence[Blow], rate_hz: float = 200.0, rise_s: float = 0.02, noise: int = 1, seed: int = 1
 ) -> ControllerCurve:
-    """Return what a breath sensor sends; between the blows it says 0, with noise of a step now and then."""
+    """Return the curve that a breath sensor sends: 0 between the blows, with noise of ``noise`` steps of 127."""
     chance = np.random.default_rng(seed)
     at = np.arange(0.0, max(blow.end_s for blow in blows) + 0.5, 1.0 / rate_hz)
     value = np.zeros(len(at))

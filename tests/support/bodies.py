@@ -40,7 +40,7 @@ class Proportions:
     foot: float = 1.0
 
     def matrix(self, joint: str) -> FloatArray:
-        """Return what the part of a joint is scaled by, (3, 3)."""
+        """Return the matrix (3, 3) that scales the part of the body at a joint."""
         bare = re.sub("^(left|right)", "", joint)
         if re.match("Hand|Thumb|Index|Middle|Ring|Little", bare):
             across = self.hand * self.thick

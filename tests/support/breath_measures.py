@@ -74,7 +74,7 @@ def performance_of(path: Path) -> Performance:
 
 
 def measures(performance: Performance, line: MonophonicPart, plan: PlayerPlan) -> Measures:
-    """Return what there is to count about one player's breaths."""
+    """Return the counts of one player's breaths, by their places."""
     times = line_times(line, performance.piece.clock)
     index_of = {note.id: index for index, note in enumerate(line.notes)}
     breaths = [event for event in plan.breaths if event.kind == "breath"]

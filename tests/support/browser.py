@@ -66,7 +66,7 @@ class Page:
             self.ask(f"{domain}.enable")
 
     def value(self, expression: str) -> Any:
-        """Return what JavaScript makes of an expression."""
+        """Return the value of a JavaScript expression on the page."""
         answer = self.ask("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
@@ -107,7 +107,7 @@ class Page:
         path.write_bytes(base64.b64decode(data))
 
     def troubles(self) -> list[str]:
-        """Return what went wrong on the page: exceptions and what the browser complained about."""
+        """Return the errors of the page: its exceptions and the errors that the browser logged."""
         found = []
         for event in self.events:
             if event.get("method") == "Runtime.exceptionThrown":
@@ -118,7 +118,7 @@ class Page:
 
 
 def wait_until(check: Callable[[], Any], what: str) -> Any:
-    """Return what a check gives, once it gives something."""
+    """Return the first true value that a check gives; fails if none comes in time."""
     end_s = time.monotonic() + _ANSWER_S
     while time.monotonic() < end_s:
         found = check()

@@ -30,7 +30,7 @@ class Charts:
         return found
 
     def majority(self, written: int) -> str | None:
-        """Return what more charts than of any other give first; None where two are alike."""
+        """Return the fingering that the most charts give first; None if two are given first equally often."""
         votes = {label: sum(rank == 1 for rank in by.values()) for label, by in self.notes[written].items()}
         most = max(votes.values())
         first = [label for label, count in votes.items() if count == most]

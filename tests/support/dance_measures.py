@@ -190,7 +190,7 @@ def nearest_m(clip: MotionClip, sources: Sequence[MotionClip]) -> FloatArray:
 
 
 def longest_run(values: Sequence[int]) -> int:
-    """Return how often a value comes in a row at most."""
+    """Return the length of the longest run of one value."""
     longest = run = 0
     for at, value in enumerate(values):
         run = run + 1 if at and value == values[at - 1] else 1
@@ -416,7 +416,7 @@ def table(rows: Sequence[Measured]) -> str:
 
 
 def of_sources(model: ChoreographyModel) -> str:
-    """Return what the captures themselves measure."""
+    """Return a line with the measures of each capture that the model was made from."""
     lines = []
     for source, clip in zip(model.sources, model.clips, strict=True):
         sliding = sliding_m_s(clip, foot_contacts(clip))

@@ -77,7 +77,7 @@ class Desk:
         return held.part(held.players[0]).notes
 
     def chosen(self) -> list[tuple[Note, Note | None]]:
-        """Return what was selected, before and after."""
+        """Return each selected note as it was before, with the same note afterwards (None: removed)."""
         after = {note.id: note for note in self.notes()}
         ids = self.seen["notes"]
         assert isinstance(ids, frozenset)

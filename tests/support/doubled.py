@@ -22,7 +22,7 @@ def notes(track: int, first: int, bars: tuple[int, ...], pitches: tuple[int, ...
 
 
 def part(map_id: str, name: str, change: int, played: tuple[Note, ...], track: int = 1) -> Part:
-    """Return what a track's player has on the first instrument, or by ``change`` on another."""
+    """Return a track's part for its first instrument, or for the instrument after ``change`` changes."""
     voice = change * MOST_VOICES
     return Part(f"{track + 1}.1.{voice + 1}", name, track, voice, 0, None, map_id, map_id, played)
 

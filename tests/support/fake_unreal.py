@@ -44,7 +44,7 @@ _READ: dict[bytes, FbxContents] = {}
 
 
 def fbx_contents(path: Path) -> FbxContents:
-    """Return what is in a file."""
+    """Return the bones, morphs, materials and other contents of an FBX file."""
     data = path.read_bytes()
     digest = hashlib.sha256(data).digest()
     if digest not in _READ:

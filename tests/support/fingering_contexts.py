@@ -134,7 +134,7 @@ def _fits(accepted: str, label: str) -> bool:
 
 
 def right_of(chosen: Iterable[Context]) -> dict[str, tuple[int, int]]:
-    """Return how many are right and how many there are, by family."""
+    """Return the number of right contexts and the number of all, by family."""
     result: dict[str, tuple[int, int]] = {}
     for context in chosen:
         right, total = result.get(context.family, (0, 0))

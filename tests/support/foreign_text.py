@@ -57,7 +57,7 @@ def hostile_score(score: Score, canary: Canary) -> Score:
 
 
 def with_more(project: Project, canary: Canary) -> Project:
-    """Return what a project has beside what a MIDI file has: a take, an expression that is shown, a recording."""
+    """Return the project with things that no MIDI file holds: a take, an expression that is shown, a recording."""
     front = project.players[0]
     played = [(1.0 + 0.5 * beat, 1.45 + 0.5 * beat, 60 + beat, 0.7) for beat in range(8)]
     named = {"name": canary.name("take"), "device": canary.name("device"), "recorded": canary.name("recorded")}
@@ -198,7 +198,7 @@ class Judge:
                 self.rest(widget, place)
 
     def _places(self, widget: QWidget) -> Iterator[QPoint]:
-        """Return where a tip may come up; one of ours that names nothing of a file is left alone."""
+        """Yield the places of a widget at which a tool tip may come up."""
         if "<img" in widget.toolTip():
             yield widget.rect().center()
         elif any(

@@ -115,8 +115,8 @@ class _Blocks:
         self._wander = np.linalg.norm(high - low, axis=-1) / 2.0
 
     def possible_depths(self, body: Proxy, radii: FloatArray) -> Iterator[tuple[int, FloatArray]]:
-        """Return how deep anything within a radius (G,) of a point may be in a body, (n,), of each point that is
-        near."""
+        """Yield, for each point near a body, its index and the greatest depth in the body that anything within the
+        radius (G,) of the point may have, (n,)."""
         # A distance changes by no more than the point moves, so nothing within reach is passed over.
         close = signed_distance(body, self._middle) < radii + self._wander
         block, point = np.nonzero(close)

@@ -313,7 +313,7 @@ def _unserved(
     seconds: Callable[[float], float],
     note_id: str,
 ) -> list[str]:
-    """Return what is wrong with the breath in a rest of so many beats, `late` more in the score."""
+    """Return the problems of the breath in a rest of ``rest`` beats, which is ``late`` beats longer in the score."""
     least, last, prepare = thresholds
     if rest + late >= prepare:
         requested: tuple[float, ...] = (onset - min(2 * beat, rest * beat), onset - beat, onset)
@@ -362,7 +362,8 @@ def _named_pitch(name: str) -> int:
 
 
 def _given_up_s(length_s: float) -> float:
-    """Return what of a note may be given up for a breath: half of it, or for the least breath all but its beginning."""
+    """Return the time (s) that a note may lose to a breath: half of it, or for the least breath all but its
+    beginning."""
     return max(0.5 * length_s, min(length_s - SHORTEST_NOTE_S, CATCH_BREATH_S))
 
 

@@ -71,14 +71,15 @@ class Ear:
         ]
 
     def of(self, *kinds: type[News]) -> list[News]:
-        """Return what was reported of these kinds."""
+        """Return the reports of some kinds."""
         return [reported for reported in self.reported if isinstance(reported, kinds)]
 
 
 def assert_mostly_in_order(received: Sequence[bytes], played: Sequence[bytes]) -> None:
-    """Return what was heard is what was played, but for what JACK lost: a busy machine loses some before we hear them.
+    """Fail unless more than half of the played messages were received, in the order in which they were played.
 
-    That we lose nothing is tested where JACK waits for its clients: `test_burst`.
+    On a busy machine JACK loses some before they can be received. `test_burst`, where JACK waits for its clients, tests
+    that the program itself loses none.
     """
     assert len(received) > len(played) / 2
     rest = iter(played)

@@ -89,7 +89,7 @@ class Played:
         return {side: np.tile(ankle_m, (len(times_s), 1)) for side, ankle_m in place.ankles_m.items()}
 
     def placed(self, times_s: FloatArray) -> dict[str, StationBlend]:
-        """Return where the fingers were."""
+        """Return the positions of the hands at some times, by hand."""
         frames = np.round((times_s - self.motion.first_frame_s) * FPS).astype(int)
         return {name: StationBlend(*rows[frames].T) for name, rows in self.hands.items()}
 
@@ -174,7 +174,7 @@ def motion_of(poses: list[Pose], first_s: float) -> Motion:
 
 
 def ready_spans(live: LiveMotion, player_id: str) -> tuple[tuple[float, float], ...]:
-    """Return where a player's motion is made, as spans of seconds in order."""
+    """Return the spans of time (s, in order) for which a player's motion has been made."""
     shown = live._shown
     track = shown.tracks.get(player_id)
     if track is None:

@@ -77,7 +77,7 @@ class Footprint:
 
 
 def footprint() -> Footprint:
-    """Return what the process holds now, after everything that can go has gone."""
+    """Return the memory and objects of the process after everything that can be freed is freed."""
     for _ in range(3):
         QCoreApplication.processEvents()
         QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
@@ -199,7 +199,7 @@ class LongDay:
         self.wait(0.05)
 
     def read_again(self) -> None:
-        """Return what another MIDI file would change is shown, and not taken."""
+        """Open the dialog with the changes of another MIDI file, and cancel it."""
         window = self.program.window
         reimport_from(self.program.editor, QUARTET)
         self.until(lambda: window.findChild(ReimportDialog) is not None)

@@ -90,7 +90,8 @@ QTS_OWN = {"qt_keysequenceedit_lineedit", "palette_field", "shortcut_search"}
 
 
 def faults(application: QApplication) -> Iterator[str]:
-    """Return what does not fit, is too small to hit, or lies outside of what holds it."""
+    """Yield a text about each visible widget that does not fit, is too small to click, or lies outside of its
+    parent."""
     for window in application.topLevelWidgets():
         for widget in (window, *window.findChildren(QWidget)) if window.isVisible() else ():
             if widget.isVisible():
@@ -444,7 +445,7 @@ def look_at(screen: str, pictures: Path | None) -> None:
 
 
 def load() -> None:
-    """Return what is the same at every scale: modules, the piece's plans, and its figures."""
+    """Load everything that is the same at every scale: modules, the piece's plans, and its figures."""
     for package in (widgets.dialogs, app.shell):
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             importlib.import_module(module.name)

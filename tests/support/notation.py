@@ -93,7 +93,7 @@ def corpus() -> Path:
 
 
 def others(reader: str, paths: Sequence[Path]) -> Iterator[Read]:
-    """Return what another reader finds in some files."""
+    """Yield the contents that another reader finds in each of some files."""
     command = [python_of_readers(), str(Path(__file__).with_name("notation_readers.py")), reader, *map(str, paths)]
     found = subprocess.run(command, capture_output=True, text=True, check=False)
     rows: list[dict[str, Any]] = [json.loads(line) for line in found.stdout.splitlines()]
@@ -109,7 +109,7 @@ def others(reader: str, paths: Sequence[Path]) -> Iterator[Read]:
 
 
 def differences(own: Read, other: Read) -> set[str]:
-    """Return what two readers read differently: "error", "notes", "ends", "slurs", "order"."""
+    """Return the kinds of contents that two readers read differently: "error", "notes", "ends", "slurs", "order"."""
     if other.error:
         return {"error"}
     found = set()

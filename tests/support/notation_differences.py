@@ -94,7 +94,7 @@ KNOWN: Final[dict[str, dict[str, tuple[str, str]]]] = {
 
 
 def known(path: str, reader: str) -> tuple[set[str], str]:
-    """Return what a reader is known to read differently in a file, and why."""
+    """Return the kinds of contents that a reader is known to read differently in a file, and the reason."""
     own = next((found for name, found in KNOWN.items() if path.endswith(name)), {})
     facts, reason = own.get(reader, ("", ""))
     return set(facts.split()), reason

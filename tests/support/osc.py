@@ -149,7 +149,7 @@ class Receiver:
 
     @property
     def frames(self) -> list[Frame]:
-        """Return what came so far, of frames that are whole."""
+        """Return the frames that have arrived completely so far."""
         found = frames(list(self.packets))
         return found if not found or found[-1].applied else found[:-1]
 

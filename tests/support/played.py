@@ -110,8 +110,8 @@ def played(path: Path, seed: int = 0, manner: Manner | None = None) -> bytes:
 
 
 def _half_bars(onset_ticks: list[int], contents: PieceContents) -> list[int]:
-    """Return where the half bar of each onset begins, in ticks; a bar of an odd number of beats has a beat left
-    over."""
+    """Return the start of the half bar that each onset is in, ticks; in a bar of an odd number of beats one beat is
+    left over."""
     starts = [metre.tick for metre in contents.metres]
     result = []
     for tick in onset_ticks:

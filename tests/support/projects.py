@@ -263,7 +263,7 @@ decisions = st.builds(
 
 @st.composite
 def curves_read(draw: st.DrawFn, score: Score, read: Iterable[str]) -> dict[str, tuple[ControllerCurve, ...]]:
-    """Return what a file had of controllers, of the parts that were read from it."""
+    """Draw the controller curves of each part that was read from a file."""
     here = {part.id: part.curves for part in score.parts}
     return {
         part_id: here[part_id] if draw(st.booleans()) else tuple(draw(st.lists(curves(), max_size=1)))

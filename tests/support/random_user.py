@@ -482,7 +482,7 @@ def _digests_of_files(events: list[dict[str, Any]]) -> list[str]:
 
 
 def lost_work(events: Sequence[dict[str, Any]], found: Sequence[str]) -> str:
-    """Return what of a killed session's work is nowhere, in words; empty where nothing is lost but the last seconds.
+    """Return a text about the work of a killed session that is lost; empty if only the last seconds are.
 
     Parameters
     ----------

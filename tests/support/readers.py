@@ -131,8 +131,8 @@ def judge(
 
 
 def _differences(reader: str, found: dict[str, object], expected: Expected) -> list[str]:
-    """Return what the tool itself does not compare: hierarchy, number of frames, rate; as far as the reader can
-    tell."""
+    """Return the differences that the tool itself does not look for: hierarchy, number of frames, rate, as far as the
+    reader gives them."""
     problems = []
     parents = found["parent"]
     assert isinstance(parents, dict)

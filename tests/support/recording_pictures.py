@@ -75,7 +75,7 @@ class Wind:
 
 
 def blow() -> None:
-    """Return what the player's process does."""
+    """Send MIDI messages read from standard input at their times; run in the player's process."""
     with WindPlayer("EWI5000", "MIDI 1") as wind:
         for line in sys.stdin:
             for ns, raw in json.loads(line):

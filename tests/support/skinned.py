@@ -74,7 +74,7 @@ class GlbFile:
         return np.frombuffer(self._bytes, dtype, count * width, start).reshape(count, width)
 
     def shown(self, frame: int) -> Shown:
-        """Return what a frame shows."""
+        """Return the joints, morphs and vertices of a frame."""
         nodes = self._gltf.nodes
         world: dict[int, np.ndarray] = {}
 
@@ -139,7 +139,7 @@ class UsdFile:
         self.fps = self._stage.GetFramesPerSecond()
 
     def shown(self, frame: int) -> Shown:
-        """Return what a frame shows."""
+        """Return the joints, morphs and vertices of a frame."""
         from pxr import Usd
 
         time = Usd.TimeCode(frame)

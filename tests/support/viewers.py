@@ -57,7 +57,7 @@ def viewer_of(answers: Sequence[Answer], name: str = "answers.csv") -> ViewerFil
 
 
 def opinion(truth: Mapping[Variant, float], variant: Variant, aspect: Aspect, scale: Scale, late: float) -> float:
-    """Return what viewers think on average; late fingers are seen in the synchrony of fingers alone."""
+    """Return the mean rating of viewers; late fingers lower the rating of the fingers' synchrony alone."""
     lost = late if (variant, aspect, scale) == ("shifted", "fingers_arms", "synchrony") else 0.0
     return truth[variant] - lost
 

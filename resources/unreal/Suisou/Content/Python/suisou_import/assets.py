@@ -161,7 +161,7 @@ def _remove_shared(performance: Performance, requested: set[str]) -> list[str]:
 
 
 def _order(path: str) -> tuple[int, str]:
-    """Return what uses others goes before them."""
+    """Return the key by which assets are sorted: animations, meshes, skeletons, materials, the rest; then the path."""
     prefixes = ("A_", "SK_", "SKEL_", "M_")
     name = path.rpartition("/")[2]
     return next((index for index, prefix in enumerate(prefixes) if name.startswith(prefix)), len(prefixes)), path

@@ -151,7 +151,7 @@ class Performance(NamedTuple):
         return list({figure.mesh: figure for figure in reversed(self.figures)}.values())[::-1]
 
     def path(self, file: str) -> Path:
-        """Return where a file is."""
+        """Return the path of a file that the description names relative to its folder."""
         return self.folder.joinpath(*file.split("/"))
 
 

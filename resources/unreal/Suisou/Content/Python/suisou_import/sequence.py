@@ -82,8 +82,8 @@ def shown_with(performance: Performance) -> set[str]:
 
 
 def last_frame(performance: Performance) -> int:
-    """Return where everything ends: an animation of n keys lasts n - 1 frames, and a section that is longer begins
-    again."""
+    """Return the frame at which every section ends: an animation of n keys lasts n - 1 frames and would start again in
+    a longer section."""
     return max(performance.frames - 1, 1)
 
 
@@ -321,8 +321,8 @@ def _mark(sequence: unreal.LevelSequence, performance: Performance, before: set[
 
 
 def _labels(performance: Performance) -> dict[int, str]:
-    """Return what is written at which frame. A frame has one mark: a marker is reported with its bar, which also keeps
-    a letter of the piece apart from the letters that the editor gives an artist's own marks."""
+    """Return the text of each frame's mark. A frame has one mark: a marker's text also names its bar, so that a letter
+    of the piece is not taken for one of the letters that the editor gives to an artist's own marks."""
     labels = {frame: text("bar", number=number) for number, frame in performance.bars}
     named: dict[int, list[str]] = {}
     for name, bar, frame in performance.markers:
@@ -331,11 +331,11 @@ def _labels(performance: Performance) -> dict[int, str]:
     return dict(sorted(labels.items()))
 
 
-# What is ours in it
+# What the import put into the sequence
 
 
 def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
-    """Return what was put into a sequence the last time; nothing if that cannot be reported."""
+    """Return the figures and marks that the last import put into a sequence; none if its record cannot be read."""
     try:
         state = json.loads(unreal.EditorAssetLibrary.get_metadata_tag(sequence, STATE_TAG))
         figures = dict(_known(*item) for item in state["figures"].items())
@@ -345,8 +345,8 @@ def _state(sequence: unreal.LevelSequence) -> dict[str, Any]:
 
 
 def _known(key: str, figure: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-    """Return what was put for a figure, by its animation; an earlier Suisou kept it by the mesh, of which each had its
-    own."""
+    """Return a figure of the record with its animation as the key. Earlier versions used the mesh as the key, since
+    each figure had a mesh of its own."""
     if "mesh" in figure:
         return key, figure
     folder, _, name = key.rpartition("/SK_")
