@@ -29,6 +29,7 @@ from wardrobe_atlas import CLOTH_MEAN_LINEAR, write_atlas
 from wardrobe_outfits import OUTFITS, Outfit, Pieces
 from wardrobe_pieces import Wearer
 
+LEAST_BREATH_M = 5e-4
 WEARERS = {"man": "man_adult", "woman": "woman_adult"}
 
 
@@ -69,7 +70,7 @@ def build(outfit: Outfit, pieces: Pieces, wearer: Wearer, path: Path) -> None:
     meta = META | {"name": f"Suisou {outfit.title[0].lower()}"}
     parts = [surface for surface, _ in surfaces.values()]
     write_character(path, wearer.fit, wearer.positions, parts, materials, meta, {"outfit": about}, compact=True)
-    add_breath(path)
+    add_breath(path, LEAST_BREATH_M)
 
 
 def share_buffer(paths: list[Path], shared: Path) -> None:

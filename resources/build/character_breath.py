@@ -25,8 +25,8 @@ AHEAD, BACK = {CHEST: 1.25, BELLY: 1.7}, {CHEST: 0.75, BELLY: 0.35}
 """Measure of how far front and back go, as shares of the sides."""
 
 
-def add_breath(path: Path) -> None:
-    """Add the two shapes to a character's file that has none yet."""
+def add_breath(path: Path, least_m: float = LEAST_M) -> None:
+    """Add the two shapes to a character's file that has none yet, without offsets below the least."""
     gltf = GLTF2().load(str(path))
     blob = bytearray(gltf.binary_blob())
     names = [gltf.nodes[node].name for node in gltf.skins[0].joints]
@@ -44,11 +44,11 @@ def add_breath(path: Path) -> None:
             if joints is not None:
                 share += (np.isin(_read(gltf, blob, joints), trunk) * _read(gltf, blob, weights)).sum(axis=1)
         found = {name: share[:, None] * _widened_m(name, points, places) for name in (CHEST, BELLY)}
-        found = {name: deltas for name, deltas in found.items() if np.abs(deltas).max() > SEEN_M}
+        found = {name: deltas for name, deltas in found.items() if np.abs(deltas).max() > max(SEEN_M, least_m)}
         if not found:
             continue
         for name, deltas in found.items():
-            accessor = _sparse(gltf, blob, deltas)
+            accessor = _sparse(gltf, blob, deltas, least_m)
             for primitive in mesh.primitives:
                 primitive.targets = [*(primitive.targets or []), {"POSITION": accessor}]
             known = [*known, name]
@@ -110,9 +110,9 @@ def _read(gltf: GLTF2, blob: bytearray, index: int) -> np.ndarray:
     return rows / np.iinfo(kind).max if accessor.normalized else rows
 
 
-def _sparse(gltf: GLTF2, blob: bytearray, deltas: np.ndarray) -> int:
+def _sparse(gltf: GLTF2, blob: bytearray, deltas: np.ndarray, least_m: float) -> int:
     """A sparse accessor of offsets: only the rows that differ from zero are stored."""
-    rows = np.flatnonzero(np.abs(deltas).max(axis=1) > LEAST_M)
+    rows = np.flatnonzero(np.abs(deltas).max(axis=1) > least_m)
     values = deltas[rows].astype("<f4")
     views: list[Any] = []
     for payload in (rows.astype("<u2").tobytes(), values.tobytes()):

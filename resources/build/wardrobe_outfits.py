@@ -164,7 +164,17 @@ def worn_over(wearer: Wearer, outer: Surface, inner: Surface, margin_m: float = 
 
 def _blazer_and_skirt(wearer: Wearer) -> Pieces:
     legs = _school_legs(wearer, SECOND, True, MAIN)
-    return [(worn_over(wearer, suit_jacket(wearer), legs[0][0]), "top"), *legs]
+    return [(_roomy_jacket(wearer, legs[0][0]), "top"), *legs]
+
+
+def _roomy_jacket(wearer: Wearer, below: Surface) -> Surface:
+    """The jacket of all of a woman's suits, which has room for a skirt."""
+    return worn_over(wearer, suit_jacket(wearer), below)
+
+
+def _roomy_suit(wearer: Wearer) -> Pieces:
+    below = _school_legs(wearer, SECOND, True, MAIN)[0][0]
+    return [(_roomy_jacket(wearer, below), "top"), (suit_trousers(wearer), "bottom")]
 
 
 def hemmed(wearer: Wearer, top: Surface, hem_m: float) -> Surface:
@@ -232,7 +242,7 @@ def _marching(wearer: Wearer) -> Pieces:
 
 def _polo(wearer: Wearer) -> Pieces:
     legs = grey_trousers(wearer)
-    top = worn_over(wearer, tee(wearer), legs)
+    top = worn_over(wearer, tee(wearer), legs, 0.012)
     cloth = cloth_of(wearer, top)
     yoke = neck_band(wearer, -0.06, 0.012, 0.0015)
     turned = collar(wearer.tailoring, cloth, front_of(cloth))
@@ -318,7 +328,7 @@ OUTFITS = (
     Outfit(
         "jazz_suit",
         ("Jazz suit", "ジャズのスーツ"),
-        {"man": _suit, "woman": _suit},
+        {"man": _suit, "woman": _roomy_suit},
         {MAIN: (0.045, 0.010, 0.020), SECOND: (0.012, 0.012, 0.014), ACCENT: (0.42, 0.40, 0.36)},
     ),
     Outfit(

@@ -170,6 +170,8 @@ def _arm_share(wearer: Wearer, cloth: Cloth) -> np.ndarray:
 def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: float) -> Cloth:
     """A garment moved out below a height until it lies over another one; sleeves stay."""
     low = float(outer.points[:, 1].min()) - 0.02
+    # The upper edge of what is below gives no whole hull.
+    from_m = min(from_m, float(inner.points[:, 1].max()) - 0.045)
     levels = np.arange(low, from_m + 0.04, 0.012)
     arm = _arm_share(wearer, inner) < 0.3
     points = inner.points[arm]
@@ -177,7 +179,6 @@ def over(wearer: Wearer, outer: Cloth, inner: Cloth, from_m: float, margin_m: fl
     centres = np.tile([0.0, middle], (len(levels), 1))
     profile = smoothed(hull_profile(points[:, 1], points[:, [0, 2]], levels, centres, 0.02), 1.0, 1.0)
     angle, radius, _ = profile.polar(outer.points[:, 1], outer.points[:, [0, 2]])
-    # The upper edge of what is below gives no whole hull: nothing goes far.
     target = profile.radius_at(outer.points[:, 1], angle) + margin_m
     share = 1.0 - smoothstep(outer.points[:, 1], from_m - 0.02, from_m + 0.03)
     share *= _arm_share(wearer, outer) < 0.3
