@@ -33,8 +33,8 @@ RUNS = 5
 
 
 def _scene() -> Scene:
-    """Return what `blender_reference.py` makes: a box on every bone, two shapes on one, turning bones, two that
-    move."""
+    """Return the scene that `blender_reference.py` makes too: a box on every bone, two shapes on one box, turning
+    bones, two that move."""
     parents = [-1] + [0 if number % 4 == 0 else number - 1 for number in range(1, BONES)]
     offsets = np.random.default_rng(1).normal(scale=10, size=(BONES, 3))
     seconds = np.arange(FRAMES)[:, None] / FPS
@@ -82,7 +82,7 @@ def _median_s(run: Callable[[], None]) -> float:
 
 @pytest.fixture(scope="module")
 def blender(tmp_path_factory: pytest.TempPathFactory) -> dict[str, float]:
-    """Return what Blender's exporters take for the like scene, in seconds."""
+    """Return the times (s) of Blender's exporters for a like scene."""
     python = os.environ.get("SUISOU_BLENDER_PYTHON", "")
     if not Path(python).is_file() or subprocess.run([python, "-c", "import bpy"], check=False).returncode:
         pytest.skip("no Blender to compare with: SUISOU_BLENDER_PYTHON names no interpreter that has bpy")

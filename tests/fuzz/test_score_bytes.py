@@ -19,7 +19,7 @@ ROUNDS_SMALL, ROUNDS_LARGE = 12, 1
 
 
 def check(score: Score) -> None:
-    """Return what holds of every score, however odd its file."""
+    """Fail unless a score has the properties that every score has, however odd its file."""
     assert score.ticks_per_quarter > 0
     assert score.metres[0].tick == 0
     ids = [note.id for part in score.parts for note in part.notes]

@@ -134,8 +134,8 @@ def session(qt_app: QApplication, tasks: ImmediateTasks) -> Iterator[Session]:
 
 @pytest.fixture(autouse=True)
 def _widgets_die_here(qapp: QApplication) -> Iterator[None]:
-    """Return what a test leaves behind is deleted before the next one begins, so that a fault shows where it is
-    made."""
+    """Delete the widgets that a test leaves behind before the next test begins, so that a fault shows in the test that
+    made it."""
     # What is there by now is there to stay, as the characters that the test before loaded: it is searched for garbage
     # this once, and not again after each of the others.
     gc.collect()

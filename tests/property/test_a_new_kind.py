@@ -163,7 +163,7 @@ def grown(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def seen(root: Path, script: str) -> dict[str, object]:
-    """Return what a script prints that runs in a program."""
+    """Return the JSON that a script prints when it is run in a copy of the program."""
     command = [sys.executable, "-c", script]
     done = subprocess.run(command, cwd=root, env={"PYTHONPATH": str(root)}, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

@@ -20,7 +20,7 @@ def modules() -> dict[str, Path]:
 
 
 def imported(path: Path) -> set[str]:
-    """Return what a file imports, and what it takes from there, which may be modules too."""
+    """Return the modules that a file imports, and the names taken from them, which may be modules too."""
     names: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):

@@ -25,7 +25,7 @@ ID = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)+")
 
 @cache
 def nodes(path: Path) -> tuple[ast.Call | ast.Constant, ...]:
-    """Return what is called and what is written out, of a file that is parsed once."""
+    """Return the calls and constants of a file, which is parsed once."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     return tuple(node for node in ast.walk(tree) if isinstance(node, ast.Call | ast.Constant))
 
@@ -76,7 +76,7 @@ def strings(*folders: str) -> set[str]:
 
 
 def action_ids() -> set[str]:
-    """Return what a row of the table of actions begins with: an id of its own kind, no message."""
+    """Return the ids of rows in the tables of actions: they look like ids of messages but are none."""
     ids = set()
     shell = ROOT / "app" / "shell"
     for path in (*(shell / "commands").glob("*.py"), *shell.glob("*/actions.py")):

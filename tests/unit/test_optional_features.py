@@ -31,7 +31,7 @@ exec(statements)
 
 
 def run_without(feature: str, statements: str, cwd: Path) -> str:
-    """Return what a program prints that lacks a feature's row and folders."""
+    """Return the text that a program without a feature's row and folders prints."""
     command = [sys.executable, "-c", LEFT_OUT, feature, statements]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "QT_QPA_PLATFORM": "offscreen"}
     done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, env=environment, timeout=300)

@@ -59,7 +59,7 @@ def names(tree: ast.AST) -> Iterator[tuple[int, str]]:
 
 
 def faults(source: str, allowed: set[str]) -> list[str]:
-    """Return what a module must not use."""
+    """Return the uses of names that a module must not use, each with the name to use instead."""
     if not MENTIONED.search(source):
         return []
     found = {(line, name) for line, name in names(ast.parse(source)) if name in INSTEAD and name not in allowed}

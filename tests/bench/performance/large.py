@@ -17,7 +17,7 @@ QUARTER = 480
 
 
 def calibration_s() -> float:
-    """Return how long this machine needs, now, for a fixed piece of interpreted work."""
+    """Return the time (s) that this machine needs at present for a fixed piece of interpreted work."""
     times_s = []
     for _ in range(3):
         start_s = time.perf_counter()

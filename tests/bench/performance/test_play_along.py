@@ -69,7 +69,8 @@ def test_from_event_to_pose(instrument_id: str) -> None:
 
 
 def second(number: int, low: int, high: int) -> Iterator[tuple[float, str]]:
-    """Return what a controller sends in a second, as bytes in hexadecimal: breath, bend, and legato notes."""
+    """Yield the messages that a controller sends in one second, each with its time (s) and its bytes in hexadecimal:
+    breath, bend, and legato notes."""
     random = np.random.default_rng(number)
     events = [(step / BREATH_HZ, f"b002{value:02x}") for step, value in enumerate(random.integers(0, 128, BREATH_HZ))]
     bends = random.integers(0, 128, (BEND_HZ, 2)).tolist()

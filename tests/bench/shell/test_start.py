@@ -38,7 +38,7 @@ program.end()
 
 
 def seconds(script: str, *arguments: str) -> float:
-    """Return what a script says it took, the best of some runs."""
+    """Return the time (s) that a script prints for itself: the shortest of `RUNS` runs."""
     command = [sys.executable, "-c", script, *arguments]
     runs = [subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True) for _ in range(RUNS)]
     return min(float(run.stdout.strip().splitlines()[-1]) for run in runs)

@@ -181,7 +181,7 @@ class LargeEditor:
         return whole
 
     def floor_s(self) -> float:
-        """Return what the window's composing costs where nothing but a point has changed: median CPU, seconds."""
+        """Return the cost of composing the window when only one point has changed: median CPU time, s."""
         label = self.window.status
 
         def point() -> None:

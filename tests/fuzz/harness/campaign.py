@@ -49,7 +49,7 @@ class Result:
 
     @property
     def failure(self) -> str:
-        """Return what is wrong, in few words; empty where nothing is."""
+        """Return a short text about the failure; empty if there is none."""
         if self.outcome not in ("accepted", "refused"):
             return f"{self.outcome}: {self.place}"
         if self.cpu_s > MOST_CPU_S:

@@ -127,7 +127,7 @@ def forget_peak() -> None:
 
 
 def status_kb(field: str) -> int:
-    """Return what Linux says of this process's memory; 0 elsewhere."""
+    """Return a field of Linux's report on this process's memory, kB; 0 on other systems."""
     try:
         lines = Path("/proc/self/status").read_text().splitlines()
     except OSError:

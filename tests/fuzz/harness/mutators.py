@@ -338,7 +338,8 @@ def _midi_chunks(data: bytes) -> tuple[bytes, list[list[tuple[int, bytes]]]] | N
 
 
 def _midi_events(data: bytes) -> list[tuple[int, bytes]]:
-    """Return what of a track can be taken apart; running status is written out."""
+    """Return the events of a track that mutations can move or remove, with their delta times; running status is written
+    out."""
     events: list[tuple[int, bytes]] = []
     at, status = 0, 0
     while at < len(data):

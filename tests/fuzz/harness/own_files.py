@@ -69,7 +69,7 @@ def _key() -> Any:
 
 @cache
 def answers() -> list[bytes]:
-    """Return what one viewer answered, with and without doubts."""
+    """Return a file with one viewer's answers, some of them left out."""
     from app.evaluation.answers import encode_answers
     from tests.support.viewers import viewers
 

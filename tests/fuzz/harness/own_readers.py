@@ -24,7 +24,7 @@ def _performance() -> Any:
 
 
 def evaluation_key(path: Path, folder: Path) -> None:
-    """Return which variant is behind which clip, with the answers of some viewers."""
+    """Read a key of an evaluation and work out its results with the answers of one viewer."""
     from app.evaluation.key import KEY_FILE
     from tests.fuzz.harness.own_files import answers
 
@@ -33,7 +33,7 @@ def evaluation_key(path: Path, folder: Path) -> None:
 
 
 def answers(path: Path, folder: Path) -> None:
-    """Return what a viewer answered, up to the written results."""
+    """Read a viewer's answers and work out the results with them."""
     from app.evaluation.key import KEY_FILE
     from tests.fuzz.harness.own_files import evaluation_key
 

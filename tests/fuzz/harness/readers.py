@@ -32,7 +32,7 @@ class Refused(Exception):
 
 @contextmanager
 def accepted(step: str) -> Iterator[None]:
-    """Return what was read must get through this step: a refusal comes too late."""
+    """Fail if a step after the reading refuses the data: the refusal comes too late."""
     try:
         yield
     except AppError as error:
@@ -145,7 +145,7 @@ def danced(path: Path, folder: Path) -> None:
 
 
 def piece_metadata(path: Path, folder: Path) -> None:
-    """Return what was said of the acting of another piece, loaded into one that is planned and saved."""
+    """Load metadata of another piece into a project, plan the project and save it."""
     from app.performance.ensemble import Performance
     from app.project.piece_metadata import load_metadata, with_metadata
 
@@ -225,7 +225,7 @@ def journal(path: Path, folder: Path) -> None:
 
 
 def clip(path: Path, folder: Path) -> None:
-    """Return what another program has put on the clipboard as notes is pasted and saved."""
+    """Paste notes from another program's clipboard into a project and save it."""
     from app.project.edit.notes import paste, read_clip
 
     notes = read_clip(path.read_bytes())

@@ -87,7 +87,7 @@ def squeezed(size: int) -> bytes:
 
 
 def spaces(size: int) -> bytes:
-    """Return what unpacks to a thousand times its size."""
+    """Return a packed score that unpacks to about a thousand times its size."""
     return packed(document(note("C5", 16)) + " " * (1000 * size))
 
 

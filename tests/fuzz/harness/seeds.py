@@ -101,7 +101,7 @@ def journal() -> list[bytes]:
 
 
 def presence() -> list[bytes]:
-    """Return what an editor notes down of its work; ``@`` stands for the folder."""
+    """Return files in which an editor records its open document and autosave; ``@`` stands for the folder."""
     return [
         json.dumps({"pid": 1, "document": document, "autosave": autosave}).encode()
         for document, autosave in (("", ""), ("@/work.suisou", "@/work.suisou.autosave"), ("", "@/token.suisou"))
@@ -137,7 +137,7 @@ def preset() -> list[bytes]:
 
 
 def character_entry() -> list[bytes]:
-    """Return what describes a user's own character."""
+    """Return files that describe a user's own character."""
     return [
         b'file = "figure.glb"\n',
         b'file = "figure.glb"\ntitle = "Another figure"\n\n[joints]\nhips = "Hips"\nleftHand = ""\n\n'
@@ -229,7 +229,7 @@ def _dance() -> Scene:
 
 @cache
 def choreography() -> list[bytes]:
-    """Return what is learned of two short clips."""
+    """Return the file of a choreography model learned from two short clips."""
     from tests.unit.choreography.test_model_file import CONTENT
 
     return [CONTENT]
@@ -268,7 +268,7 @@ def _media(*kinds: str, options: tuple[str, ...] = ()) -> list[bytes]:
 
 
 def unreal_description() -> list[bytes]:
-    """Return what an export into Unreal says of itself."""
+    """Return the description that an export for Unreal Engine writes."""
     root, place = "/Game/Suisou/Piece", {"x_cm": 0.0, "y_cm": 1.5, "z_cm": 0.0, "yaw_deg": 90.0}
 
     def figure(kind: str, name: str) -> dict[str, Any]:

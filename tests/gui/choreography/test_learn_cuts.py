@@ -54,7 +54,7 @@ def plot(dialog: LearnDialog) -> CutPlot:
 
 
 def at(dialog: LearnDialog, frame: float, part: float = 0.3) -> QPoint:
-    """Return where a frame is in the plot; at this part of its height from above."""
+    """Return the point of a frame in the plot, at a part of the plot's height from above."""
     view = plot(dialog).plot.viewport()
     return QPoint(round(plot(dialog).x_px(frame)), round(part * view.height()))
 

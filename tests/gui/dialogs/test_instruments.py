@@ -66,7 +66,7 @@ class Page:
         delete_now()
 
     def line(self) -> QLineEdit:
-        """Return what is typed into."""
+        """Return the line edit that is open in the table."""
         (line,) = self.table.viewport().findChildren(QLineEdit)
         return line
 

@@ -53,7 +53,7 @@ def steps(session: Session) -> list[str]:
 
 
 def pitches(session: Session) -> list[int]:
-    """Return what the part has of the two seconds that the take lasts."""
+    """Return the pitches of the part's notes in the two seconds that the take lasts."""
     assert session.player is not None
     end = session.project.score.tempo_map.ticks(2.0)
     return [note.pitch for note in session.project.part(session.player).notes if note.onset_tick < end]

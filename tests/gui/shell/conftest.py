@@ -90,7 +90,7 @@ class Answers:
 
 @pytest.fixture
 def answers() -> Answers:
-    """Return what the user answers."""
+    """Return the answers that the test gives in place of the user."""
     return Answers()
 
 

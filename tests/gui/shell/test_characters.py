@@ -62,7 +62,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture(autouse=True)
 def _nothing_is_planned(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Return how a new body holds its instrument takes long to find, and is judged elsewhere."""
+    """Leave out the planning: a new body's hold of its instrument takes long to find, and other tests judge it."""
     monkeypatch.setattr(Generator, "_plan", lambda self, project: None)
 
 

@@ -94,7 +94,7 @@ OPENED: dict[str, Open] = {
 
 
 def kinds(base: type[QDialog]) -> set[type[QDialog]]:
-    """Return what is made from a class and is no base of others."""
+    """Return the classes derived from a class that have no subclasses themselves."""
     below = base.__subclasses__()
     return set().union(*map(kinds, below)) if below else {base}
 

@@ -177,7 +177,7 @@ def menus(program: Program, judge: Judge) -> None:
 
 
 def notices(program: Program, judge: Judge) -> None:
-    """Return what is said and what can be undone."""
+    """Show a notice, the lines of the streaming and the commands to undo, and judge each."""
     session = program.session
     session.streaming.set(state="no_receiver", lines=session.streaming.planned(session.project, session.players))
     session.notice(Message("midi.empty", {"file": judge.canary.name("notice")}), Severity.ERROR)

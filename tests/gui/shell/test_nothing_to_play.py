@@ -19,7 +19,7 @@ def written(folder: Path, name: str, *tracks: list[mido.Message | mido.MetaMessa
 
 
 def banner(program: Program) -> tuple[str, list[QPushButton]]:
-    """Return what the banner says, and its answers."""
+    """Return the banner's text and its buttons."""
     assert program.window.banner.isVisible()
     text = program.window.banner.findChild(QLabel, "banner_text")
     assert isinstance(text, QLabel)

@@ -73,7 +73,7 @@ def click(dialog: PieceSettingsDialog, name: str) -> None:
 
 
 def fill_in(dialog: PieceSettingsDialog) -> None:
-    """Return what `OTHER` says, by the keys alone."""
+    """Enter the settings of `OTHER` with the keyboard alone."""
     type_into(part(dialog, QLineEdit, "title"), OTHER.title)
     type_into(part(dialog, QComboBox, "rate"), "23.976")
     type_into(part(dialog, QDoubleSpinBox, "preroll"), "2.5")

@@ -40,7 +40,7 @@ def crash(program: Program) -> None:
 
 
 def offered(program: Program) -> tuple[Recoverable, ...]:
-    """Return what editors that are gone left behind."""
+    """Return the unsaved work that closed or crashed editors left behind."""
     found: list[tuple[Recoverable, ...]] = []
     program.editor.files.find_recoverable(found.append)
     return found[-1]

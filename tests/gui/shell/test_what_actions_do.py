@@ -283,7 +283,7 @@ def within_bar_3(desk: Desk) -> None:
 
 
 def began_at(desk: Desk) -> float:
-    """Return where the playhead went first: by now a slow machine may be seconds further."""
+    """Return the first position of the playhead: on a slow machine it may be seconds further by now."""
     places = desk.seen["places"]
     assert isinstance(places, list)
     return float(places[0])
@@ -313,7 +313,7 @@ def set_language(code: str) -> Deed:
 
 
 def owners(desk: Desk) -> list[str]:
-    """Return which takes the part has, from its beginning on."""
+    """Return the ids of the takes that the part is made of, in order of time."""
     return [span.take_id for span in desk.project.takes[desk.player.id].comp]
 
 

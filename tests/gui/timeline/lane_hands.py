@@ -52,7 +52,7 @@ def front_plan(session: Session) -> PlayerPlan:
 
 
 def region_of(lane: RegionLane, event_id: str) -> Region:
-    """Return how a lane shows an event."""
+    """Return the region that shows an event in a lane."""
     return next(region for region in lane.regions if region.event_id == event_id)
 
 
@@ -62,7 +62,7 @@ def middle(lane: RegionLane, event_id: str) -> QPoint:
 
 
 def viewport(lane: Lane) -> QWidget:
-    """Return what gets the mouse."""
+    """Return the widget that receives the lane's mouse events."""
     return lane.plot
 
 

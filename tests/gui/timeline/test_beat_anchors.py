@@ -51,7 +51,7 @@ def bar(session: Session, number: int) -> int:
 
 
 def handle(lane: WaveformLane, tick: int) -> QPoint:
-    """Return where a bar line or beat is taken hold of."""
+    """Return the point at which the mouse grips a bar line or beat."""
     x = lane.axis.x_px(lane.session.project.score.tempo_map.seconds(float(tick)))
     return QPoint(round(x), lane.plot.height() - 4)
 

@@ -75,7 +75,7 @@ def place(lane: DanceLane, number: int, row: int = 0) -> QPointF:
 
 
 def states(lane: DanceLane, dancer_id: str = MARY) -> list[int]:
-    """Return what the project's dancer dances, worked out anew."""
+    """Return the states of the steps of a dancer of the project, computed anew."""
     performance = lane.session.performance
     return [step.state for step in dancing_of(performance, lane.session.project.dancer(dancer_id)).steps()]
 

@@ -48,7 +48,7 @@ def wait_ready(sound: EditorSound, qtbot: QtBot) -> None:
 
 
 def excerpt(sound: EditorSound, start_s: float, end_s: float) -> np.ndarray:
-    """Return what the playback would play."""
+    """Return the samples that the playback would play between two times."""
     return sound.playback.mix.read(round(start_s * RATE_HZ), round((end_s - start_s) * RATE_HZ))
 
 

@@ -33,7 +33,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def film(capsys: pytest.CaptureFixture[str], *options: str | Path) -> str:
-    """Return what is printed."""
+    """Return the text that the command ``film`` prints."""
     assert main(["film", str(QUARTET), *map(str, options)]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""

@@ -125,7 +125,8 @@ def test_who_begins_and_ends_goes_there_and_back_without_a_jump(
     assert far > 0.05
 
     def steps(count: int) -> list[float]:
-        """Return how far from the performance, frame by frame, in parts of the whole way."""
+        """Return the distance from the performance in each of some frames, as a share of the live pose's distance from
+        it."""
         found = []
         for _ in range(count):
             now_s[0] += 1 / 60

@@ -86,7 +86,7 @@ def drag(
 
 
 def place_of(viewport: ViewportPanel, row: int, joint: str = "chest") -> QPointF:
-    """Return where a joint is in the picture."""
+    """Return the point of a joint in the picture."""
     assert viewport.scene.loaded is not None
     size = canvas(viewport).size()
     (place,), _ = viewport.camera.project(viewport.scene.stage.joint_m(row, joint), size.width(), size.height())

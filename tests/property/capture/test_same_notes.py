@@ -74,7 +74,7 @@ class Listener(PlayAlong):
 
 
 def held_live(stream: list[tuple[int, bytes]]) -> list[tuple[float, set[int]]]:
-    """Return which pitches the live player holds after each message."""
+    """Return the pitches that the live player holds after each message, with the message's time (s)."""
     player = Listener(live_player())
     at_ms, found = 0, []
     for gap_ms, message in stream:

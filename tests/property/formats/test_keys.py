@@ -18,7 +18,8 @@ WITHIN = 1.0 + 1e-5
 
 
 def _slow_off(values: AnyFloatArray, kept: BoolArray) -> float:
-    """Return how far numbers of one curve (F, D) are at most from what a reader draws, frame by frame."""
+    """Return the greatest difference between the numbers of a curve (F, D) and those that a reader interpolates from
+    the kept keys, computed frame by frame."""
     keys = [frame for frame in range(len(values)) if kept[frame]]
     worst = 0.0
     for frame in range(len(values)):

@@ -120,7 +120,7 @@ def choice_cost(fingering: Fingering, first: Fingering, length: float, places: s
 
 
 def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset[tuple[str, bool]]]:
-    """Return what each finger holds: names of controls, and whether wholly."""
+    """Return the controls that each finger holds: their names, and whether wholly."""
     result: dict[str, set[tuple[str, bool]]] = {}
     for control in instrument.controls:
         value = fingering.controls.get(control.name, control.rest_value)
@@ -133,7 +133,7 @@ def held(fingering: Fingering, instrument: InstrumentMap) -> dict[str, frozenset
 def fingers_cost(
     a: Fingering, b: Fingering, instrument: InstrumentMap, step: float, gap: float, hurry: float, trill: bool
 ) -> float:
-    """Return what the fingers' way from one fingering to another costs."""
+    """Return the cost of the fingers' motion from one fingering to another."""
     levers = {one.name for one in instrument.controls if one.kind == "lever" and one.finger.endswith("thumb")}
     before, after = held(a, instrument), held(b, instrument)
     nothing: frozenset[tuple[str, bool]] = frozenset()
@@ -236,7 +236,7 @@ def naive_cost(notes: tuple[PlainNote, ...], choice: list[Fingering], instrument
 
 
 def path_cost(problem: FingeringProblem, path: IntArray) -> float:
-    """Return what the search pays for a path, over the whole line."""
+    """Return the cost of a path over the whole line, as the search counts it."""
     count = len(path)
     notes, steps = np.arange(count), np.arange(count - 1)
     cost = float(problem.local_cost[notes, path].sum() + problem.motions.cost[steps, path[:-1], path[1:]].sum())
@@ -246,7 +246,7 @@ def path_cost(problem: FingeringProblem, path: IntArray) -> float:
 
 
 def share_of_pace(step: float) -> float:
-    """Return how hurried a step of this length is: not from half a second on, wholly up to 0.12 s."""
+    """Return the share of the cost of haste for a step of this length (s): 0 from half a second on, 1 up to 0.12 s."""
     return min(max((0.5 - step) / 0.38, 0.0), 1.0)
 
 

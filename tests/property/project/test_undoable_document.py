@@ -496,7 +496,7 @@ class Day(RuleBasedStateMachine):
     @precondition(lambda self: self.document.project.players)
     @rule(data=st.data())
     def somebody_records(self, data: st.DataObject) -> None:
-        """Return what was recorded is the part."""
+        """Record a take and make it the whole part."""
         player_id = a_player(data, self.document.project).id
         after = record(data, self.document.project, player_id)
         self.applied(takes.comp_whole(after, player_id, after.takes[player_id].takes[-1].id))

@@ -63,5 +63,5 @@ def ramp_track(seconds: float = 20.0, start_s: float = 0.0) -> MixTrack:
 
 
 def times_s(block: np.ndarray) -> np.ndarray:
-    """Return what such samples say."""
+    """Return the times (s) that are written into such samples."""
     return block[:, 0] * 32768 / 1000

@@ -46,7 +46,7 @@ def expressive(seeds: dict[str, int]) -> Project:
 
 
 def plain(project: Project) -> Project:
-    """Return what the score alone says."""
+    """Return the project without controller curves: dynamics of the score alone."""
     parts = tuple(msgspec.structs.replace(part, curves=()) for part in project.score.parts)
     return replace(project, score=msgspec.structs.replace(project.score, parts=parts))
 

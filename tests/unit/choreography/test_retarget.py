@@ -53,7 +53,7 @@ def moving(seed: int = 3) -> MotionClip:
 
 
 def joints(character: Character, motion: Motion, frame: int) -> dict[str, tuple[FloatArray, Rotation]]:
-    """Return where every joint is, by a loop."""
+    """Return the place and rotation of every joint, computed in a loop."""
     skeleton, found = character.skeleton, dict[str, tuple[FloatArray, Rotation]]()
     for at, (name, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
         turn = Rotation.from_quat(motion.rotations[frame, at].astype(np.float64))

@@ -86,8 +86,8 @@ def scored(
     own: SegmentCandidates,
     weights: Weights,
 ) -> float:
-    """Return what a way through the grid is worth, added up one by one; less than anything where it is too fast or
-    slow."""
+    """Return the score of a path through the grid, added up step by step; negative infinity if a step is too fast or
+    too slow or repeats a segment."""
     total, starts = 0.0, [float(grid.times_s[way[0][0]] - own.before_s[way[0][1]])]
     for place, _ in way:
         total -= 0.0 if grid.on_beat[place] else weights.off_beat

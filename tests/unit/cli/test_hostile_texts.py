@@ -31,7 +31,7 @@ KEPT = "曲 ガ\u3000é👩\u200d🎤"
 
 
 def harmless(printed: str) -> str:
-    """Return what was printed, without anything that a terminal obeys or that begins a line of its own."""
+    """Return a printed text, after checking that it has no control characters and no line of its own made by a name."""
     assert not [c for c in printed if c != "\n" and unicodedata.category(c) in ("Cc", "Zl", "Zp", "Cs")]
     assert "\u202e" not in printed
     assert f"\n{FORGED}" not in printed

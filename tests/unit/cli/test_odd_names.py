@@ -43,7 +43,7 @@ def _reload() -> None:
 
 
 def readable(printed: str) -> str:
-    """Return what was printed: the names as they were meant, and nothing that is escaped."""
+    """Return a printed text, after checking that it can be encoded and that no name is escaped."""
     printed.encode()
     assert "\\udc" not in printed
     return printed

@@ -33,7 +33,7 @@ def quartet() -> Path:
 
 
 def length_s(quartet: Path, capsys: pytest.CaptureFixture[str]) -> float:
-    """Return what the program itself says the end is."""
+    """Return the end of the piece (s) that the program itself prints."""
     assert main(["stream", str(quartet), "--player", "Trombone 1", "--from", "9999"]) == BAD_USE
     (end,) = re.findall(r"lasts from -?[0-9.]+ to ([0-9.]+) s$", capsys.readouterr().err)
     return float(end)

@@ -23,7 +23,7 @@ ARGUMENTS = ("--fps", "30", "--from-bar", "1", "--to-bar", "4", "--player", PLAY
 
 
 def bell_directions(folder: Path) -> np.ndarray:
-    """Return where the instrument points in every frame, as written."""
+    """Return the direction of the instrument in every frame of the written file."""
     scene = read_scene(folder / f"{PLAYER}_trumpet_Bb.fbx")
     assert scene.clip is not None
     playback = ScenePlayback(scene, scene.clip)

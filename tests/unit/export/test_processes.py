@@ -58,7 +58,7 @@ def files(folder: Path) -> dict[str, bytes]:
 
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """Return what one process writes."""
+    """Return the files that a single process writes."""
     folder = tmp_path_factory.mktemp("alone")
     export(request(folder, quartet(), 1), text)
     return files(folder)

@@ -101,7 +101,7 @@ def _judge(found: Scene, meant: Scene, most_mm: float) -> None:
 
 
 def _landmarks_mm(scene: Scene, character: Character, target: TargetSkeleton, played: Scene) -> dict[str, np.ndarray]:
-    """Return how far every landmark of a played scene is off, frame by frame, by skinning its vertices."""
+    """Return the error (mm) of every landmark of a played scene in each frame, measured by skinning the vertices."""
     assert played.clip is not None
     frames, result, found = scene.clip.frames, {}, []
     for one in (scene, played):
@@ -214,7 +214,7 @@ def test_other_programs_play_all_formats_within_the_bounds(
 
 
 def _expected(scene: Scene, sampled: list[int] | None = None) -> readers.Expected:
-    """Return what every reader should find, with every key."""
+    """Return the values that every reader should find, with every key."""
     assert scene.clip is not None
     clip = scene.clip
     sampled = list(range(clip.frames)) if sampled is None else sampled

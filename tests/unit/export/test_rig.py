@@ -71,7 +71,7 @@ class Files:
         return JointPlayback(ScenePlayback(scene, scene.clip), self.target, self.character)
 
     def instrument(self) -> np.ndarray:
-        """Return where the instrument's bones are (F, N, 4, 4), in the player's own space."""
+        """Return the transforms of the instrument's bones (F, N, 4, 4), in the player's own space."""
         held = self.held
         for socket in socket_names(self.target):
             held = in_world(held, self.scene, socket)
@@ -135,7 +135,7 @@ def world_m(scene: Scene) -> np.ndarray:
 
 
 def rest_m(scene: Scene) -> dict[str, np.ndarray]:
-    """Return where bones are at rest, by their names."""
+    """Return the places of the bones at rest (m), by their names."""
     clip = scene.clip
     assert clip is not None
     turns = np.stack([bone.rotation_xyzw for bone in scene.bones])[None]

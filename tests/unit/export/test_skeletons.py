@@ -154,7 +154,7 @@ def what_it_holds(scene: Scene) -> readers.Expected:
 
 
 def without_morphs(scene: Scene) -> Scene:
-    """Return what no option changes, and what takes readers longest."""
+    """Return the scene without its morphs: no option changes them, and they take readers longest."""
     assert scene.clip is not None
     meshes = tuple(replace(mesh, morphs=()) for mesh in scene.meshes)
     return replace(scene, meshes=meshes, clip=replace(scene.clip, morph_weights={}))

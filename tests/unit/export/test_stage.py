@@ -43,7 +43,7 @@ def report(folder: Path) -> dict[str, Any]:
 
 
 def _hips_m(scene: Scene) -> np.ndarray:
-    """Return where the bone that follows the body's motion is, (F, 3): the hips, or an instrument's root."""
+    """Return the places (F, 3) of the bone that follows the body's motion: the hips, or an instrument's root."""
     assert scene.clip is not None
     names = [bone.name for bone in scene.bones]
     bone = names.index("hips") if "hips" in names else 0

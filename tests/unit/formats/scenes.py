@@ -183,7 +183,7 @@ def instrument(fps: Fraction, frames: int = 49) -> Scene:
 
 
 def expected(scene: Scene) -> Expected:
-    """Return what every reader should find in a scene's file."""
+    """Return the values that every reader should find in a scene's file."""
     assert scene.clip is not None
     clip = scene.clip
     translations = np.tile([bone.translation_cm for bone in scene.bones], (clip.frames, 1, 1)).astype(float)

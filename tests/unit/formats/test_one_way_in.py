@@ -40,7 +40,7 @@ MENTIONED = re.compile("|".join((*READING, r"\bopen\s*\(")))
 
 
 def readings(path: Path) -> Iterator[tuple[str, int]]:
-    """Return what in a module reads a file by itself, and in which line."""
+    """Yield the names in a module that read a file directly, each with its line."""
     source = path.read_text(encoding="utf-8")
     if not MENTIONED.search(source):
         return

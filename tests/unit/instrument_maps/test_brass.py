@@ -111,7 +111,7 @@ def first_choice(name: str, written: int) -> str:
 
 
 def reported(name: str, written: int) -> dict[str, set[int]]:
-    """Return what the chart says of a note, without what this instrument has no valve for."""
+    """Return the fingerings of a note in the chart, without those that need a valve this instrument lacks."""
     chart, shift = CHART_OF[name]
     signs = {control.label for control in MAPS[name].controls if control.label}
     acoustics = MAPS[name].acoustics
@@ -126,8 +126,8 @@ def uncharted(name: str) -> set[int]:
 
 
 def deviation_cents(instrument: InstrumentMap, valves: tuple[str, ...], written: int) -> float:
-    """Return how far the nearest harmonic of the tube with these valves is from a note, from the tube's lengths
-    alone."""
+    """Return the distance (cents) of a note from the nearest harmonic of the tube with these valves, computed from the
+    tube's lengths alone."""
     acoustics = instrument.acoustics
     added = {name: 2 ** (semitones / 12) - 1 for name, semitones in acoustics.semitones.items()}
     again = sum(length for name, length in added.items() if name in valves and name == acoustics.compensator)

@@ -19,7 +19,7 @@ LOWEST_C = 24
 
 
 def sounding(keys: set[str]) -> int:
-    """Return what keys sound, in semitones over the low C of the thumb's octave."""
+    """Return the pitch that some keys sound, in semitones over the low C of the thumb's octave."""
     first, second, little = "L1" in keys, "L2" in keys, "Lp1" in keys
     steps = {
         "L1": -2, "L2": -2 if first else -1, "bis": 0 if first and second else -1, "L3": -2, "Lp1": 1, "Lp2": -1,

@@ -28,7 +28,7 @@ def maps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def _again() -> dict[str, object]:
-    """Return what another start of the program would have; the maps of this one stay what they are."""
+    """Return the maps that another start of the program would load; the maps of this process stay as they are."""
     digest_of.cache_clear()
     return dict(bundled_maps.__wrapped__())
 

@@ -260,7 +260,7 @@ def test_bodies_are_not_fatter_than_the_mesh_near_the_hands(instrument: Instrume
 
 
 def overlapping(low: FloatArray, high: FloatArray, least: FloatArray, most: FloatArray) -> BoolArray:
-    """Return which of the boxes (3, T) meet another box."""
+    """Return a mask of the boxes (3, T) that meet another box."""
     meets = (low[0] <= most[0]) & (high[0] >= least[0])
     for axis in (1, 2):
         meets &= (low[axis] <= most[axis]) & (high[axis] >= least[axis])

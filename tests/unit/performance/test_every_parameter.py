@@ -56,7 +56,7 @@ def arrays(motion: Motion) -> dict[str, np.ndarray]:
 
 
 def differing(one: Motion, other: Motion) -> np.ndarray:
-    """Return which frames are not the same bits."""
+    """Return a mask of the frames in which two motions are not equal bit by bit."""
     ours, theirs = arrays(one), arrays(other)
     assert ours.keys() == theirs.keys()
     differs = np.zeros(len(one.hips_m), bool)
@@ -66,7 +66,7 @@ def differing(one: Motion, other: Motion) -> np.ndarray:
 
 
 def within(spans_s: np.ndarray, start_s: float, count: int) -> np.ndarray:
-    """Return which of so many frames are in some spans or around them."""
+    """Return a mask of the frames that are in some spans or close to them."""
     times_s, room_s = frame_times(start_s, FPS, 0, count), float((padding_frames(FPS) + 1) / FPS)
     found = np.zeros(count, bool)
     for first_s, last_s in spans_s:

@@ -202,7 +202,7 @@ def _within_bounds(motion: Motion, without: Motion, playing: PerformanceCurves) 
 
 
 def _beyond_deg(motion: Motion, wrist: int, axes: JointAxes, body: Body) -> float:
-    """Return how far a wrist is out of its range at most."""
+    """Return the greatest angle by which a wrist is out of its range, degrees."""
     local = motion.rotations[:, wrist].astype(np.float64)
     turns, of_axes = local.T[:, None], np.array([[axes.flexion, axes.sideways, axes.twist]])
     degrees = np.degrees(anatomical_angles(turns, of_axes))[:, 0].T

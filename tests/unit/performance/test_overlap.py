@@ -28,7 +28,7 @@ MAPS = bundled_maps()
 
 
 def aside_rad(turns: np.ndarray) -> np.ndarray:
-    """Return how far a joint is turned from how it usually is, about the axis the body looks along."""
+    """Return the angle by which a joint leans aside from its mean pose in each frame, between 0.15 and 3 Hz."""
     rotations = Rotation.from_quat(turns)
     aside = -(rotations * rotations.mean().inv()).as_rotvec()[:, 2]
     return sosfiltfilt(butter(2, (0.15, 3.0), "band", fs=FPS, output="sos"), aside)

@@ -146,7 +146,7 @@ def test_everyone_is_looked_at_in_known_pieces(players: int, notes: int, seconds
 
 
 def of_length(seconds: float, fps: Fraction) -> Performance:
-    """Return what is asked of a performance."""
+    """Return a stand-in for a performance, with the frame rate and the length that are read from one."""
     return cast(Performance, SimpleNamespace(project=SimpleNamespace(fps=fps), time_frame=TimeFrame(0.0, seconds)))
 
 

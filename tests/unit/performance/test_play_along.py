@@ -208,8 +208,7 @@ def test_where_the_breath_pauses_long_enough_one_breathes_in_and_shuts_the_mouth
 
 
 def strokes(step_s: float, velocities: list[int]) -> list[tuple[float, float, float]]:
-    """Return how far tip and back of the tongue come up, and how hard the breath pushes, in each of some attacked
-    notes."""
+    """Return the heights of the tongue's tip and back and the push of the breath in each of some attacked notes."""
     breath, found = breathing(), list[tuple[float, float, float]]()
     for place, velocity in enumerate(velocities):
         onset_s = 1.0 + place * step_s

@@ -65,7 +65,7 @@ def later(project: Project) -> Project:
 
 
 def made(autosave: Autosave, writing: Writing, now_s: float) -> AutosaveResult:
-    """Return what the shell does with a writing that is due."""
+    """Run a writing that is due, as the shell does, and return its result."""
     try:
         written = writing.run()
     finally:
@@ -85,7 +85,7 @@ def open_in(autosave: Autosave, document: Path) -> Project:
 
 
 def recover(item: Recoverable, autosave: Autosave) -> Project:
-    """Return what the shell does with work that is taken over."""
+    """Take over recovered work, as the shell does, and return its project."""
     project, base = load_work(item)
     autosave.opened(item.document, base, item.facts, item.autosave)
     autosave.changed(project, 0.0)

@@ -31,7 +31,7 @@ def bar(project: Project, number: int) -> int:
 
 
 def beats_s(project: Project) -> np.ndarray:
-    """Return where every quarter lies in the recording."""
+    """Return the place of every quarter in the recording, s."""
     ticks = np.arange(0, project.score.end_tick, project.score.ticks_per_quarter)
     return np.asarray(project.score.tempo_map.seconds(ticks) - project.audio.offset_s)
 

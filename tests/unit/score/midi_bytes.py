@@ -36,7 +36,7 @@ def note(pitch: int, ticks: int = 48, channel: int = 0, delta: int = 0) -> bytes
 def score_of(
     data: bytes, *, encoding: str | None = None, maps: tuple[MapChoice, ...] = MAPS, stem: str = "piece"
 ) -> Score:
-    """Return what the reader makes of the bytes of a file."""
+    """Return the score that is read from the bytes of a MIDI file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"{stem}.mid"
         path.write_bytes(data)

@@ -76,7 +76,7 @@ class Counted:
         self.has_pickup = given.has_pickup
 
     def beats(self, index: int) -> list[int]:
-        """Return where the beats of a bar begin."""
+        """Return the ticks at which the beats of a bar begin."""
         number, start, denominator = self.bars[index]
         end = self.bars[index + 1][1]
         beat = Fraction(4 * self.ticks_per_quarter, denominator)

@@ -181,7 +181,7 @@ def test_a_system_message_of_any_status_harms_no_note(running: bool) -> None:
 
 
 def _kinds(raw: bytes, mapping: ControllerMapping) -> set[str]:
-    """Return what a message of a take says: curves, and whether it ends a note that sounds on its channel."""
+    """Return the kinds of a take's message: its curves, and "end" if it ends a note that sounds on its channel."""
     message = decoded(raw.hex())
     if message is None:
         return set()

@@ -69,7 +69,8 @@ def bank(msb: int, channel: int = 10) -> bytes:
 
 
 def found(*tracks: bytes) -> tuple[int, int, list[str]]:
-    """Return how many notes players have, how many hits there are, and why parts have no player."""
+    """Return the number of notes of all players, the number of percussion hits, and the ids of the reasons for parts
+    without a player."""
     score = score_of(header(1, len(tracks)) + b"".join(chunk(b"MTrk", events + END) for events in tracks))
     played = sum(len(part.notes) for part in score.parts)
     return played, len(score.percussion), [part.reason.id for part in score.unplayed]

@@ -39,7 +39,8 @@ def paths(place: int) -> list[re.Pattern[str]]:
 
 
 def wrong(text: str, place: int) -> list[str]:
-    """Return what begins with a menu of the bar and ``>`` and goes on with none of its menus and commands."""
+    """Return the places of a text that begin with a menu of the bar and ``>`` but name none of its menus and
+    commands."""
     known, flowing = paths(place), " ".join(text.split())
     bar = "|".join(re.escape(without_key(TEXTS[f"menu.{name}"][place])) for name in BAR)
     starts = [found.start() for found in re.finditer(rf"(?<!> )(?<![A-Za-z])(?:{bar}) > ", flowing)]

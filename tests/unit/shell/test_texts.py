@@ -75,7 +75,7 @@ ID = re.compile(r"[a-z_]+\.\w+")
 
 
 def fields(text: str) -> set[tuple[str, str]]:
-    """Return what a template is filled with: names, and how they are formatted; plurals are English."""
+    """Return the fields of a template: their names and formats. Plurals, which only English has, are left out."""
     parsed = string.Formatter().parse(text)
     return {(name, spec or "") for _, name, spec, _ in parsed if name is not None and "|" not in (spec or "")}
 

@@ -30,7 +30,7 @@ def _dense(mesh: SkinnedMesh, bones: int) -> np.ndarray:
 
 
 def _surface(material: Material) -> np.ndarray:
-    """Return what a Phong surface can tell: not whether both sides show."""
+    """Return the properties of a material that a Phong surface can express: all but whether both sides show."""
     return np.array([*material.base_color, material.metallic, material.roughness])
 
 

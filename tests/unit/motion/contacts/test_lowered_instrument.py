@@ -76,7 +76,7 @@ class Case:
 
     @property
     def placed(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return where the instrument is in these frames."""
+        """Return the places and rotations of the instrument in these frames."""
         place_m, turn = self.motion.instrument_position_m[self.frames], self.motion.instrument_rotation[self.frames]
         return place_m.astype(np.float64), turn.astype(np.float64)
 
@@ -219,8 +219,8 @@ def _skins(character: Character, joints: JointTransforms) -> Iterator[Skin]:
 
 
 def _depth_m(skin: Skin, points_m: np.ndarray) -> float:
-    """Return how deep any of the points is inside a shell: behind all of the nearest vertices, none of them at an
-    edge."""
+    """Return the greatest depth (m) of any of the points inside a shell. A point is inside if it is behind all of the
+    nearest vertices and none of them is at an edge."""
     deepest_m = 0.0
     low_m, high_m = points_m.min(axis=0) - OUT_OF_SIGHT_M, points_m.max(axis=0) + OUT_OF_SIGHT_M
     for vertices_m, normals, rim in skin:

@@ -19,7 +19,7 @@ SLOW, EASY, FAST = 960, 240, 120
 def keys(
     pitches: list[int], instrument: InstrumentMap, step_tick: int = EASY, bpm: float = 120.0, sounds: float = 1.0
 ) -> list[frozenset[str]]:
-    """Return what is held on each note of an even line, of which each note sounds a part."""
+    """Return the controls held on each note of an even line in which a note sounds for a part of its step."""
     notes = line_of(*((at * step_tick, round(sounds * step_tick), pitch) for at, pitch in enumerate(pitches)))
     times = line_times(MonophonicPart("p", notes, instrument), PlainClock(((0, bpm),)))
     return [frozenset(event.controls) for event in plan_fingerings(notes, times, instrument, {})[0]]

@@ -49,7 +49,7 @@ def sizes(plan: PlayerPlan, kind: str, start_s: float, end_s: float) -> float:
 
 
 def motion(plan: PlayerPlan, start_s: float, end_s: float) -> dict[str, float]:
-    """Return how far the layers of the body go within a span, before the player's amplitude: range of each."""
+    """Return the range of each layer of the body's motion within a span, before the player's amplitude is applied."""
     times_s = np.arange(start_s, end_s, 0.02)
     levels = layers_of(plan).sample(times_s)
     return {name: float(np.ptp(getattr(levels, name))) for name in ("sway", "height", "lean")}

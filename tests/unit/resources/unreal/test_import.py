@@ -37,7 +37,7 @@ def marked(markers: tuple[Marker, ...]) -> Project:
 
 
 def own_assets(editor: Editor) -> set[str]:
-    """Return what is named after the piece and its players; materials and textures bear their own names."""
+    """Return the paths of the assets named after the piece and its players: all but materials and textures."""
     surfaces = ("Material", "Texture2D")
     return {path for path, asset in editor.studio.assets.items() if type(asset).__name__ not in surfaces}
 

@@ -58,13 +58,13 @@ def test_an_instrument_hangs_on_the_bone_of_its_player(game: Path, rig: RigOptio
 
 
 def in_unreal(place: np.ndarray) -> np.ndarray:
-    """Return where a bone of a file is in its actor: the importer turns the root and mirrors everything."""
+    """Return the transform, in its actor, of a bone of a file: the importer turns the root and mirrors everything."""
     result: np.ndarray = MIRRORED @ TURNED @ place @ MIRRORED
     return result
 
 
 def skin_in_unreal(place: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Return where points (N, 3) on a bone are, centimetres."""
+    """Return the places (N, 3) of points on a bone in Unreal Engine, cm."""
     homogeneous = np.concatenate([points, np.ones((len(points), 1))], axis=1)
     result: np.ndarray = (in_unreal(place) @ MIRRORED @ homogeneous.T).T[:, :3]
     return result

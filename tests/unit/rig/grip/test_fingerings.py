@@ -72,7 +72,7 @@ class Fingered:
         return place[:, None] + quaternion.rotate(turn[:, None], points - wrist[:, None])
 
     def points_m(self, contact: Contact) -> np.ndarray:
-        """Return where (F, 3) a contact of the map is."""
+        """Return the places (F, 3) of a contact of the map, m."""
         place, turn = node_transforms(self.model, self.instrument, self.controls, len(self))
         node = self.model.node_names.index(contact.node)
         aside = aside_m(contact, self.instrument, self.controls.get(contact.control or "", np.ones(len(self))))
@@ -214,7 +214,7 @@ def test_fingers_keep_out_of_the_instrument_on_their_ways_and_where_they_wait(fi
 
 
 def _skin_of(character: Character, hand: HandHold, table: FingerTable) -> skinning.Patch:
-    """Return what a finger carries."""
+    """Return the patch of skin that moves mostly with a finger."""
     mark = character.landmarks[f"{hand.side}.hand"]
     mesh = skinning.mesh_named(character, mark.mesh)
     carried = np.isin(mesh.joints[mark.vertices], table.joints) * mesh.weights[mark.vertices]

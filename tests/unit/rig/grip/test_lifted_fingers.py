@@ -34,8 +34,8 @@ def _holds(instrument_id: str, character_id: str) -> tuple[Skeleton, GripPose, G
 
 
 def _tips_m(skeleton: Skeleton, joints: tuple[int, ...], station: StationTable) -> FloatArray:
-    """Return where what touches is over the values of a control, in the wrist's frame, by the skeleton's own
-    kinematics."""
+    """Return the places of the touching part of a finger over the values of a control, in the wrist's frame, computed
+    with the skeleton's own kinematics."""
     rotations = np.tile([0.0, 0.0, 0.0, 1.0], (len(station.values), len(skeleton.names), 1))
     rotations[:, list(joints)] = station.rotations
     posed = forward(skeleton, rotations)

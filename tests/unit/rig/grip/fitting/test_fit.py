@@ -74,7 +74,7 @@ def _numbers(held: SettingBinding, place: int) -> dict[str, int]:
 
 
 def _at(held: SettingBinding, place: int) -> dict[str, Station]:
-    """Return where the fingers are in a round."""
+    """Return the stations of the fingers in a round."""
     return {finger: stations(held.instrument)[finger][number] for finger, number in _numbers(held, place).items()}
 
 
