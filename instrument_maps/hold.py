@@ -149,6 +149,21 @@ class LoweredPlace(MapTable, frozen=True):
     roll_left_deg: float
 
 
+SupportKind: TypeAlias = Literal["neck_strap", "harness", "seat_strap"]
+"""A band around the neck; one over both shoulders and around the ribs; one across the seat, under its player."""
+
+
+class Support(MapTable, frozen=True):
+    """A strap that bears the instrument.
+
+    ``hook_m`` is where it is hooked in, in the root frame; ``postures`` those it is worn in.
+    """
+
+    kind: SupportKind
+    hook_m: Vector
+    postures: tuple[Posture, ...] = ("standing", "seated")
+
+
 class Hold(MapTable, frozen=True):
     """Hold of the instrument by a trained player.
 
@@ -157,6 +172,8 @@ class Hold(MapTable, frozen=True):
 
     ``free_hand``: hand that can leave the lowered instrument and reach past it to the music; None for the one that does
     not carry the weight.
+
+    ``supports``: the straps it hangs on.
 
     ``size_range``: limits of the factor by which the instrument is scaled for a player with small hands or short arms,
     or with large hands.
@@ -169,6 +186,7 @@ class Hold(MapTable, frozen=True):
     lowered_seated: LoweredPlace | None = None
     size_range: tuple[float, float] = (0.5, 1.25)
     free_hand: Literal["left", "right", "none"] | None = None
+    supports: tuple[Support, ...] = ()
 
     @property
     def leaving_hand(self) -> Hand | None:

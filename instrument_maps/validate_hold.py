@@ -119,6 +119,10 @@ def hold_problems(instrument: InstrumentMap) -> Iterator[Problem]:
             "hold.size_range",
             f"must be [smallest, largest] with {_SMALLEST} <= smallest <= 1 <= largest <= {_LARGEST}",
         )
+    for index, support in enumerate(hold.supports):
+        yield from near_point(f"hold.supports[{index}].hook_m", support.hook_m)
+        if not support.postures:
+            yield f"hold.supports[{index}].postures", "says no posture"
     for name in ("standing", "seated"):
         carriage, lowered = getattr(hold, name), getattr(hold, f"lowered_{name}")
         if (carriage is None) != (lowered is None):

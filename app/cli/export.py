@@ -95,6 +95,7 @@ def _add_content_options(command: argparse.ArgumentParser) -> None:
     fill_help(parts, parts=", ".join(FACE_PARTS))
     alone = command.add_argument("--motion-only", action="store_true")
     fill_help(alone, formats=names_where(lambda kind: kind.without_meshes))
+    command.add_argument("--without-props", action="store_true")
     sizes = tuple(texture_size_text(px) for px in TEXTURE_SIZES)
     textures = command.add_argument("--texture-size", choices=sizes, default=texture_size_text(USUAL_TEXTURE_PX))
     fill_help(textures, formats=names_where(lambda kind: kind.textured), usual=USUAL_TEXTURE_PX)
@@ -219,7 +220,15 @@ def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
         seen = foresee_unreal(unreal, performance, ids, source, bars)
     else:
         seen = foresee_folder(
-            request.folder, performance, ids, request.formats, source, request.sound, request.stage, bars=bars
+            request.folder,
+            performance,
+            ids,
+            request.formats,
+            source,
+            request.sound,
+            request.stage,
+            bars=bars,
+            props=request.with_props,
         )
     for id, files in (("export_report.will_replace", seen.replaced), ("export_report.will_remove", seen.removed)):
         if files:
@@ -273,6 +282,7 @@ def _request(
         motion_only=arguments.motion_only,
         texture_px=next(px for px in TEXTURE_SIZES if texture_size_text(px) == arguments.texture_size),
         levels=levels_for(arguments.levels_of_detail, arguments.unreal is not None),
+        props=not arguments.without_props,
         with_ignored=arguments.ignored,
     )
 
@@ -294,6 +304,8 @@ def _requested_formats(arguments: argparse.Namespace) -> frozenset[Format]:
         raise UsageError("unreal.face_names")
     if arguments.motion_only and arguments.unreal is not None:
         raise UsageError("unreal.motion_only")
+    if arguments.without_props and arguments.unreal is not None:
+        raise UsageError("unreal.without_props")
     if arguments.motion_only and not any(kind.without_meshes for kind in requested(formats)):
         raise UsageError("motion_only.formats", possible=names_where(lambda kind: kind.without_meshes))
     refuse_attachment(formats, arguments.instrument)

@@ -12,7 +12,7 @@ from app.project.camera_bookmarks import CameraBookmark, View
 Follows = Literal["never", "close_ups", "always"]
 FOLLOWS: tuple[Follows, ...] = get_args(Follows)
 """Close-ups: only from one view of a player to another."""
-Shown = Literal["wireframe", "skeleton", "contacts", "names"]
+Shown = Literal["wireframe", "skeleton", "contacts", "names", "props"]
 SHOWN: tuple[Shown, ...] = get_args(Shown)
 
 
@@ -63,7 +63,7 @@ class ViewportState(State):
     def __init__(self) -> None:
         super().__init__()
         self._view: View = "ensemble"
-        self._shown: frozenset[Shown] = frozenset(("names",))
+        self._shown: frozenset[Shown] = frozenset(("names", "props"))
         self._posing = False
         self.follows_selection = True
         self.camera: ViewportCamera | None = None

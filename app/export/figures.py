@@ -4,6 +4,7 @@ keys.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from app.export.attachment import own_path
@@ -15,13 +16,16 @@ from app.export.humanoid import humanoid_scene
 from app.export.instrument import instrument_scene
 from app.export.request import CastDancing, CastMusician, ExportRequest
 from app.export.scene_keys import keyed_character, keyed_instrument
+from app.export.supports import supports_scene
 from app.export.target import TargetSkeleton, instrument_path
 from app.formats.keys import KeyChoice
 from app.formats.scene import Scene
 from app.motion.model import Motion
 from app.performance.cast import Performer
 from app.performance.motion import player_motion
+from app.performance.supports import HeldInstrument, instrument_matrices, joints_of, supports_of
 from app.rig.model import Character
+from app.rig.supports.model import Supports
 
 
 def musician_scene(
@@ -61,6 +65,23 @@ def held_scene(request: ExportRequest, musician: CastMusician, performer: Perfor
     name, path = figure_stems(request.performance)[performer.player.id]["instrument"], own_path(musician.target, motion)
     scene = instrument_scene(performer.instrument, performer.model, motion, name, request.creator, path)
     return keyed_instrument(scene, request.keys, request.formats)
+
+
+def props_scene(request: ExportRequest, musician: CastMusician, supports: Supports, motions: Sequence[Motion]) -> Scene:
+    """The scene of a musician's straps and chair, by the motions of the player of each instrument."""
+    name = figure_stems(request.performance)[musician.player.id]["props"]
+    joints = joints_of(musician.character, motions[0])
+    held = [instrument_matrices(motion) for motion in motions]
+    scene = supports_scene(supports, joints, held, motions[0].fps, name, request.creator, musician.target.place)
+    return keyed_instrument(scene, request.keys, request.formats)
+
+
+def supports_of_musician(request: ExportRequest, musician: CastMusician) -> Supports | None:
+    """Straps and chair of a musician, where they are exported and there are any."""
+    if not request.with_props:
+        return None
+    held = [HeldInstrument(one.player, one.instrument, one.grip) for one in musician.performers]
+    return supports_of(musician.character, held)
 
 
 def dancer_scene(request: ExportRequest, cast: CastDancing, motion: Motion, kind: FileFormat | None = None) -> Scene:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from app.export.formats import FileContent, Format, files_of, requested
 from app.performance.ensemble import Performance
+from app.performance.supports import worn
 from app.project.names import file_stems
 from app.project.performers import Dancer, Player
 
@@ -35,15 +37,40 @@ def figure_stems(performance: Performance) -> Stems:
     bodies: list[Player | Dancer] = [*project.bodies, *project.dancers]
     for one in bodies:
         stems[one.id] = {"character": own[one.id], **stems.get(one.id, {})}
+    taken = [stem for named in stems.values() for stem in named.values()]
+    props = file_stems([*taken, *(f"{own[musician.id]}_props" for musician in project.bodies)])[len(taken) :]
+    for musician, stem in zip(project.bodies, props, strict=True):
+        stems[musician.id]["props"] = stem
     return stems
 
 
-def file_names(performance: Performance, formats: frozenset[Format]) -> dict[str, dict[str, str]]:
-    """Names of the files of every player and dancer, by id and by content."""
+def file_names(performance: Performance, formats: frozenset[Format], props: bool = True) -> dict[str, dict[str, str]]:
+    """Names of the files of every player and dancer: by id, then by what they hold.
+
+    Parameters
+    ----------
+    props : bool
+        Also those of straps and chairs, of who has any.
+    """
+    project = performance.project
+    without = {one.id for one in project.bodies if not (props and _has_props(performance, project.played_by(one)))}
     return {
-        id: {kind.key(held): f"{stems[held]}{kind.suffix}" for kind, held in files_of(formats) if held in stems}
+        id: {
+            kind.key(held): f"{stems[held]}{kind.suffix}"
+            for kind, held in files_of(formats)
+            if held in stems and not (held == "props" and id in without)
+        }
         for id, stems in figure_stems(performance).items()
     }
+
+
+def _has_props(performance: Performance, played: Sequence[Player]) -> bool:
+    """Return whether a musician sits, or any of the instruments hangs on a strap."""
+    maps = [performance.library.maps.get(player.instrument_id) for player in played]
+    if maps[0] is None:
+        return False
+    posture = maps[0].hold.possible(played[0].parameters.posture)
+    return posture == "seated" or any(one is not None and worn(one, posture) for one in maps)
 
 
 def sound_name(source: str) -> str:

@@ -72,6 +72,7 @@ def foresee_folder(
     stage: bool,
     *,
     bars: tuple[int, int] | None = None,
+    props: bool = True,
 ) -> Foreseen:
     """Foresee an export into a folder.
 
@@ -83,8 +84,10 @@ def foresee_folder(
         Whether the sound is written too, and the whole stage in one file.
     bars : (int, int) or None
         First and last bar that is exported; None: the whole piece.
+    props : bool
+        Whether straps and chairs are written too.
     """
-    names = file_names(performance, formats)
+    names = file_names(performance, formats, props)
     project = performance.project
     # Of a musician also the other instruments.
     everything = [

@@ -19,7 +19,9 @@ from app.formats.usd_package import refuse_without_usd
 
 Format: TypeAlias = str
 """The id of a `FileFormat`."""
-FileContent = Literal["character", "instrument"]
+FileContent = Literal["character", "instrument", "props"]
+"""Props are a musician's straps and chair."""
+_BESIDE: Final[tuple[FileContent, ...]] = ("instrument", "props")
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,13 +195,13 @@ def _read_vrma(path: Path, written: Sequence[SkinnedMesh]) -> Scene:
     return read_vrma(path, written)
 
 
-_BOTH: Final[tuple[FileContent, ...]] = ("character", "instrument")
+_ALL: Final[tuple[FileContent, ...]] = ("character", "instrument", "props")
 
 FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     row.id: row
     for row in (
         FileFormat(
-            "fbx", "FBX", ".fbx", _BOTH, 3.0, _write_fbx, read=_read_fbx, usual=True, without_meshes=True, textured=True
+            "fbx", "FBX", ".fbx", _ALL, 3.0, _write_fbx, read=_read_fbx, usual=True, without_meshes=True, textured=True
         ),
         FileFormat(
             "bvh",
@@ -213,12 +215,12 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
             reduces_keys=False,
             bones_by_name=True,
         ),
-        FileFormat("glb", "GLB", ".glb", _BOTH, 2.0, _write_glb, read=_read_glb, without_meshes=True, textured=True),
+        FileFormat("glb", "GLB", ".glb", _ALL, 2.0, _write_glb, read=_read_glb, without_meshes=True, textured=True),
         FileFormat(
             "usd",
             "USD",
             ".usdc",
-            _BOTH,
+            _ALL,
             6.0,
             _write_usd,
             read=_read_usd,
@@ -254,7 +256,7 @@ def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[Fi
     ----------
     formats : collection of str
     reads : bool
-        Only those that are read back for measuring.
+        Only those that are read back for measuring: not the props.
     """
     rows = requested(formats)
     if reads:
@@ -262,8 +264,8 @@ def files_of(formats: Collection[Format], reads: bool = False) -> tuple[tuple[Fi
     found: list[tuple[FileFormat, FileContent]] = []
     for row in rows:
         found += [(row, held) for held in row.holds]
-        found += [(FILE_FORMATS[row.held_in], "instrument")] if row.held_in else []
-    return tuple(dict.fromkeys(found))
+        found += [(FILE_FORMATS[row.held_in], held) for held in _BESIDE if row.held_in]
+    return tuple(one for one in dict.fromkeys(found) if not reads or one[1] != "props")
 
 
 def requested(formats: Collection[Format]) -> tuple[FileFormat, ...]:

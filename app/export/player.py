@@ -16,7 +16,7 @@ from app.encoding import shown
 from app.errors import Progress
 from app.export.attachment import in_world, without_place
 from app.export.bvh_clip import profile_names
-from app.export.figures import held_scene, musician_scene
+from app.export.figures import held_scene, musician_scene, props_scene, supports_of_musician
 from app.export.file_names import file_names, sound_name
 from app.export.formats import FileContent, FileFormat, Format, WriteOptions, files_of
 from app.export.humanoid import vrm_expressions
@@ -88,7 +88,8 @@ def export_player(
         reports.append(_reported(request, musician, performer, written.keys, measured))
         torsos.append(None if measured is None else measured.torso_rad)
     reported(1.0)
-    player = musician.player
+    player, supports = musician.player, supports_of_musician(request, musician)
+    has_props = any(held == "props" for _, held in files_of(request.formats))
     report = PlayerReport(
         **msgspec.structs.asdict(reports[0]),
         character=player.character_id,
@@ -98,6 +99,7 @@ def export_player(
         lean_correlation=None,
         skeleton=skeleton_report(request, musician.checked),
         doubles=tuple(reports[1:]),
+        props=supports.kinds if supports is not None and has_props else (),
     )
     return ExportedPlayer(report, problems, None if torsos[0] is None else torsos[0].tolist())
 
@@ -135,14 +137,18 @@ def _write(
         performance, performer, request.span, progress=lambda share: reported(_MOTION_WORK / work * share), cores=cores
     )
     scenes: dict[tuple[FileContent, bool], Scene] = {}
+    supports = supports_of_musician(request, musician) if first else None
     for row, held in rows:
         kind = held, row.humanoid
-        if kind not in scenes and (first or held == "instrument"):
-            scenes[kind] = (
-                musician_scene(request, musician, motion, row)
-                if held == "character"
-                else held_scene(request, musician, performer, motion)
-            )
+        if kind in scenes:
+            continue
+        if held == "props" and supports is not None:
+            motions = [motion, *(player_motion(performance, one, request.span) for one in musician.performers[1:])]
+            scenes[kind] = props_scene(request, musician, supports, motions)
+        elif held == "instrument":
+            scenes[kind] = held_scene(request, musician, performer, motion)
+        elif held == "character" and first:
+            scenes[kind] = musician_scene(request, musician, motion, row)
     keys = key_count(*_counted(scenes))
     options = write_options(request, musician.character, musician.target)
     read: dict[FileContent, Scene] = {}
@@ -241,13 +247,16 @@ def _reported(
     """Report on one instrument of a musician."""
     player, span, performance = performer.player, request.span, request.performance
     plan = performance.plan(player)
+    files = file_names(performance, request.formats, request.with_props)[player.id]
+    if supports_of_musician(request, musician) is None:
+        files = {key: name for key, name in files.items() if not key.startswith("props")}
     return DoubleReport(
         name=player.name,
         part=performance.project.part(player).name,
         instrument=player.instrument_id,
         size=performer.instrument.size,
         missed=missed_mm(performer.grip),
-        files=file_names(performance, request.formats)[player.id],
+        files=files,
         socket=musician.sockets.get(player.id),
         notes=sum(span.shows_onset(note.start_s) for note in plan.fingerings),
         measures=None if measured is None else measured.measures,

@@ -143,6 +143,8 @@ class PlayerReport(msgspec.Struct, frozen=True):
     """The character's bone that the instrument's root bone hangs on; None: its file has its motion in the world."""
     mutes: tuple[MutedSpan, ...] = ()
     """Muted passages that the frames show, in order."""
+    props: tuple[str, ...] = ()
+    """Kinds of straps the player wears, and ``chair``; none where they were left out."""
 
 
 class DancerReport(msgspec.Struct, frozen=True):

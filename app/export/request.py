@@ -75,6 +75,8 @@ class ExportRequest:
         Longest side of textures; 0: no textures, surfaces have mean colours.
     levels : int
         Number of levels of detail of meshes, 1 to `MOST_LEVELS`.
+    props : bool
+        Whether to export straps and chairs too.
     with_ignored : bool
         Whether problems ignored by the project are listed as warnings.
     few_materials : bool or None
@@ -102,6 +104,7 @@ class ExportRequest:
     motion_only: bool = False
     texture_px: int = USUAL_TEXTURE_PX
     levels: int = 1
+    props: bool = True
     with_ignored: bool = False
     few_materials: bool | None = None
 
@@ -109,6 +112,11 @@ class ExportRequest:
     def shares_materials(self) -> bool:
         """True if small surfaces of characters share materials."""
         return self.texture_px > 0 if self.few_materials is None else self.few_materials
+
+    @property
+    def with_props(self) -> bool:
+        """True if straps and chairs are exported: without meshes there is nothing of them."""
+        return self.props and not self.motion_only
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,13 @@ from pathlib import Path
 
 from app.errors import Progress
 from app.export.attachment import attached
-from app.export.figures import dancer_scene, held_scene, musician_scene
+from app.export.figures import (
+    dancer_scene,
+    held_scene,
+    musician_scene,
+    props_scene,
+    supports_of_musician,
+)
 from app.export.file_names import sound_name, stage_names
 from app.export.formats import FILE_FORMATS, Format, WriteOptions
 from app.export.report import StageFigure, StageReport, stage_place
@@ -104,9 +110,12 @@ def _figures(
         if not sockets:
             yield tuple(figures), placed(target, player.stage, character)
             del character
+        motions = [motion]
         for performer in musician.performers:
             one = performer.player
-            motion = motion if one is player else player_motion(performance, performer, span)
+            if one is not player:
+                motion = player_motion(performance, performer, span)
+                motions.append(motion)
             held = held_scene(request, musician, performer, motion)
             if sockets:
                 hanging.append(held)
@@ -115,6 +124,10 @@ def _figures(
                 yield (figure(one, player.stage, held),), placed(target, player.stage, held)
         if sockets:
             yield tuple(figures), placed(target, player.stage, attached(character, hanging, target))
+        supports = supports_of_musician(request, musician)
+        if supports is not None:
+            props = props_scene(request, musician, supports, motions)
+            yield (figure(player, player.stage, props),), placed(target, player.stage, props)
     for number, dancer in enumerate(cast.dancers, len(cast.musicians)):
         reported(number / everyone)
         stage = dancer.dancer.stage

@@ -58,6 +58,7 @@ class ExportJob(msgspec.Struct, frozen=True):
     texture_px: int
     levels: int
     few_materials: bool
+    props: bool
 
 
 class Share(msgspec.Struct, frozen=True, tag=True):
@@ -99,6 +100,7 @@ def job_of(request: ExportRequest, folder: Path) -> ExportJob:
         texture_px=request.texture_px,
         levels=request.levels,
         few_materials=request.shares_materials,
+        props=request.props,
     )
 
 
@@ -124,6 +126,7 @@ def _request(job: ExportJob) -> ExportRequest:
         texture_px=job.texture_px,
         levels=job.levels,
         few_materials=job.few_materials,
+        props=job.props,
     )
 
 

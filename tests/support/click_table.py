@@ -118,7 +118,7 @@ cameras.remove ? project
 cameras.recall_* ? view + players selection
 viewport_pose, viewport.pose = posing
 viewport_frame, viewport.frame, viewport.frame_all = framed
-viewport.names, viewport.skeleton, viewport.contacts, viewport.wireframe, viewport_show > * = shown
+viewport.names, viewport.skeleton, viewport.contacts, viewport.wireframe, viewport.props, viewport_show > * = shown
 video_*, video.beside, video.behind, video.hidden ? video
 video_estimate, video.estimate_offset = work + project
 video.remove = project + video

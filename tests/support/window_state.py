@@ -137,7 +137,9 @@ class Watcher:
             "video": (video.placement, video.opacity),
             "view": (session.viewport.view, self._told["viewed"]),
             "camera_follows": session.viewport.camera_follows,
-            "shown": tuple(session.viewport.shows(what) for what in ("wireframe", "skeleton", "contacts", "names")),
+            "shown": tuple(
+                session.viewport.shows(what) for what in ("wireframe", "skeleton", "contacts", "names", "props")
+            ),
             "posing": session.viewport.posing,
             "framed": self._told["framed"],
             "turned": self._told["turned"],

@@ -243,6 +243,7 @@ class ExportDialog(WorkingDialog):
             sound=self._formats.sound,
             stage=self._formats.stage,
             motion_only=self._formats.motion_only and self._place.destination == "folder",
+            props=self._formats.props,
             bvh_names=self._bvh_names.currentData(),
             keys=self.keys if self._place.destination == "folder" else "every",
             texture_px=self.texture_px,
@@ -370,7 +371,9 @@ class ExportDialog(WorkingDialog):
         if self._place.destination == "unreal":
             seen = foresee_unreal(place, performance, ids, source, bars)
         else:
-            seen = foresee_folder(place, performance, ids, made.formats, source, made.sound, made.stage, bars=bars)
+            seen = foresee_folder(
+                place, performance, ids, made.formats, source, made.sound, made.stage, bars=bars, props=made.props
+            )
         lines = []
         if seen.project is not None:
             engine = "" if seen.project.version is None else f" {seen.project.engine}"

@@ -53,10 +53,13 @@ class FormatChooser(Retranslated, QWidget):
         self._stage.setChecked(True)
         self._motion_only = named(Check("format_chooser.motion_only"), "export_motion_only")
         self.texted(self._motion_only, tip="format_chooser.motion_only_tip")
+        self._props = named(Check("format_chooser.props"), "export_props")
+        self._props.setChecked(True)
+        self.texted(self._props, tip="format_chooser.props_tip")
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setHorizontalSpacing(18)
-        for index, box in enumerate((*self._boxes.values(), self._sound, self._stage, self._motion_only)):
+        for index, box in enumerate((*self._boxes.values(), self._sound, self._stage, self._motion_only, self._props)):
             layout.addWidget(box, *divmod(index, _COLUMNS), Qt.AlignmentFlag.AlignLeft)
             box.toggled.connect(self._change)
         layout.setColumnStretch(_COLUMNS, 1)
@@ -81,7 +84,14 @@ class FormatChooser(Retranslated, QWidget):
         """True if meshes are omitted; False if no chosen format supports this."""
         return self._motion_only.isChecked() and self._motion_only.isEnabledTo(self)
 
+    @property
+    def props(self) -> bool:
+        """True if straps and chairs are written too; it is off where no ticked kind of file can hold them."""
+        return self._props.isChecked() and self._props.isEnabledTo(self)
+
     def _change(self) -> None:
         self._motion_only.setEnabled(any(kind.without_meshes for kind in requested(self.formats)))
+        holding = any("props" in kind.holds or kind.held_in for kind in requested(self.formats))
+        self._props.setEnabled(holding and not self.motion_only)
         self._stage.setEnabled(any(kind.stage for kind in requested(self.formats)))
         self.changed.emit()

@@ -22,6 +22,8 @@ from app.rig import quaternion
 from app.rig.characters.character_library import character_library
 from app.rig.model import Character, InstrumentModel, Skeleton
 from app.rig.skeleton import rest_positions
+from app.rig.supports.follow import support_matrices
+from app.rig.supports.model import Supports
 from instrument_maps.library import find_map
 from instrument_maps.model import InstrumentMap
 from metadata.model import Posture
@@ -70,6 +72,8 @@ class Member:
         Id of the musician whose body it is, which is drawn once; for a doubled instrument nothing else is drawn.
     stand_m : (3,) float64 or None
         Top of the stand for the instrument while the musician plays another, in the player's frame; None for no stand.
+    supports : Supports or None
+        Straps and chair; None if there are none, or not known yet.
     dances_on_foot : bool
         True if the legs dance: of a dancer, or of a player who dances standing.
     """
@@ -81,6 +85,7 @@ class Member:
     musician_id: str
     stand_m: FloatArray | None = None
     dances_on_foot: bool = False
+    supports: Supports | None = None
 
     @property
     def has_body(self) -> bool:
@@ -119,13 +124,19 @@ def stand_of(player: Player, assets: RenderAssets, number: int) -> FloatArray | 
     return top_m
 
 
-def member_of(player: Player, assets: RenderAssets, musician_id: str = "", stand_m: FloatArray | None = None) -> Member:
+def member_of(
+    player: Player,
+    assets: RenderAssets,
+    musician_id: str = "",
+    stand_m: FloatArray | None = None,
+    supports: Supports | None = None,
+) -> Member:
     """Return a player at its place, with a musician's body if given."""
     musician_id = musician_id or player.id
     posture = body_of(player).postures[assets.map.hold.possible(player.parameters.posture)]
     seat_m = seat(assets.character.skeleton, posture) if musician_id == player.id else None
     on_foot = dances(player) and posture.seat_height_shank <= 0.0
-    return Member(player.id, assets, placed(player.stage), seat_m, musician_id, stand_m, on_foot)
+    return Member(player.id, assets, placed(player.stage), seat_m, musician_id, stand_m, on_foot, supports)
 
 
 def dances(player: Player) -> bool:
@@ -208,8 +219,8 @@ class Stage:
     Attributes
     ----------
     bones : (N, B, 3, 4) float32
-        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and the
-        stand; all 0 for performers without a pose.
+        ``world_from_rest`` of joints, then of the instrument's nodes (from `first_node`), then of the seat and of
+        the stand, then of straps and chair (from `first_support`); all 0 for performers without a pose.
     joints : (N, J, 3, 4) float64
         ``world_from_joint``.
     heads : (N,) int
@@ -225,7 +236,14 @@ class Stage:
         self._instruments = Instruments([member.assets.held for member in members])
         self.seat_bone = self.first_node + self._instruments.nodes
         self.stand_bone = self.seat_bone + 1
-        self.bones = np.zeros((count, self.stand_bone + 1, 3, 4), np.float32)
+        self.first_support = self.stand_bone + 1
+        most = max((len(member.supports.bones) for member in members if member.supports is not None), default=0)
+        self.bones = np.zeros((count, self.first_support + most, 3, 4), np.float32)
+        self._strapped = [
+            (row, self._of_musician(members, member.musician_id))
+            for row, member in enumerate(members)
+            if member.supports is not None and member.supports.straps
+        ]
         self.joints = np.zeros((count, self.first_node, 3, 4))
         self.heads = np.array([member.assets.character.skeleton.index("head") for member in members], np.intp)
         self.poses: list[Pose | None] = [None] * count
@@ -248,6 +266,17 @@ class Stage:
                 self.bones[row, self.stand_bone, :, :3] = member.world_from_player[:, :3]
                 self.bones[row, self.stand_bone, :, 1] *= member.stand_m[1]
                 self.bones[row, self.stand_bone, :, 3] = _moved(member.world_from_player, member.stand_m)
+
+        for row, member in enumerate(members):
+            if member.supports is not None:
+                self.bones[row, self.first_support : self.first_support + len(member.supports.bones)] = (
+                    member.world_from_player
+                )
+
+    @staticmethod
+    def _of_musician(members: Sequence[Member], musician_id: str) -> list[int]:
+        """Rows of everything a musician plays."""
+        return [row for row, member in enumerate(members) if member.musician_id == musician_id]
 
     def pose(self, poses: Mapping[str, Pose | None]) -> bool:
         """Apply poses to all performers, and return whether anything changed."""
@@ -276,7 +305,22 @@ class Stage:
         held[..., 3] = (rotation @ self._held_m[..., None])[..., 0] + self._stages[..., 3]
         held[~self.shown] = 0.0
         self.bones[:, self.first_node : self.seat_bone] = self._instruments.matrices(held)
+        for row, played in self._strapped:
+            self._hang(row, played, held)
         return True
+
+    def _hang(self, row: int, played: Sequence[int], held: FloatArray) -> None:
+        """Put a musician's straps where body and instruments are."""
+        supports = self.members[row].supports
+        assert supports is not None
+        stage = self._stages[row]
+        instruments = [_within(stage, held[one])[None] for one in played]
+        joints = _within(stage, self.joints[row, : len(supports.joints)])[None]
+        matrices = support_matrices(supports, joints, instruments)[0]
+        world = stage[:, :3] @ matrices
+        world[..., 3] += stage[:, 3]
+        own = slice(self.first_support, self.first_support + len(matrices))
+        self.bones[row, own] = world if self.shown[played].all() else 0.0
 
     def _take(self, row: int, pose: Pose) -> None:
         self.poses[row] = pose
@@ -333,6 +377,14 @@ def _grouped(keys: Sequence[Hashable]) -> list[list[int]]:
     for row, key in enumerate(keys):
         groups.setdefault(key, []).append(row)
     return list(groups.values())
+
+
+def _within(stage: FloatArray, transforms: FloatArray) -> FloatArray:
+    """Transforms (..., 3, 4) of the world in the space of a place (3, 4)."""
+    back = stage[:, :3].T
+    turned: FloatArray = back @ transforms
+    turned[..., 3] -= back @ stage[:, 3]
+    return turned
 
 
 def _moved(matrix: FloatArray, point: FloatArray) -> FloatArray:

@@ -41,6 +41,8 @@ class Emphasis:
     """Conductor's place: x, z, and the colour of the rings that mark it."""
     in_the_way: frozenset[int] = frozenset()
     wireframe: bool = False
+    props: bool = True
+    """True if straps and chairs are drawn."""
     video: Picture | None = None
     """Seen behind the players ..."""
     video_opacity: float = 1.0

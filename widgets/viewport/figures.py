@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from app.errors import Progress, StopRequested, raise_if_stopped
-from app.performance.bodies import is_held
+from app.performance.bodies import hold_of, is_held, suited_to
 from app.performance.cast import LeftOut, attempt
+from app.performance.supports import HeldInstrument, supports_of
 from app.project.model import Project
 from app.project.performers import Dancer, Player
 from app.rig.characters.character_library import character_revision
 from app.rig.characters.dressed_characters import dressed_as
+from app.rig.supports.model import Supports
 from instrument_maps.library import library
 from widgets.viewport.cast import (
     Member,
@@ -55,7 +57,7 @@ def cast_key(project: Project) -> CastKey:
             player.parameters.posture,
             instruments.revisions.get(player.instrument_id, 0),
             character_revision(player.character_id),
-            _has_stand(project, player),
+            is_known(player),
             player.stage.x_m,
             player.stage.z_m,
             player.stage.turn_rad,
@@ -80,10 +82,20 @@ def cast_key(project: Project) -> CastKey:
     )
 
 
-def _has_stand(project: Project, player: Player) -> bool:
-    """Return whether the player's instrument is on a stand at times, at a known place."""
+def is_known(player: Player) -> bool:
+    """Return whether it is known how the player holds the instrument: so where it lies on a stand, and hangs on a
+    strap."""
     instrument = library().maps.get(player.instrument_id)
-    return len(project.played_by(player)) > 1 and instrument is not None and is_held(player, instrument)
+    return instrument is not None and is_held(player, instrument)
+
+
+def _supports(project: Project, musician: Player, assets: RenderAssets) -> Supports | None:
+    """Straps and chair of a musician, as far as it is known how the instruments are held."""
+    held = []
+    for player in project.played_by(musician):
+        instrument = suited_to(player, library().maps[player.instrument_id]).instrument
+        held.append(HeldInstrument(player, instrument, hold_of(player, instrument) if is_known(player) else None))
+    return supports_of(assets.character, held)
 
 
 def same_figures(one: CastKey, other: CastKey) -> bool:
@@ -119,7 +131,8 @@ def load(project: Project, before: Shapes | None, progress: Progress, stop_reque
         musician = musicians.setdefault(project.musician(player).id, player.id)
         played = project.played_by(player)
         stand_m = stand_of(player, assets[pair], played.index(player)) if len(played) > 1 else None
-        return member_of(player, assets[pair], musician, stand_m)
+        supports = _supports(project, player, assets[pair]) if musician == player.id else None
+        return member_of(player, assets[pair], musician, stand_m, supports)
 
     def make_dancer(dancer: Dancer) -> Member:
         raise_if_stopped(stop_requested)
@@ -146,7 +159,7 @@ def moved(project: Project, loaded: DrawableFigures) -> DrawableFigures:
     members = [
         dancing_member(dancers[member.player_id], member.assets)
         if member.player_id in dancers
-        else member_of(players[member.player_id], member.assets, member.musician_id, member.stand_m)
+        else member_of(players[member.player_id], member.assets, member.musician_id, member.stand_m, member.supports)
         for member in loaded.stage.members
     ]
     stage = Stage(members)

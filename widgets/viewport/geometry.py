@@ -18,6 +18,7 @@ from app.formats.scene import Material
 from app.formats.texture_colors import linear, sampled
 from app.rig.mesh import Mesh, plain_materials
 from app.rig.model import Character, InstrumentModel
+from app.rig.supports.model import Supports
 from widgets.viewport.normals_across_seams import SplitMesh, Weld, row_keys, split_mesh
 from widgets.viewport.shape_cache import kept
 from widgets.viewport.shape_model import BONES_PER_VERTEX, SHAPE, SURFACE, Geometry, MorphTargets, numbers
@@ -79,36 +80,18 @@ def instrument_levels(model: InstrumentModel, first_bone: int) -> tuple[Geometry
     return tuple(_moving_with(level, first_bone) for level in _levels(model.meshes, INSTRUMENT_CELLS_M, 1.0))
 
 
+@lru_cache(maxsize=128)
+def supports_geometry(supports: Supports, first_bone: int) -> Geometry:
+    """Straps and chair in one level of detail; bone n of theirs is bone ``first_bone + n``."""
+    whole = _Whole([split_mesh(mesh) for mesh in supports.meshes], 1.0)
+    return _moving_with(whole.level(0.0, 0.0, far=True), first_bone)
+
+
 def _moving_with(geometry: Geometry, first_bone: int) -> Geometry:
     """Return a geometry with its bone indices increased."""
     surfaces = geometry.surfaces.copy()
     surfaces["a_bones"] += first_bone * (surfaces["a_weights"] > 0.0)
     return replace(geometry, surfaces=surfaces)
-
-
-def stool(bone: int, height_m: float) -> Geometry:
-    """Return a round seat on a single foot, with its top at the origin; it moves with one bone."""
-    radius, thick = 0.17, 0.045
-    seat, metal = (0.05, 0.052, 0.058), (0.30, 0.31, 0.33)
-    profiles = (
-        (
-            [(0.0, 0.0), (radius - 0.02, 0.0), (radius, -0.018), (radius - 0.008, -thick), (0.0, -thick)],
-            seat,
-            0.75,
-            0.0,
-        ),
-        ([(0.024, -thick), (0.022, -height_m + 0.03)], metal, 0.4, 1.0),
-        (
-            [(0.0, -height_m + 0.032), (0.13, -height_m + 0.02), (0.16, -height_m + 0.004), (0.16, -height_m)],
-            metal,
-            0.4,
-            1.0,
-        ),
-    )
-    parts = [
-        _turned(np.array(points), color, roughness, metallic, bone) for points, color, roughness, metallic in profiles
-    ]
-    return joined(parts)
 
 
 def stand(bone: int) -> Geometry:

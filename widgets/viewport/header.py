@@ -38,6 +38,7 @@ _SHOWN: Final[dict[Shown, tuple[str, str]]] = {
     "skeleton": ("header.skeleton", "skeleton"),
     "contacts": ("header.contact_points_and_their_distances", "contacts"),
     "wireframe": ("header.wireframe", "wireframe"),
+    "props": ("header.props", "seated"),
 }
 """Text ids and icons of the additional display options."""
 FULL_SCREEN = "application.full_screen"

@@ -387,6 +387,7 @@ class ViewportPanel(Retranslated, QWidget):
             podium=self.scene.podium() if marked else None,
             in_the_way=in_the_way(view, stage, rows, camera) if stage is not None else frozenset(),
             wireframe=session.viewport.shows("wireframe"),
+            props=session.viewport.shows("props"),
             video=session.video.picture if here and session.video.placement == "behind" else None,
             video_opacity=session.video.opacity,
             in_motion=moving and here,
@@ -422,7 +423,7 @@ class ViewportPanel(Retranslated, QWidget):
 
     def _has_marks(self) -> bool:
         state = self._session.viewport
-        return state.posing or any(state.shows(what) for what in SHOWN if what != "wireframe")
+        return state.posing or any(state.shows(what) for what in SHOWN if what not in ("wireframe", "props"))
 
     # The camera
 

@@ -114,7 +114,7 @@ class Renderer:
             return
         alive = {
             id(level) for levels in (*shapes.characters.values(), *shapes.instruments.values()) for level in levels
-        } | {id(shapes.stool), id(shapes.stand)}
+        } | {id(shapes.stand), *map(id, shapes.supports.values())}
         self._solids = {key: solid for key, solid in self._solids.items() if key in alive}
         self._morphed.clear()
         count = len(stage.members)
@@ -283,6 +283,9 @@ class Renderer:
         count = len(stage.members)
         rows = self._bone_rows
         rows[:, :-1] = stage.bones.reshape(count, -1, 4)
+        if not emphasis.props:
+            # What has shrunk to a point is not drawn, nor has it edges.
+            rows[:, 3 * stage.first_support : -1] = 0.0
         rows[:, -1] = 0.0
         rows[:, -1, 0] = level == LEVELS - 1
         rows[[row for row in emphasis.in_the_way if row < count], -1, 2] = SEEN_THROUGH
@@ -344,8 +347,9 @@ class Renderer:
             solid = self._solid(shapes.instruments[stage.members[row].assets.map.id][level[row]], level[row] == 0)
             bound = self._draw_shared(solid, bound, row, mode)
         for row in near:
-            if stage.members[row].seat_m is not None:
-                bound = self._draw_shared(self._solid(shapes.stool), bound, row, mode)
+            if stage.members[row].supports is not None:
+                solid = self._solid(shapes.supports[stage.members[row].player_id])
+                bound = self._draw_shared(solid, bound, row, mode)
         for row in near:
             if stage.members[row].stand_m is not None:
                 bound = self._draw_shared(self._solid(shapes.stand), bound, row, mode)

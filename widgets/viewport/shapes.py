@@ -17,18 +17,19 @@ from widgets.viewport.geometry import (
     edges,
     instrument_levels,
     stand,
-    stool,
+    supports_geometry,
 )
 from widgets.viewport.shape_model import Geometry
 
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Geometries by level of detail: of characters by id, of instruments by map id, of seats and stands."""
+    """Geometries: of characters by id and of instruments by map id, by level of detail; of straps and chairs by player
+    id; of stands."""
 
     characters: Mapping[str, tuple[Geometry, ...]]
     instruments: Mapping[str, tuple[Geometry, ...]]
-    stool: Geometry
+    supports: Mapping[str, Geometry]
     stand: Geometry
 
 
@@ -42,15 +43,14 @@ def shapes_of(stage: Stage, before: Shapes | None = None) -> Shapes:
         if character.id not in characters:
             found = known.get(character.id)
             characters[character.id] = character_levels(character) if found is None else found
-    # The instruments' nodes and the seat follow the joints: their numbers depend on who else is there.
-    instruments = {}
-    height_m = 0.42
+    # The instruments' nodes and the straps follow the joints: their numbers depend on who else is there.
+    instruments, supports = {}, {}
     for member in stage.members:
         if member.assets.held is not None and member.assets.map.id not in instruments:
             instruments[member.assets.map.id] = instrument_levels(member.assets.instrument, stage.first_node)
-        if member.seat_m is not None:
-            height_m = float(member.seat_m[1])
-    return Shapes(characters, instruments, stool(stage.seat_bone, height_m), stand(stage.stand_bone))
+        if member.supports is not None:
+            supports[member.player_id] = supports_geometry(member.supports, stage.first_support)
+    return Shapes(characters, instruments, supports, stand(stage.stand_bone))
 
 
 def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
@@ -61,8 +61,8 @@ def crowd_of(stage: Stage, shapes: Shapes) -> Crowd:
             parts.append((row, shapes.characters[member.assets.character.id][-1]))
         if member.assets.held is not None:
             parts.append((row, shapes.instruments[member.assets.map.id][-1]))
-        if member.seat_m is not None:
-            parts.append((row, shapes.stool))
+        if member.supports is not None:
+            parts.append((row, shapes.supports[member.player_id]))
         if member.stand_m is not None:
             parts.append((row, shapes.stand))
     return crowd(parts)
@@ -75,8 +75,8 @@ def looks_same(one: Stage, other: Stage) -> bool:
     )
 
 
-def parts_of(member: Member) -> tuple[bool, bool, bool]:
-    return member.has_body, member.seat_m is not None, member.stand_m is not None
+def parts_of(member: Member) -> tuple[bool, object, bool]:
+    return member.has_body, member.supports, member.stand_m is not None
 
 
 def sides(geometry: Geometry | Crowd) -> tuple[tuple[bool, Any], ...]:

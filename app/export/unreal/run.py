@@ -201,10 +201,16 @@ def export_into(
     """
     recover(project.folder, project.folder / SOURCES)
     texture_px = request.texture_px
-    # Surfaces in the files are plain: materials with textures are made of the description.
+    # Surfaces in the files are plain: materials with textures are made of the description. It has no place for props.
     shared = request.shares_materials
     request = replace(
-        request, formats=frozenset((IMPORTED,)), sound=False, stage=False, texture_px=0, few_materials=shared
+        request,
+        formats=frozenset((IMPORTED,)),
+        sound=False,
+        stage=False,
+        texture_px=0,
+        few_materials=shared,
+        props=False,
     )
     cast = cast_of(request, shown_in or wording, stop_requested)
     layout = layout_of(request.performance.project, piece_name(request.source, project.folder))

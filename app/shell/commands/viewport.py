@@ -69,6 +69,7 @@ ACTIONS: tuple[Action, ...] = (
     _toggle("skeleton", "skeleton"),
     _toggle("contacts", "contacts"),
     _toggle("wireframe", "wireframe", "W"),
+    _toggle("props", "seated"),
     _row(
         "follow_selection",
         lambda session, on: session.viewport.set(follows_selection=on),

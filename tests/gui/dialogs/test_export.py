@@ -297,6 +297,16 @@ def test_meshes_can_be_left_out_where_a_format_can_do_without(dialog: ExportDial
     assert not dialog._request().motion_only, "a box that is off does nothing"
 
 
+def test_straps_and_chairs_can_be_left_out(dialog: ExportDialog) -> None:
+    box = child(dialog, QCheckBox, "export_props")
+    assert dialog._request().props
+    box.setChecked(False)
+    assert not dialog._request().props
+    box.setChecked(True)
+    bvh_only(dialog)
+    assert not box.isEnabled(), "BVH has no meshes"
+
+
 def test_the_size_of_textures_is_chosen(dialog: ExportDialog) -> None:
     assert dialog._request().texture_px == 2048
     sizes = child(dialog, QComboBox, "export_textures")

@@ -684,7 +684,7 @@ CASES: dict[str, Case] = {
     "viewport.frame_all": Case(lambda d: d.seen["framed"] == [False], lambda d: framed(d)),
     **{
         f"viewport.{name}": toggled(f"viewport.{name}", lambda d, name=name: d.session.viewport.shows(name))
-        for name in ("names", "skeleton", "contacts", "wireframe")
+        for name in ("names", "skeleton", "contacts", "wireframe", "props")
     },
     "viewport.other_side": Case(
         lambda d: abs(d.viewport.camera.yaw_rad - d.seen["yaw_rad"]) > 0.1,

@@ -231,7 +231,7 @@ def test_what_is_shown_beside_the_players_is_seen(what: str, shot: Shot, session
     assert differing(without, shot(view)) > 60
 
 
-def test_seated_players_have_stools(shot: Shot, session: Session) -> None:
+def test_seated_players_have_chairs_which_can_be_hidden(shot: Shot, session: Session) -> None:
     standing = shot("ensemble")
     project = session.project
     seated = tuple(
@@ -239,7 +239,12 @@ def test_seated_players_have_stools(shot: Shot, session: Session) -> None:
         for player in project.players
     )
     session.apply(edit_of_parameter(project, "posture", session.players), replace(project, players=seated))
-    assert differing(standing, shot("ensemble")) > 400
+    sitting = shot("ensemble")
+    assert differing(standing, sitting) > 400
+    session.viewport.show("props", False)
+    assert differing(sitting, shot("ensemble")) > 100
+    session.viewport.show("props", True)
+    assert differing(sitting, shot("ensemble")) == 0
 
 
 def test_who_is_moved_on_the_stage_stands_there_at_once(viewport: ViewportPanel, session: Session) -> None:

@@ -17,7 +17,7 @@ from widgets.viewport.geometry import (
     edges,
     instrument_levels,
     joined,
-    stool,
+    stand,
 )
 from widgets.viewport.normals_across_seams import row_keys
 from widgets.viewport.shape_model import Geometry
@@ -161,7 +161,7 @@ def test_instruments_move_with_bones_after_the_joints() -> None:
 
 
 def test_joined_shapes_keep_their_triangles() -> None:
-    parts = [stool(3, 0.4), stool(5, 0.5)]
+    parts = [stand(3), stand(5)]
     whole = joined(parts)
     assert len(whole.triangles) == sum(len(part.triangles) for part in parts)
     assert whole.one_sided == len(whole.triangles)
@@ -172,7 +172,7 @@ def test_joined_shapes_keep_their_triangles() -> None:
 
 def test_a_crowd_is_its_parts_end_to_end() -> None:
     instrument = next(iter(bundled_maps().values()))
-    things = [instrument_levels(bundled_instrument(instrument), 60)[-1], stool(3, 0.4)]
+    things = [instrument_levels(bundled_instrument(instrument), 60)[-1], stand(3)]
     parts = [(0, things[0]), (0, things[1]), (1, things[0]), (2, things[1])]
     everyone = crowd(parts)
     assert (everyone.shape == np.concatenate([part.shape for _, part in parts])).all()
@@ -198,14 +198,3 @@ def test_rows_have_one_number_each_in_their_order(largest: int) -> None:
     found = np.unique(row_keys(*rows.T), return_index=True, return_inverse=True)
     np.testing.assert_array_equal(found[1], expected[1])
     np.testing.assert_array_equal(found[2], expected[2].reshape(-1))
-
-
-def test_a_stool_stands_on_the_floor_and_is_seen_from_outside() -> None:
-    seat = stool(0, 0.43)
-    assert seat.shape["a_position"][:, 1].min() == pytest.approx(-0.43, abs=1e-3)
-    assert seat.shape["a_position"][:, 1].max() == 0.0
-    places = seat.shape["a_position"].astype(np.float64)[seat.triangles]
-    faces = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
-    normals = seat.shape["a_normal"][seat.triangles].mean(axis=1)
-    solid = np.linalg.norm(faces, axis=1) > 1e-9
-    assert ((faces * normals).sum(axis=1)[solid] > 0.0).all()

@@ -1,0 +1,58 @@
+"""A chair's size from the skin that sits on it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.arrays import BoolArray, FloatArray
+from app.rig.grip.body_size import leg_size
+from app.rig.model import Character
+from app.rig.skinning import patch
+from app.rig.supports.chair import ChairFit
+
+_SITTING = ("hips", "leftUpperLeg", "rightUpperLeg")
+_LEANING = ("hips", "spine", "chest", "upperChest")
+_LEAST_SHARE = 0.6
+_CLEAR_M = 0.045
+"""Room between a back at rest and the chair's: players do not lean back."""
+_SIZES = (0.55, 1.15)
+_SEAT_SHARE = 0.75
+"""Share of the thigh, from behind, that the seat bears."""
+
+
+def chair_fit(character: Character, joints: FloatArray) -> ChairFit:
+    """Fit a chair to who sits.
+
+    Parameters
+    ----------
+    joints : (J, 3, 4) float64
+        ``world_from_joint``, seated.
+    """
+    sitting, leaning = _skin(character, joints, _SITTING), _skin(character, joints, _LEANING)
+    size = float(np.clip(leg_size(character.skeleton), *_SIZES))
+    hips_m = joints[character.skeleton.index("hips"), :, 3]
+    knee_m = joints[character.skeleton.index("leftLowerLeg"), :, 3]
+    if not len(sitting):
+        sitting = hips_m[None] - [0.0, 0.1, 0.0]
+    if not len(leaning):
+        leaning = hips_m[None] - [0.0, 0.0, 0.1]
+    borne = sitting[:, 2] < hips_m[2] + _SEAT_SHARE * (knee_m[2] - hips_m[2])
+    top_m = float(sitting[borne, 1].min()) if borne.any() else float(sitting[:, 1].min())
+    over = leaning[leaning[:, 1] > top_m + 0.02]
+    rear_m = float(over[:, 2].min()) if len(over) else float(leaning[:, 2].min())
+    return ChairFit(max(top_m, 0.12), rear_m - size * _CLEAR_M, size)
+
+
+def _skin(character: Character, joints: FloatArray, names: tuple[str, ...]) -> FloatArray:
+    """Posed vertices (N, 3) that some joints carry."""
+    skeleton = character.skeleton
+    carrying: BoolArray = np.isin(skeleton.names, names)
+    world = np.zeros((1, len(skeleton.names), 4, 4))
+    world[0, :, :3], world[0, :, 3, 3] = joints, 1.0
+    found = [np.zeros((0, 3))]
+    for mesh in character.meshes:
+        share = (mesh.weights * carrying[mesh.joints]).sum(axis=1)
+        rows = np.flatnonzero(share >= _LEAST_SHARE)
+        if len(rows):
+            found.append(patch(character, mesh, rows).deformed(world)[0])
+    return np.concatenate(found)

@@ -1,0 +1,176 @@
+"""Strings laid taut over a body: its cut through a plane, and what of the convex hull a string would touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError, cKDTree
+
+from app.arrays import FloatArray
+from app.rig.model import Character
+from app.rig.skinning import patch
+
+_TRUNK = ("hips", "spine", "chest", "upperChest", "neck", "leftShoulder", "rightShoulder")
+_LEAST_TRUNK = 0.5
+"""Share of a vertex's weight on joints of the trunk, from which a strap may lie on it."""
+_HAIR, _CARDS = 0.7, 0.2
+"""A mesh with more of its weight on the head is hair, or something of the face, and so is one of cards with alpha: no
+strap lies on it."""
+_NEAR = 8
+"""Vertices whose weights a point of a strap takes on."""
+_MIDLINE_M = 0.004
+_BEFORE = 0.4
+"""Share of the way from behind to the free end from which on a string is before the body."""
+
+
+@dataclass(frozen=True, eq=False)
+class PosedTrunk:
+    """Skin and clothes of a trunk in a pose.
+
+    Attributes
+    ----------
+    corners_m : (T, 3, 3) float64
+        Of its triangles.
+    vertices_m : (V, 3) float64
+    weights : (V, J) float64
+        Of the same vertices on all joints.
+    """
+
+    corners_m: FloatArray
+    vertices_m: FloatArray
+    weights: FloatArray
+
+    def weights_at(self, points_m: FloatArray) -> FloatArray:
+        """Weights (N, J) of what lies at places (N, 3): those of the nearest vertices, evenly."""
+        _, near = cKDTree(self.vertices_m).query(points_m, k=min(_NEAR, len(self.vertices_m)))
+        found: FloatArray = self.weights[near.reshape(len(points_m), -1)].mean(axis=1)
+        return found
+
+
+def posed_trunk(character: Character, joints: FloatArray, morphs: dict[str, float]) -> PosedTrunk:
+    """Pose the trunk of a character.
+
+    Parameters
+    ----------
+    joints : (J, 3, 4) float64
+        ``world_from_joint``.
+    morphs : dict of str to float
+        Weights of morphs: straps lie on a chest full of air.
+    """
+    skeleton = character.skeleton
+    trunk = np.isin(skeleton.names, _TRUNK)
+    if not trunk.any():
+        trunk[skeleton.index("hips")] = True
+    world = np.zeros((1, len(skeleton.names), 4, 4))
+    world[0, :, :3], world[0, :, 3, 3] = joints, 1.0
+    curves = {name: np.array([weight]) for name, weight in morphs.items()}
+    corners, vertices, weights = list[FloatArray](), list[FloatArray](), list[FloatArray]()
+    for mesh in character.meshes:
+        dense = np.zeros((len(mesh.positions_m), len(skeleton.names)))
+        np.add.at(dense, (np.arange(len(dense))[:, None], mesh.joints), mesh.weights)
+        cards = all(material.alpha_mode != "opaque" for material in mesh.materials)
+        if dense[:, skeleton.index("head")].mean() > (_CARDS if cards else _HAIR):
+            continue
+        own = dense[:, trunk].sum(axis=1) >= _LEAST_TRUNK
+        triangles = mesh.triangles[own[mesh.triangles].all(axis=1)]
+        if not len(triangles):
+            continue
+        used, numbered = np.unique(triangles, return_inverse=True)
+        posed = patch(character, mesh, used).deformed(world, curves)[0]
+        corners.append(posed[numbered.reshape(-1, 3)])
+        vertices.append(posed)
+        weights.append(dense[used])
+    if not corners:
+        empty = np.zeros((0, 3, 3))
+        return PosedTrunk(empty, np.zeros((0, 3)), np.zeros((0, len(skeleton.names))))
+    return PosedTrunk(np.concatenate(corners), np.concatenate(vertices), np.concatenate(weights))
+
+
+@dataclass(frozen=True, eq=False)
+class TautString:
+    """A string over a body, then straight to its end.
+
+    Attributes
+    ----------
+    points_m : (N, 3) float64
+        From its beginning on the body on.
+    leaves : int
+        The number of the point at which it leaves the body; the last point is its free end.
+    outwards : (N, 3) float64
+        Unit vectors away from the body, at right angles to the string.
+    """
+
+    points_m: FloatArray
+    leaves: int
+    outwards: FloatArray
+
+
+def taut_string(trunk: PosedTrunk, start_m: FloatArray, via_m: FloatArray, end_m: FloatArray) -> TautString | None:
+    """Lay a string over the body from behind it to a free end before it, in the plane of three points.
+
+    Parameters
+    ----------
+    start_m : (3,) float64
+        Where it begins; the skin nearest to it in the plane counts.
+    via_m : (3,) float64
+        The side on which it passes: on the left of the body where its x is positive.
+    end_m : (3,) float64
+
+    Returns
+    -------
+    TautString or None
+        None: there is no body in that plane.
+    """
+    along = (end_m - start_m) / np.linalg.norm(end_m - start_m)
+    up = via_m - start_m
+    up = up - along * (up @ along)
+    up /= np.linalg.norm(up)
+    cut = _cut(trunk.corners_m, start_m, np.cross(along, up))
+    side = 1.0 if via_m[0] >= 0.0 else -1.0
+    flat = np.stack([(cut - start_m) @ along, (cut - start_m) @ up], axis=1)
+    # Behind, the other shoulder is another string's; before, both may go to one side.
+    kept = (side * cut[:, 0] >= -_MIDLINE_M) | (flat[:, 0] > _BEFORE * ((end_m - start_m) @ along))
+    flat = flat[kept]
+    if len(flat) < 3:
+        return None
+    first = flat[np.argmin(np.linalg.norm(flat, axis=1))]
+    last = np.array([(end_m - start_m) @ along, 0.0])
+    path = _outer_path(np.concatenate([[first, last], flat]))
+    if path is None:
+        return None
+    points = start_m + path[:, :1] * along + path[:, 1:] * up
+    tangents = np.gradient(path, axis=0)
+    tangents /= np.maximum(np.linalg.norm(tangents, axis=1, keepdims=True), 1e-9)
+    outwards = -tangents[:, 1:] * along + tangents[:, :1] * up
+    return TautString(points, len(points) - 2, outwards)
+
+
+def _cut(corners: FloatArray, origin: FloatArray, normal: FloatArray) -> FloatArray:
+    """Points (N, 3) in which edges of triangles (T, 3, 3) go through a plane."""
+    height = (corners - origin) @ normal
+    found = list[FloatArray]()
+    for one, other in ((0, 1), (1, 2), (2, 0)):
+        a, b = height[:, one], height[:, other]
+        crossed = np.flatnonzero((a < 0.0) != (b < 0.0))
+        share = (a[crossed] / (a[crossed] - b[crossed]))[:, None]
+        found.append(corners[crossed, one] + share * (corners[crossed, other] - corners[crossed, one]))
+    return np.concatenate(found)
+
+
+def _outer_path(points: FloatArray) -> FloatArray | None:
+    """The hull's boundary from the first point over the top to the second (N, 2)."""
+    try:
+        ring = np.asarray(ConvexHull(points).vertices, np.intp)
+    except QhullError:
+        return None
+    end = np.flatnonzero(ring == 1)
+    if not len(end):
+        # The free end is within the body: the string goes over the skin as far as that.
+        return None
+    ring = np.roll(ring, -int(end[0]))  # counter-clockwise from the end: over the top to the beginning
+    outline = points[ring]
+    begin = int(np.argmin(np.linalg.norm(outline - points[0], axis=1)))
+    if begin < 1:
+        return None
+    return np.concatenate([[points[0]], outline[: begin + 1][::-1]])
