@@ -176,8 +176,8 @@ def write_atlas(assets: Path, folder: Path) -> None:
     rough = np.clip(layers.roughness + 0.02 * weave, 0.2, 1.0)
     orm = np.stack([layers.occlusion, rough, np.zeros_like(rough)], axis=2)
     pictures = {
-        "color": (np.repeat(to_srgb(grey)[:, :, None], 3, axis=2), 76),
-        "normal": (normals * 0.5 + 0.5, 80),
+        "color": (np.repeat(to_srgb(grey)[:, :, None], 3, axis=2), 72),
+        "normal": (normals * 0.5 + 0.5, 76),
         "orm": (orm[::2, ::2], 62),
     }
     folder.mkdir(parents=True, exist_ok=True)

@@ -130,7 +130,10 @@ def _suit(wearer: Wearer) -> Pieces:
 
 
 def _blouse_and_trousers(wearer: Wearer) -> Pieces:
-    return [(blouse(wearer), "top"), (suit_trousers(wearer), "bottom"), (bare_chest(wearer), "skin")]
+    top = blouse(wearer)
+    hem_m = float(cloth_of(wearer, top).points[:, 1].min())
+    legs = hemmed(wearer, suit_trousers(wearer), hem_m + 0.022, -1.0)
+    return [(worn_over(wearer, top, legs, 0.010), "top"), (legs, "bottom"), (bare_chest(wearer), "skin")]
 
 
 def _tie_alone(wearer: Wearer) -> Pieces:
@@ -177,13 +180,13 @@ def _roomy_suit(wearer: Wearer) -> Pieces:
     return [(_roomy_jacket(wearer, below), "top"), (suit_trousers(wearer), "bottom")]
 
 
-def hemmed(wearer: Wearer, top: Surface, hem_m: float) -> Surface:
-    """A top cut off at a height in the T-pose."""
+def hemmed(wearer: Wearer, top: Surface, hem_m: float, side: float = 1.0) -> Surface:
+    """The part of a garment above a height in the T-pose, or with a side of -1 below it."""
     joints = top.weights.shape[1]
     places = wearer.fit.to_t_pose(top.positions, top.weights)
     ((material, faces),) = top.triangles.items()
     # Texture coordinates are cut as the weights are.
-    own = cut(Cloth(places, np.concatenate([top.weights, top.uvs], axis=1), faces), places[:, 1] - hem_m)
+    own = cut(Cloth(places, np.concatenate([top.weights, top.uvs], axis=1), faces), side * (places[:, 1] - hem_m))
     weights, uvs = own.weights[:, :joints], own.weights[:, joints:]
     rest = wearer.fit.to_rest_pose(own.points, weights)
     return modelled(top.name, rest, four_bones(weights), {material: own.faces}, uvs=uvs)
