@@ -50,6 +50,11 @@ ROLL_RAD, TURN_RAD = float(np.deg2rad(5.0)), float(np.deg2rad(8.0))
 """Angles by which the hips are lower and farther ahead on the side of the foot that carries nothing."""
 LEAN_RAD, COUNTER_RAD = float(np.deg2rad(7.0)), float(np.deg2rad(6.0))
 """Lean of the chest to the foot that carries the weight, and its turn away from it, against that of the hips."""
+SPREAD_M: Final = 0.24
+MOST_ROLL_RAD: Final = float(np.deg2rad(11.5))
+"""Greatest way of the hips to the side of a foot, beyond that of standing, and greatest roll of the hips: more would
+spread a thigh too far.
+"""
 LIGHT: Final = 0.6
 """Weight that leaves a foot which lifts its heel or toes, as a share of all of it."""
 SINKS_M: Final = 0.026
@@ -251,12 +256,14 @@ def with_danced_feet(
         FOLLOWS * size * (danced.get(f"left_{way}", nothing) + danced.get(f"right_{way}", nothing))
         for way in ("aside", "ahead")
     )
+    left_m, right_m = (size * danced.get(f"{side}_aside", nothing) for side in ("left", "right"))
+    side_m = motion.hips_side_m + aside_m + OVER_M * over
     return replace(
         motion,
-        hips_side_m=motion.hips_side_m + aside_m + OVER_M * over,
+        hips_side_m=within(side_m, SPREAD_M + right_m, SPREAD_M - left_m),
         hips_ahead_m=motion.hips_ahead_m + ahead_m,
         hips_bob_m=motion.hips_bob_m + SINKS_M * sunk,
-        hips_roll_rad=motion.hips_roll_rad - roll_rad,
+        hips_roll_rad=within(motion.hips_roll_rad - roll_rad, MOST_ROLL_RAD, MOST_ROLL_RAD),
         hips_turn_rad=motion.hips_turn_rad + turn_rad,
     )
 
