@@ -17,9 +17,9 @@ from app.cli.widths import on_left
 from app.encoding import restored, shown, stored
 from app.errors import AppError, Message, UsageError
 from app.rig.characters.character_library import LEAST_M, MOST_M, CharacterEntry
-from app.rig.people.body_shapes import AGE_YEARS, age_of
-from app.rig.people.bundled_people import bundled_people, bundled_person, like
-from app.rig.people.person import HEIGHTS_M
+from app.rig.people.body_shapes import age_of
+from app.rig.people.bundled_people import bundled_people, like, our_name
+from app.rig.people.person import originals, ranges
 from app.rig.people.wardrobe import wardrobe
 
 if TYPE_CHECKING:
@@ -27,8 +27,9 @@ if TYPE_CHECKING:
 
 _weight = bounded_number(-10.0, 10.0, "quantity.weight", float)
 _height = bounded_number(LEAST_M, MOST_M, "quantity.height", float)
-_person_height = bounded_number(*HEIGHTS_M, "quantity.height", float)
-_years = bounded_number(*AGE_YEARS, "quantity.years", float)
+_person_heights_m, _person_years = ranges(originals())
+_person_height = bounded_number(*_person_heights_m, "quantity.height", float)
+_years = bounded_number(*_person_years, "quantity.years", float)
 _percent = bounded_number(0.0, 100.0, "quantity.percent", float)
 
 
@@ -69,7 +70,7 @@ def _add_file(command: argparse.ArgumentParser) -> None:
 
 
 def list_characters(arguments: argparse.Namespace) -> None:
-    """Print every character: id, title and file; the outfits; then the user's own folder and what is wrong in it."""
+    """Print every character: id, title, names and file; the outfits; then the own folder and what is wrong in it."""
     from app.rig.characters.character_library import character_library, character_problems
 
     known = character_library()
@@ -78,6 +79,7 @@ def list_characters(arguments: argparse.Namespace) -> None:
         {
             "id": id,
             "title": _title(id, source.entry, speech),
+            "names": _names(id),
             "file": stored(source.path),
             "own": source.entry is not None,
         }
@@ -97,8 +99,9 @@ def list_characters(arguments: argparse.Namespace) -> None:
         say_json(found)
         return
     for row in rows:
-        mark = "*" if row["own"] else ""
-        say(on_left(f"{row['id']}{mark}", 28) + f" {row['title']}" if row["title"] else f"{row['id']}{mark}")
+        mark, title = "*" if row["own"] else "", str(row["title"])
+        called = " / ".join([title, *sorted({*_names(str(row["id"])).values()} - {title})])
+        say(on_left(f"{row['id']}{mark}", 28) + f" {called}" if called else f"{row['id']}{mark}")
     if outfits:
         say("", said("characters.outfits"))
     for id, outfit in wardrobe().items():
@@ -111,9 +114,14 @@ def list_characters(arguments: argparse.Namespace) -> None:
 
 def _title(id: str, entry: CharacterEntry | None, speech: Speech) -> str:
     """Return the title of a character; empty if it has only an id."""
-    if id in bundled_people():
-        return speech.name(bundled_person(id).name)
-    return entry.title if entry is not None else ""
+    name = our_name(id)
+    return speech.name(name) if name is not None else entry.title if entry is not None else ""
+
+
+def _names(id: str) -> dict[str, str]:
+    """Return the names of a bundled character by language; empty for the user's own, who have a title."""
+    name = our_name(id)
+    return {} if name is None else {"en": name.en, "ja": name.ja}
 
 
 def check_character(arguments: argparse.Namespace) -> None:

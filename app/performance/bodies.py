@@ -12,16 +12,18 @@ from app.errors import FileError, MapError, Progress, UsageError, shortened
 from app.identity_cache import IdentityCache
 from app.motion.contacts.ready_player import put_aside_transform
 from app.project.performers import Dancer, Player
-from app.rig.characters.character_library import character_named, character_revision, our_characters
+from app.rig.characters.character_library import carriage_of, character_named, character_revision, our_characters
 from app.rig.characters.dressed_characters import character_in
 from app.rig.grip.body_size import leg_size, sized_body, sized_model
+from app.rig.grip.carriage import carried_by
 from app.rig.grip.fitting.fit_terms import no_progress
 from app.rig.grip.fitting.fitted_instrument import FittedInstrument, fitted_to_body
-from app.rig.grip.fitting.grip_files import bundled_path, hold_for
+from app.rig.grip.fitting.grip_files import bundled_path, hold_for, own_hold
 from app.rig.grip.grip_pose import GripPose
 from app.rig.instrument import load_instrument
 from app.rig.model import Character, InstrumentModel
 from app.rig.people.bundled_people import hands_id
+from app.rig.people.person import Person
 from instrument_maps.library import library, model_path
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
@@ -31,8 +33,10 @@ from metadata.model import Body
 _MODELS: IdentityCache[InstrumentModel] = IdentityCache(128)
 """Cache of instrument models, larger than the number of instruments, so that no model is read again at every edit."""
 _HOLDS: IdentityCache[GripPose] = IdentityCache(256)
+_STRAINED: IdentityCache[bool] = IdentityCache(512)
 _HELD: set[tuple[str, int, str, int]] = set()
 """Pairs of character and instrument, by id and revision, whose grips are computed."""
+_CARRIED: IdentityCache[InstrumentMap] = IdentityCache(256)
 _SUITED: IdentityCache[FittedInstrument] = IdentityCache(256)
 
 
@@ -58,7 +62,14 @@ def _body(size: float) -> Body:
 
 def model_of(instrument: InstrumentMap) -> InstrumentModel:
     """Return the model of an instrument map at its size; cached. Raises MapError or FileError."""
-    return _MODELS.step(_loaded, instrument)
+    return _MODELS.step(_loaded, _as_usual(instrument))
+
+
+def _as_usual(instrument: InstrumentMap) -> InstrumentMap:
+    """Return the bundled map of an instrument that differs from it only in how it is carried, else the same map."""
+    usual = bundled_maps().get(instrument.id, instrument)
+    fields = (name for name in InstrumentMap.__struct_fields__ if name != "hold")
+    return usual if all(getattr(usual, name) is getattr(instrument, name) for name in fields) else instrument
 
 
 def _loaded(instrument: InstrumentMap) -> InstrumentModel:
@@ -67,11 +78,12 @@ def _loaded(instrument: InstrumentMap) -> InstrumentModel:
 
 def suited_to(player: Player, instrument: InstrumentMap) -> FittedInstrument:
     """Return the instrument fitted to a player's body (size and contacts); cached for each pair."""
-    if player.character_id in our_characters():
-        # Ours are adult and complete: plans are made before any character is loaded.
-        return FittedInstrument(instrument, ())
-    if character_of(player).hands_of is not None:
-        return FittedInstrument(instrument, ())
+    # Ours and people are complete and play instruments as they are: plans are made before any character is loaded.
+    if player.character_id in our_characters() or character_of(player).hands_of is not None:
+        shares = carriage_of(player.character_id, instrument.id)
+        if shares is None or bundled_maps().get(instrument.id) is not instrument:
+            return FittedInstrument(instrument, ())
+        return FittedInstrument(_CARRIED.step(carried_by, instrument, shares), ())
     return _SUITED.step(_suited, character_of(player), instrument, body_of(player))
 
 
@@ -95,10 +107,40 @@ def _hold(
         hands = character.hands_of
         if hands is None:
             return hold_for(character, model, instrument, body, progress)
-        fitted = hold_for(hands, model, instrument, _body(round(leg_size(hands.skeleton), 3)), progress)
+        own = own_hold(character, model, instrument, load_body())
+        if own is not None:
+            return own
+        fitted = hold_for(hands, model, _as_usual(instrument), load_body(), progress)
         from app.rig.grip.fitting.same_hands import with_own_arms  # heavy, like a fit
 
         return with_own_arms(fitted, character, model, instrument, body)
+
+
+def is_strained(character: Character, instrument: InstrumentMap) -> bool:
+    """Return whether a person bends its wrists much further on an instrument, as it carries it, than the finished body
+    whose hands it has."""
+    return character.hands_of is not None and _STRAINED.step(_strained, character, character.hands_of, instrument)
+
+
+def strained_on(character: Character, person: Person) -> tuple[str, ...]:
+    """Return the ids of the bundled instruments that a person does not play as people do: on which it is strained, or
+    of which the finished body whose hands it has holds none."""
+    found = []
+    for instrument in bundled_maps().values():
+        shares = person.carriages.get(instrument.id)
+        carried = instrument if shares is None else carried_by(instrument, shares)
+        if not _is_stored(person.original, instrument.id) or is_strained(character, carried):
+            found.append(instrument.id)
+    return tuple(found)
+
+
+def _strained(character: Character, hands: Character, instrument: InstrumentMap) -> bool:
+    from app.rig.grip.fitting.same_hands import are_strained  # heavy, like a fit
+
+    body, usual, model = load_body(), _as_usual(instrument), model_of(instrument)
+    with _worked_out(character, instrument):
+        fitted = hold_for(hands, model, usual, body)
+        return are_strained(fitted, character, hands, model, (instrument, usual), body)
 
 
 def lies_at(player: Player, instrument: InstrumentMap, number: int) -> tuple[FloatArray, FloatArray] | None:

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from app.contacts.missed_contacts import missed_message
 from app.contacts.reach import Holding, Reached, hand_reach
 from app.errors import AppError, Message
-from app.performance.bodies import body_of, character_of, hold_of, is_held, suited_to
+from app.performance.bodies import body_of, character_of, hold_of, is_held, is_strained, suited_to
 from app.plan.model import FingeringEvent, Problem
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
@@ -57,13 +57,14 @@ def body_problems(
     """
     try:
         held, lacking = suited_to(player, instrument)
-        if instrument.id in not_cast_for(player.character_id):
+        # Ours were tried on our instruments, and their holds meet all touches; of others it is said once it is known.
+        ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
+        known = not ours and not waiting and is_held(player, instrument)
+        if instrument.id in not_cast_for(player.character_id) or (known and is_strained(character_of(player), held)):
             lacking = (*lacking, Message("character.not_cast", {}))
         if waiting:
             return BodyProblems((*lacking, Message("character.hold_waiting", {})))
-        # Holds of our own bodies on our instruments meet all touches; what another misses is reported once it is known.
-        ours = player.character_id in our_characters() and bundled_maps().get(instrument.id) is instrument
-        missed = None if ours or not is_held(player, instrument) else missed_message(hold_of(player, held))
+        missed = missed_message(hold_of(player, held)) if known else None
         revision = character_revision(player.character_id)
         given = {"instrument": held, "revision": revision, "fingerings": fingerings}
         unreached = runs.begin(REACH, player.id, player=_posed(player), **given).of(_reached).problems

@@ -63,6 +63,10 @@ class Character:
         Skeleton of the character's file; None if it is this skeleton.
     hands_of : Character or None
         Character with identical hands, down to the vertices; None if the hands are unique.
+    made_from : Character or None
+        Body that a person is made from; None for the body of a file.
+    made_of : str
+        Digest of the phenotype that a person is made of; empty for other bodies.
     """
 
     id: str
@@ -72,6 +76,8 @@ class Character:
     landmarks: dict[str, Landmark]
     own: OwnSkeleton | None = None
     hands_of: Character | None = None
+    made_from: Character | None = None
+    made_of: str = ""
 
 
 @dataclass(frozen=True, eq=False)

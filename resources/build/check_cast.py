@@ -5,12 +5,13 @@
 Each person plays the instrument's compass from its lowest to its highest note, a semitone at a time. Contacts are
 judged as an export's are, and joints by the human ranges. What is worse than the finished bodies do it is printed and
 makes the command fail, unless the person's file says that it is not cast for the instrument; `--write` makes the file
-say so.
+say so, and removes what does not help: carriages (`fit_carriages`) and holds of their own (`build_holds --people`).
 """
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import sys
 import tempfile
@@ -18,6 +19,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+
+# One thread: several only wait for each other in so many small sums.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import mido
 import msgspec
@@ -35,17 +39,20 @@ from app.performance.span import whole_span
 from app.project.edit.players import assign
 from app.project.model import Project, map_choices, project_from_score
 from app.rig.characters.character_library import bundled_characters
+from app.rig.grip.fitting.grip_files import bundled_path
 from app.rig.model import Character
-from app.rig.people.bundled_people import bundled_people, not_cast_for
+from app.rig.people.bundled_people import bundled_people, bundled_person, not_cast_for
 from app.score.read import read_midi
 from instrument_maps.load import bundled_maps
 from instrument_maps.model import InstrumentMap
 from metadata.load import load_body, load_skeleton
+from resources.build.fit_carriages import write_carriages
 
 FPS = Fraction(15)
 NOTE_TICKS = 240
-LEAST_DEG, SAME = 0.01, 0.05
-"""Degrees beyond a range that count; degrees or millimetres by which a person may be worse than a finished body."""
+LEAST_DEG, SAME = 2.0, 0.05
+"""Degrees beyond a range that count: fewer are what the tests of wrists allow the finished bodies in motion. Degrees or
+millimetres by which a person may be worse than a finished body."""
 WRITE = "--write"
 LINE = re.compile(r"^not_cast_for = .*$", re.MULTILINE)
 
@@ -144,10 +151,15 @@ def main(requested: Sequence[str]) -> None:
                 amounts = ", ".join(f"{name} {amount:.2f}" for name, amount in found.items())
                 print(f"{id} {instrument_id}: {amounts or 'is within the bounds'}", flush=True)
         if write:
-            now = {name for name, found in instruments.items() if found} | (before - set(instruments))
+            small = {name for name, found in instruments.items() if found}
+            for name in small:
+                bundled_path(id, name).unlink(missing_ok=True)
+            now = small | (before - set(instruments))
             path = bundled_people()[id]
             line = f"not_cast_for = [{', '.join(json.dumps(name) for name in sorted(now))}]"
             path.write_text(LINE.sub(line, path.read_text(encoding="utf-8")), encoding="utf-8")
+            carriages = bundled_person(id).carriages
+            write_carriages(path, {name: shares for name, shares in carriages.items() if name not in small})
     sys.exit(1 if failed and not write else 0)
 
 

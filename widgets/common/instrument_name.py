@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.editor.translated import tr
 from app.rig.characters.character_library import character_library
-from app.rig.people.bundled_people import bundled_people, bundled_person
+from app.rig.people.bundled_people import our_name
 from app.rig.people.wardrobe import OWN_CLOTHES, wardrobe
 from instrument_maps.instrument_names import vocabulary
 from instrument_maps.model import InstrumentMap
@@ -38,9 +38,7 @@ def outfit_names() -> dict[str, str]:
 
 def character_name(character_id: str) -> str:
     """Return the name of a character: translated for bundled ones, else from its file."""
-    if character_id in bundled_people():
-        name = bundled_person(character_id).name
+    name, own = our_name(character_id), character_library().own.get(character_id)
+    if name is not None:
         return name.ja if language() == "ja" else name.en
-    names = {"woman_adult": tr("character_name.woman"), "man_adult": tr("character_name.man")}
-    own = character_library().own.get(character_id)
-    return names.get(character_id, (own.title if own is not None else "") or character_id)
+    return (own.title if own is not None else "") or character_id

@@ -10,15 +10,18 @@ from PySide6.QtGui import QImage, QPixmap
 from PySide6.QtWidgets import QDialog, QLineEdit, QWidget
 
 from app.editor.session import Session
+from app.editor.translated import tr
 from app.errors import AppError, Message, Progress, StopRequested
+from app.performance.bodies import strained_on
 from app.rig.characters.character_library import MOST_TITLE, character_named
-from app.rig.people.body_shapes import AGE_YEARS, age_of, years_of
+from app.rig.people.body_shapes import age_of, years_of
 from app.rig.people.bundled_people import bundled_people, like, person_of
-from app.rig.people.person import HEIGHTS_M, Person
+from app.rig.people.person import Person, ranges
+from instrument_maps.load import bundled_maps
 from widgets.common.character_picture import Crop, picture, seen
 from widgets.common.controls import Caption, OkCancel, Retranslated, named, wrapped
 from widgets.common.help import with_help
-from widgets.common.instrument_name import character_name
+from widgets.common.instrument_name import character_name, instrument_name
 from widgets.common.layouts import STRETCH, begin_with_size, in_column, in_form, in_row
 from widgets.common.number_slider import NumberSlider
 from widgets.common.plain import ComboBox, Label
@@ -27,6 +30,8 @@ from widgets.common.text import message_text
 PICTURES_PX: Final[dict[Crop, QSize]] = {"head": QSize(280, 220), "body": QSize(280, 250)}
 SOON_MS: Final = 60
 """Delay in milliseconds before a picture is drawn during a drag."""
+LATER_MS: Final = 500
+"""Delay in milliseconds after a drag before the instruments are tried, which takes a second or two."""
 
 
 class PersonDialog(Retranslated, QDialog):
@@ -60,9 +65,10 @@ class PersonDialog(Retranslated, QDialog):
         self.title.setMaxLength(MOST_TITLE)
         self.like = named(ComboBox(), "person_like")
         self._is_new = person is None
+        heights_m, years = ranges([self.person.original])
         self.sliders = {
-            "height_m": NumberSlider(session, *HEIGHTS_M, step=0.01, resets=False),
-            "age": NumberSlider(session, *AGE_YEARS, step=1.0, decimals=0, resets=False),
+            "height_m": NumberSlider(session, *heights_m, step=0.01, resets=False),
+            "age": NumberSlider(session, *years, step=1.0, decimals=0, resets=False),
             "muscle": NumberSlider(session, 0.0, 100.0, default=50.0, step=5.0, decimals=0),
             "weight": NumberSlider(session, 0.0, 100.0, default=50.0, step=5.0, decimals=0),
         }
@@ -78,6 +84,10 @@ class PersonDialog(Retranslated, QDialog):
         self._buttons = OkCancel("person_dialog.keep", "person_dialog.cancel")
         self._soon = QTimer(self, singleShot=True, interval=SOON_MS)
         self._soon.timeout.connect(self._draw)
+        self._strained = named(wrapped(Label()), "person_strained")
+        self._strained_on: tuple[str, ...] | None = None
+        self._later = QTimer(self, singleShot=True, interval=LATER_MS)
+        self._later.timeout.connect(self._try_instruments)
         self._lay_out()
         self.like.activated.connect(lambda index: self._be_like(self.like.itemData(index)))
         self.title.textChanged.connect(lambda text: self._buttons.ok.setEnabled(bool(text.strip())))
@@ -97,7 +107,7 @@ class PersonDialog(Retranslated, QDialog):
         for crop, size in PICTURES_PX.items():
             self._pictures[crop].setFixedSize(size)
             self._pictures[crop].setAlignment(Qt.AlignmentFlag.AlignCenter)
-        fields = in_column(in_form(rows), *self.sliders.values(), self._explained, STRETCH)
+        fields = in_column(in_form(rows), *self.sliders.values(), self._explained, self._strained, STRETCH)
         in_column(
             in_row(in_column(*self._pictures.values()), (fields, 1)),
             with_help(self._buttons),
@@ -114,16 +124,52 @@ class PersonDialog(Retranslated, QDialog):
         changed = {"height_m": value, "age": age_of(value)}.get(name, value / 100.0)
         phenotype = msgspec.structs.replace(self.person.phenotype, **{name: changed})
         self.person = msgspec.structs.replace(self.person, phenotype=phenotype)
-        self._soon.start()
+        self._change()
 
     def _show(self) -> None:
         """Show the person's numbers, and draw the person."""
         phenotype = self.person.phenotype
+        heights_m, years = ranges([self.person.original])
+        self.sliders["height_m"].set_range(*heights_m)
+        self.sliders["age"].set_range(*years)
         self.sliders["height_m"].show_value(phenotype.height_m)
         self.sliders["age"].show_value(round(years_of(phenotype.age)))
         for name in ("muscle", "weight"):
             self.sliders[name].show_value(round(100.0 * getattr(phenotype, name)))
+        self._change()
+
+    def _change(self) -> None:
+        """Draw the person soon, and say later what it does not play."""
+        self._strained_on = None
+        self._say_strained()
         self._soon.start()
+        self._later.start()
+
+    def _try_instruments(self) -> None:
+        person = self.person
+
+        def work(progress: Progress, stop_requested: StopRequested) -> tuple[str, ...]:
+            return strained_on(person_of("person", person, character_named), person)
+
+        def done(found: tuple[str, ...]) -> None:
+            if person is self.person:
+                self._strained_on = found
+                self._say_strained()
+
+        def failed(error: AppError) -> None:
+            self._strained.setText(message_text(error.message))
+
+        self._session.tasks.run(Message("work.person_instruments"), work, done, failed, key="person_instruments")
+
+    def _say_strained(self) -> None:
+        found = self._strained_on
+        if found is None:
+            self._strained.setText(tr("person_dialog.trying"))
+        elif found:
+            names = ", ".join(instrument_name(bundled_maps()[id]) for id in found)
+            self._strained.setText(tr("person_dialog.strained").format(names=names))
+        else:
+            self._strained.setText(tr("person_dialog.plays_all"))
 
     def _draw(self) -> None:
         if self._drawing:
@@ -166,3 +212,4 @@ class PersonDialog(Retranslated, QDialog):
         for id in bundled_people():
             self.like.addItem(character_name(id), id)
         self.like.setCurrentIndex(max(chosen, 0))
+        self._say_strained()

@@ -234,6 +234,13 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
     return load_character(path, id, said.joints, said.morphs, said.height_m, said.hidden)
 
 
+def carriage_of(id: str, instrument_id: str) -> tuple[float, float, float] | None:
+    """Return how a person carries an instrument (`Person.carriages`); None: as is usual."""
+    entry = character_library().own.get(id)
+    person = bundled_person(id) if id in bundled_people() else None if entry is None else entry.person
+    return None if person is None else person.carriages.get(instrument_id)
+
+
 def character_problems() -> Mapping[str, Message]:
     """Return the problems of the user's own characters by id, opening files that have not been opened yet."""
     found = {path.stem: problems[0] for path, problems in character_library().problems.items()}

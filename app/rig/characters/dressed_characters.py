@@ -8,14 +8,14 @@ from app.rig.characters.character_library import bundled_characters, character_l
 from app.rig.model import Character
 from app.rig.people.bundled_people import bundled_people, bundled_person
 from app.rig.people.dressed import dressed, dressed_id
-from app.rig.people.person import Person, phenotypes
+from app.rig.people.person import Person, originals
 from app.rig.people.wardrobe import OutfitChoice
 
 
 def person_behind(id: str) -> Person | None:
     """Return the person that a character is made from; None for other figures and unknown ids."""
     if id in bundled_characters():
-        return Person(id, phenotypes()[id])
+        return Person(id, originals()[id])
     if id in bundled_people():
         return bundled_person(id)
     entry = character_library().own.get(id)

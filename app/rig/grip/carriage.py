@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 
 from app.arrays import FloatArray
@@ -66,6 +67,32 @@ def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
         if name in skeleton.names:
             rotations[0, skeleton.index(name)] = quaternion.from_rotation_vector(vector)
     return rotations
+
+
+def carried_by(instrument_map: InstrumentMap, shares: tuple[float, float, float]) -> InstrumentMap:
+    """Return an instrument that is usually carried in another way within its range.
+
+    Parameters
+    ----------
+    shares : (float, float, float)
+        Of pitch, yaw and roll: how far, -1 to the lower end of the range, 1 to the upper one.
+    """
+
+    def moved(carriage: Carriage | None) -> Carriage | None:
+        if carriage is None:
+            return None
+        ranges = (carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg)
+        pitch, yaw, roll = (_shifted(*one) for one in zip(ranges, shares, strict=True))
+        return msgspec.structs.replace(carriage, pitch_down_deg=pitch, yaw_left_deg=yaw, roll_left_deg=roll)
+
+    hold = instrument_map.hold
+    hold = msgspec.structs.replace(hold, standing=moved(hold.standing), seated=moved(hold.seated))
+    return msgspec.structs.replace(instrument_map, hold=hold)
+
+
+def _shifted(range_deg: maps.Vector, share: float) -> maps.Vector:
+    low, usual, high = range_deg
+    return (low, usual + share * (high - usual if share > 0.0 else usual - low), high)
 
 
 def usual_posture(instrument_map: InstrumentMap) -> maps.Posture:

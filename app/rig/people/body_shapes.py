@@ -24,8 +24,6 @@ AGES, HALVES, ENDS = (-1.0 / 3.0, 0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0), (0.0, 0.5, 1.
 """Values at which shapes stand: newborn, baby, child (about 11 years), young (25), old (90); and others."""
 YEARS, GROWN = (11.0, 25.0, 90.0), (1.0 / 3.0, 2.0 / 3.0, 1.0)
 """Years of age, and the ages of phenotypes that they are."""
-AGE_YEARS: Final = (15.0, 90.0)
-"""Range of people's ages."""
 SKIN_VERTICES: Final = 13380
 """The base mesh has its skin first; what follows carries clothes, teeth and eyes."""
 ROWS = 32

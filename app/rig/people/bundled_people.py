@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
@@ -16,7 +18,10 @@ from app.rig.model import Character
 from app.rig.people.body_shapes import Phenotype, body_m, body_shapes
 from app.rig.people.make_person import Original, original_of, person_character
 from app.rig.people.moved_joints import arm_after_m
-from app.rig.people.person import Person, PersonName, hair_styles, phenotypes, read_person, skins
+from app.rig.people.person import Person, PersonName, hair_styles, originals, read_person, skins
+
+PEOPLE_VERSION = 1
+"""Version of the way bodies follow from phenotypes: holds fitted to people of another one are fitted again."""
 
 
 @cache
@@ -30,6 +35,12 @@ def bundled_people() -> Mapping[str, Path]:
 def bundled_person(id: str) -> Person:
     """Return one of the people as its file says; KeyError where there is none."""
     return read_person(bundled_people()[id])
+
+
+def our_name(id: str) -> PersonName | None:
+    """Return the names of a character of ours; None of any other."""
+    named = bundled_person(id) if id in bundled_people() else originals().get(id)
+    return None if named is None else named.name
 
 
 def like(id: str, measures: Mapping[str, float]) -> Person:
@@ -57,39 +68,71 @@ def person_of(id: str, person: Person, named: Callable[[str], Character]) -> Cha
     named : callable
         Gives a finished body by its id.
     """
-    worn = {mesh: finished_body(named(owner), owner) for mesh, owner in person.worn.items()}
+    worn = {mesh: finished_body(finished_character(owner, named), owner) for mesh, owner in person.worn.items()}
     if person.hair:
         worn["hair"] = _style(person.hair)
-    original = finished_body(named(person.original), person.original)
+    original = finished_body(finished_character(person.original, named), person.original)
     skin = _skin(person.skin) if person.skin else None
-    return person_character(id, original, body_shapes(), whole_phenotype(person), person.colors, worn, skin)
+    whole = whole_phenotype(person)
+    made = person_character(id, original, body_shapes(), whole, person.colors, worn, skin)
+    return replace(made, made_of=_made_of(whole))
+
+
+def finished_character(id: str, named: Callable[[str], Character]) -> Character:
+    """Return a finished body: that of a file, or one made of another body. Raises KeyError for other ids."""
+    table = originals()[id]
+    return _made(id, named(table.made_from)) if table.made_from else named(id)
+
+
+@lru_cache(maxsize=4)
+def _made(id: str, before: Character) -> Character:
+    """A finished body that is made of another one, with hands of its own size."""
+    table = originals()[id]
+    original, shapes = finished_body(before, before.id), body_shapes()
+    made = person_character(id, original, shapes, table, hands=table.hands, hip_joints_m=table.hip_joints_m)
+    return replace(made, made_of=_made_of(table))
+
+
+def _made_of(phenotype: Phenotype) -> str:
+    """Digest of a phenotype and of the shapes; bodies of it differ in their last bits from processor to processor."""
+    digest = hashlib.blake2b(f"{PEOPLE_VERSION}\n".encode(), digest_size=16)
+    digest.update(msgspec.json.encode(phenotype, order="sorted"))
+    digest.update(_shapes_digest())
+    return digest.hexdigest()
+
+
+@cache
+def _shapes_digest() -> bytes:
+    return hashlib.blake2b((_folder() / "bodies.arrays").read_bytes(), digest_size=16).digest()
 
 
 def person_arm_m(person: Person, named: Callable[[str], Character]) -> float:
     """Return the length of a person's arm, upper and lower, before the person is made."""
     shapes = body_shapes()
-    bodies = (body_m(shapes, one) for one in (whole_phenotype(person), phenotypes()[person.original]))
+    bodies = (body_m(shapes, one) for one in (whole_phenotype(person), originals()[person.original]))
     after, before = (body[len(shapes.vertices) :] for body in bodies)
-    return arm_after_m(named(person.original), dict(zip(shapes.joints, after - before, strict=True)))
+    return arm_after_m(
+        finished_character(person.original, named), dict(zip(shapes.joints, after - before, strict=True))
+    )
 
 
 def whole_phenotype(person: Person) -> Phenotype:
     """Return the phenotype of a person, who has the local changes of the finished body where there are no others."""
-    local = {**phenotypes()[person.original].local, **person.phenotype.local}
+    local = {**originals()[person.original].local, **person.phenotype.local}
     return msgspec.structs.replace(person.phenotype, local=local)
 
 
 @lru_cache(maxsize=4)
 def finished_body(character: Character, id: str) -> Original:
     """Prepare a finished body for making people from it; done once."""
-    return original_of(character, body_shapes(), phenotypes()[id])
+    return original_of(character, body_shapes(), originals()[id])
 
 
 @lru_cache(maxsize=16)
 def _style(name: str) -> Original:
     """Hair by itself on the finished body that it is fitted to."""
     path = hair_styles()[name]
-    return original_of(load_character(path), body_shapes(), phenotypes()[path.parent.name])
+    return original_of(load_character(path), body_shapes(), originals()[path.parent.name])
 
 
 @lru_cache(maxsize=16)

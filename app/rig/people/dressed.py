@@ -17,7 +17,7 @@ from app.rig.model import Character, Landmark
 from app.rig.people.body_shapes import body_shapes
 from app.rig.people.bundled_people import finished_body, whole_phenotype
 from app.rig.people.make_person import SKIN, SKIN_MATERIAL, Original, carried, original_of
-from app.rig.people.person import Person, phenotypes
+from app.rig.people.person import Person, originals
 from app.rig.people.wardrobe import OutfitChoice, OutfitFacts, linear_colour, wardrobe
 
 
@@ -44,7 +44,8 @@ def dressed(character: Character, person: Person, choice: OutfitChoice) -> Chara
     if outfit is None or person.original not in outfit.files:
         return character
     path, facts = outfit.files[person.original]
-    worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person))
+    hands = originals()[person.original].hands
+    worn = carried(_garments(path, facts.body), body_shapes(), whole_phenotype(person), hands)
     skin = next(mesh for mesh in character.meshes if mesh.name == SKIN)
     finished = character if character.hands_of is None else character.hands_of
     own = [_uncovered(mesh, facts, finished) for mesh in character.meshes if mesh.name not in facts.hides]
@@ -70,7 +71,7 @@ def _on(garments: Sequence[Mesh], character: Character, mark: Landmark) -> Landm
 @lru_cache(maxsize=48)
 def _garments(path: Path, body: str) -> Original:
     """The garments of a file on the finished body that they are fitted to."""
-    return original_of(load_character(path), body_shapes(), phenotypes()[body])
+    return original_of(load_character(path), body_shapes(), originals()[body])
 
 
 def _uncovered(mesh: Mesh, facts: OutfitFacts, finished: Character) -> Mesh:

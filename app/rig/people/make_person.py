@@ -114,6 +114,8 @@ def person_character(
     colors: Mapping[str, Color] | None = None,
     worn: Mapping[str, Original] | None = None,
     skin_colors: Texture | None = None,
+    hands: float = 1.0,
+    hip_joints_m: float = 0.0,
 ) -> Character:
     """Make a person.
 
@@ -125,23 +127,30 @@ def person_character(
         By mesh: the finished body that it is taken from, with joints of the same names.
     skin_colors : Texture, optional
         Picture of the skin, instead of the finished body's.
+    hands : float
+        Size of the hands, the finished body's being 1; of another size they hold nothing as the finished body does.
+    hip_joints_m : float
+        Distance between the hip joints; 0: as the phenotype moves them.
     """
     body = body_m(shapes, phenotype)
-    joints = _joints(original, shapes, body)
+    if hip_joints_m:
+        body = _with_hip_joints(original, shapes, body, hip_joints_m)
+    joints = _joints(original, shapes, body, hands)
     before = original.character
     skin = next(mesh for mesh in before.meshes if mesh.name == SKIN)
     face = face_change(before, skin, _moved(original, skin, body, joints))
     meshes = []
     for mesh, owner in _chosen(original, worn or {}):
-        own = joints if owner is original else _joints(owner, shapes, body)
+        own = joints if owner is original else _joints(owner, shapes, body, hands)
         meshes.append(_recolored(_changed(owner, mesh, body, own, face), colors or {}, skin_colors))
-    return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=before), joints)
+    hands_of = before if hands == 1.0 else None
+    return _standing(replace(before, id=id, meshes=tuple(meshes), hands_of=hands_of, made_from=before), joints)
 
 
-def carried(original: Original, shapes: BodyShapes, phenotype: Phenotype) -> tuple[Mesh, ...]:
-    """Carry the meshes of a file, garments without a face, onto the body of a phenotype."""
+def carried(original: Original, shapes: BodyShapes, phenotype: Phenotype, hands: float = 1.0) -> tuple[Mesh, ...]:
+    """Carry the meshes of a file, garments without a face, onto the body of a phenotype with hands of a size."""
     body = body_m(shapes, phenotype)
-    joints = _joints(original, shapes, body)
+    joints = _joints(original, shapes, body, hands)
     return tuple(_changed(original, mesh, body, joints, NO_CHANGE) for mesh in original.character.meshes)
 
 
@@ -155,11 +164,22 @@ def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh
     return found
 
 
-def _joints(original: Original, shapes: BodyShapes, body: FloatArray) -> MovedJoints:
+def _with_hip_joints(original: Original, shapes: BodyShapes, body: FloatArray, apart_m: float) -> FloatArray:
+    """A body whose hip joints move to a distance between them."""
+    moved, before = body.copy(), original.character
+    for side, sign in SIDES:
+        joint = before.skeleton.index(f"{side}UpperLeg")
+        row = len(shapes.vertices) + shapes.joints.index(f"{side}UpperLeg")
+        at_m = float(np.linalg.inv(before.joint_from_mesh[joint])[0, 3])
+        moved[row, 0] = original.base_m[row, 0] + sign * apart_m / 2.0 - at_m
+    return moved
+
+
+def _joints(original: Original, shapes: BodyShapes, body: FloatArray, hands: float) -> MovedJoints:
     """Move the joints of a finished body as its base mesh becomes another one."""
     count = len(shapes.vertices)
     steps = body[count:] - original.base_m[count:]
-    return moved_joints(original.character, dict(zip(shapes.joints, steps, strict=True)))
+    return moved_joints(original.character, dict(zip(shapes.joints, steps, strict=True)), hands)
 
 
 def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints) -> FloatArray:
@@ -170,7 +190,7 @@ def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints
     for place, (side, _) in enumerate(SIDES):
         share = original.hands[mesh.name][:, place, None]
         hand = np.flatnonzero(share[:, 0] > 0.0)
-        rigid = joints.rigidly(skeleton.index(f"{side}Hand"), points[hand])
+        rigid = joints.rigidly(skeleton.index(f"{side}Hand"), points[hand], joints.hands)
         moved[hand] += share[hand] * (rigid - moved[hand])
         eye = skeleton.index(f"{side}Eye")
         ball = np.flatnonzero((mesh.weights * (mesh.joints == eye)).sum(axis=1) > 0.99)

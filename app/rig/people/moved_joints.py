@@ -24,31 +24,35 @@ class MovedJoints:
         ``mesh_from_joint``.
     lengthened : (4, 3) float64
         How far left elbow and wrist, then right ones, went beyond what was asked: no arm becomes shorter.
+    hands : float
+        Size of the hands, those before being 1.
     """
 
     before: FloatArray
     after: FloatArray
     lengthened: FloatArray
+    hands: float = 1.0
 
     def turn(self, joint: int) -> FloatArray:
         """The rotation (3, 3) of a joint from before to after."""
         turned: FloatArray = self.after[joint, :3, :3] @ self.before[joint, :3, :3].T
         return turned
 
-    def rigidly(self, joint: int, points: FloatArray) -> FloatArray:
-        """Points (N, 3) moved and turned with a joint."""
-        moved: FloatArray = (points - self.before[joint, :3, 3]) @ self.turn(joint).T + self.after[joint, :3, 3]
+    def rigidly(self, joint: int, points: FloatArray, size: float = 1.0) -> FloatArray:
+        """Points (N, 3) moved and turned with a joint, at another size about it."""
+        moved: FloatArray = size * (points - self.before[joint, :3, 3]) @ self.turn(joint).T + self.after[joint, :3, 3]
         return moved
 
 
-def moved_joints(original: Character, moved_m: Mapping[str, FloatArray]) -> MovedJoints:
+def moved_joints(original: Character, moved_m: Mapping[str, FloatArray], hands: float = 1.0) -> MovedJoints:
     """Move the joints of a body.
 
     Parameters
     ----------
     moved_m : mapping of str to (3,)
-        By joint outside the hands: how far it goes. Hands go with their wrists, whatever else is not named stays. Arms
-        become no shorter: they go with the hands, which stay as large as they are.
+        By joint outside the hands: how far it goes. Hands go with their wrists, whatever else is not named stays.
+    hands : float
+        Size of the hands, those of the body being 1. Where they stay as large as they are, arms become no shorter.
     """
     skeleton = original.skeleton
     before = np.linalg.inv(original.joint_from_mesh).astype(np.float64)
@@ -56,7 +60,9 @@ def moved_joints(original: Character, moved_m: Mapping[str, FloatArray]) -> Move
     for name, step in moved_m.items():
         if name in skeleton.names:
             after[skeleton.index(name), :3, 3] += step
-    lengthened = np.concatenate([_lengthen(skeleton, before, after, side) for side, _ in SIDES])
+    lengthened = np.zeros((2 * len(SIDES), 3))
+    if hands == 1.0:
+        lengthened = np.concatenate([_lengthen(skeleton, before, after, side) for side, _ in SIDES])
     for side, sign in SIDES:
         for joint, (old, new) in _limb_frames(skeleton, before, after, side, sign).items():
             after[joint, :3, :3] = new @ old.T @ before[joint, :3, :3]
@@ -66,8 +72,8 @@ def moved_joints(original: Character, moved_m: Mapping[str, FloatArray]) -> Move
         for joint in range(len(skeleton.names)):
             if wrist in ancestors(skeleton, joint):
                 after[joint, :3, :3] = turn @ before[joint, :3, :3]
-                after[joint, :3, 3] = after[wrist, :3, 3] + turn @ (before[joint, :3, 3] - place)
-    return MovedJoints(before, after, lengthened)
+                after[joint, :3, 3] = after[wrist, :3, 3] + hands * turn @ (before[joint, :3, 3] - place)
+    return MovedJoints(before, after, lengthened, hands)
 
 
 def _lengthen(skeleton: Skeleton, before: FloatArray, after: FloatArray, side: str) -> FloatArray:

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
-from typing import Final
 
 import msgspec
 
 from app.errors import MapError
 from app.formats.toml import read_toml, shaped
-from app.rig.people.body_shapes import AGE_YEARS, Phenotype, age_of
+from app.rig.people.body_shapes import Phenotype, age_of
 
 Color = tuple[float, float, float]
-HEIGHTS_M: Final = (1.4, 2.1)
-"""Range of people's heights: hands are grown-ups', so that bodies are too."""
-LEAST_AGE: Final = age_of(AGE_YEARS[0])
 
 
 class PersonName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -26,6 +22,31 @@ class PersonName(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     en: str
     ja: str
+
+
+class OriginalBody(Phenotype, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A finished body as a table says: its phenotype, and whoever can be made from it.
+
+    Attributes
+    ----------
+    name : PersonName
+        Empty of one that is there only to be made people from.
+    made_from : str
+        Id of another finished body that it is made from itself; empty: it is a file.
+    hands : float
+        Size of its hands, those of the body that it is made from being 1.
+    hip_joints_m : float
+        Distance between its hip joints; 0: as its phenotype moves them.
+    heights_m, years : (float, float)
+        Ranges of height and age of people made from it, whose hands are as large as its own.
+    """
+
+    name: PersonName = PersonName("", "")
+    made_from: str = ""
+    hands: float = 1.0
+    hip_joints_m: float = 0.0
+    heights_m: tuple[float, float] = (1.4, 2.1)
+    years: tuple[float, float] = (15.0, 90.0)
 
 
 class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
@@ -47,6 +68,9 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
         Picture of the skin in ``resources/characters/skin``; empty: the finished body's.
     not_cast_for : list of str
         Ids of instruments that the body plays only beyond the bounds: it is too small for them.
+    carriages : dict of str to (float, float, float)
+        By instrument that the body carries in another way than is usual, so that its wrists stay straight: how far, in
+        shares of the ranges of pitch, yaw and roll.
     """
 
     original: str
@@ -57,6 +81,7 @@ class Person(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defau
     hair: str = ""
     skin: str = ""
     not_cast_for: list[str] = []
+    carriages: dict[str, tuple[float, float, float]] = {}
 
 
 def read_person(path: Path) -> Person:
@@ -66,12 +91,12 @@ def read_person(path: Path) -> Person:
 
 def checked(person: Person, file: str) -> Person:
     """Return a person whose numbers are within their bounds. Raises MapError ``table.invalid``."""
+    for name in (person.original, *person.worn.values()):
+        if name not in originals():
+            raise MapError("table.invalid", file=file, place="original", detail="the id of a finished body")
     for place, least, value, most in _bounded(person):
         if not least <= value <= most:
             raise MapError("table.invalid", file=file, place=place, detail=f"a number from {least:g} to {most:g}")
-    for name in (person.original, *person.worn.values()):
-        if name not in phenotypes():
-            raise MapError("table.invalid", file=file, place="original", detail="the id of a finished body")
     if person.hair and person.hair not in hair_styles():
         raise MapError("table.invalid", file=file, place="hair", detail="a style of hair that comes with the program")
     if person.skin and person.skin not in skins():
@@ -96,19 +121,28 @@ def _folder() -> Path:
 
 
 @cache
-def phenotypes() -> Mapping[str, Phenotype]:
-    """Return the phenotypes of the finished bodies, by id."""
+def originals() -> Mapping[str, OriginalBody]:
+    """Return the finished bodies, by id."""
     path = _folder() / "originals.toml"
-    return MappingProxyType(shaped(read_toml(path), dict[str, Phenotype], str(path)))
+    return MappingProxyType(shaped(read_toml(path), dict[str, OriginalBody], str(path)))
+
+
+def ranges(ids: Collection[str]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return between which heights in metres, and which years of age, people of some of the finished bodies are."""
+    lows, highs = zip(*((one.heights_m, one.years) for one in map(originals().__getitem__, ids)), strict=True)
+    (least_m, most_m), (youngest, oldest) = (zip(*both, strict=True) for both in (lows, highs))
+    return (min(least_m), max(most_m)), (min(youngest), max(oldest))
 
 
 def _bounded(person: Person) -> list[tuple[str, float, float, float]]:
     """Numbers of a person with their places and bounds."""
-    phenotype = person.phenotype
-    found = [("phenotype.height_m", HEIGHTS_M[0], phenotype.height_m, HEIGHTS_M[1])]
-    found.append(("phenotype.age", LEAST_AGE, phenotype.age, 1.0))
+    phenotype, original = person.phenotype, originals()[person.original]
+    (least_m, most_m), (youngest, oldest) = original.heights_m, map(age_of, original.years)
+    found = [("phenotype.height_m", least_m, phenotype.height_m, most_m)]
+    found.append(("phenotype.age", youngest, phenotype.age, oldest))
     names = ("sex", "muscle", "weight", "proportions", "cup", "firmness", "african", "asian", "caucasian")
     found += [(f"phenotype.{name}", 0.0, getattr(phenotype, name), 1.0) for name in names]
     found += [(f"phenotype.local.{name}", -1.0, value, 1.0) for name, value in phenotype.local.items()]
+    found += [(f"carriages.{name}", -1.0, part, 1.0) for name, shares in person.carriages.items() for part in shares]
     found += [(f"colors.{name}", 0.0, part, 1.0) for name, color in person.colors.items() for part in color]
     return found

@@ -19,7 +19,7 @@ import msgspec
 from app.errors import FileError
 from app.formats.files import open_file
 from app.formats.gltf.container import field, split
-from app.rig.people.person import PersonName, phenotypes
+from app.rig.people.person import PersonName, originals
 
 Tint = Literal["main", "second", "accent"]
 TINTS: Final[tuple[Tint, ...]] = ("main", "second", "accent")
@@ -115,16 +115,19 @@ def wardrobe() -> Mapping[str, Outfit]:
     for path in sorted(_folder().glob("*.glb")):
         facts, factors = _facts(path)
         ending = path.stem.rpartition("_")[2]
-        named = [id for id in phenotypes() if id.partition("_")[0] == ending]
-        body = facts.body or (named or list(phenotypes()))[0]
+        named = [id for id in originals() if id.partition("_")[0] == ending]
+        body = facts.body or (named or list(originals()))[0]
         whole = msgspec.structs.replace(facts, body=body)
         for material, tint in facts.tints.items():
             factor = factors.get(material) or _factors(_document(_folder().parent / f"{body}.glb")).get(material)
             if factor is not None:
                 mean = facts.means.get(material, 1.0)
                 colours.setdefault(facts.id, {}).setdefault(tint, _hexadecimal([mean * part for part in factor]))
-        for id in named or phenotypes():
+        for id in named or originals():
             found.setdefault(facts.id, {})[id] = (path, whole)
+        for id, table in originals().items():
+            if table.made_from in named:
+                found[facts.id][id] = (path, whole)
     return MappingProxyType({id: _outfit(id, found[id], colours.get(id, {})) for id in sorted(found)})
 
 

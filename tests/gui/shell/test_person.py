@@ -8,12 +8,14 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLineEdit, QListWidget, QPushButton
+from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QListWidget, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.rig.characters.character_library import FOLDER_VARIABLE, character_library, reload_characters
+from app.rig.model import Character
 from app.rig.people.body_shapes import years_of
 from app.rig.people.bundled_people import bundled_person
+from app.rig.people.person import Person
 from app.shell.app import Program
 from tests.gui.shell.conftest import trigger
 from tests.support.windows import PATIENCE_MS, child
@@ -69,3 +71,30 @@ def test_a_person_is_made_and_changed(program: Program, qtbot: QtBot) -> None:
     (entry,) = character_library().own.values()
     assert entry.person is not None
     assert entry.person.phenotype.height_m == 1.8
+
+
+def test_what_a_person_is_too_small_for_is_said(
+    program: Program, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def strained_on(character: Character, person: Person) -> tuple[str, ...]:
+        asked.append(person)
+        return ("flute", "oboe") if person.phenotype.height_m < 1.5 else ()
+
+    monkeypatch.setattr("widgets.dialogs.person.strained_on", strained_on)
+    trigger(program, "application.characters")
+    child(child(program.window, CharactersDialog, "characters"), QPushButton, "characters_make").click()
+    dialog = child(program.window, PersonDialog, "person")
+    said = child(dialog, QLabel, "person_strained")
+    qtbot.waitUntil(lambda: "every instrument" in said.text(), timeout=PATIENCE_MS)
+    slide(dialog, "height_m", "1.45")
+    assert "Trying" in said.text()
+    qtbot.waitUntil(lambda: said.text().endswith("Flute, Oboe"), timeout=PATIENCE_MS)
+    assert asked[-1].phenotype.height_m == 1.45
+    like = child(dialog, QComboBox, "person_like")
+    like.setCurrentIndex(like.findData("child_hina"))
+    like.activated.emit(like.currentIndex())
+    slide(dialog, "age", "40")
+    assert years_of(dialog.person.phenotype.age) == pytest.approx(15.0)
+    dialog.reject()

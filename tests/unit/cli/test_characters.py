@@ -106,8 +106,12 @@ def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.Captur
     assert person is not None
     assert (person.phenotype.height_m, person.phenotype.weight, person.phenotype.muscle) == (1.71, 0.7, 0.55)
     assert main(["characters", "--json"]) == 0
-    titles = {row["id"]: row["title"] for row in json.loads(capsys.readouterr().out)["characters"]}
-    assert (titles["tom"], titles["cast_thomas"]) == ("Tom", "Thomas")
+    rows = {row["id"]: row for row in json.loads(capsys.readouterr().out)["characters"]}
+    assert (rows["tom"]["title"], rows["cast_thomas"]["title"]) == ("Tom", "Thomas")
+    assert (rows["tom"]["names"], rows["cast_thomas"]["names"]) == ({}, {"en": "Thomas", "ja": "トーマス"})
+    assert all(row["title"] and len(row["names"]) == 2 for row in rows.values() if not row["own"])
+    assert main(["characters"]) == 0
+    assert "Hina / 陽菜" in capsys.readouterr().out
     assert main(["characters", "make", "Tom", "--like", "tom"]) == 2
     assert main(["characters", "make", "Tom", "--like", "cast_thomas", "--age", "7"]) == 2
 

@@ -92,6 +92,9 @@ def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str]
 
     Hair, eyes, clothes and face shapes are not included.
     """
+    if character.made_from is not None:
+        texts, arrays = _of_body(character.made_from, instrument)
+        return [*texts, character.made_of], arrays
     skeleton = character.skeleton
     marks = {
         name: mark
@@ -183,6 +186,15 @@ def read_hold(path: Path, digest: str, lips: Lips) -> GripPose | None:
     if stored.digest != digest:
         return None
     return GripPose(stored.character_id, stored.instrument_id, stored.hands, lips)
+
+
+def own_hold(character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body) -> GripPose | None:
+    """Return the hold that comes with the program for a person with the hands of another body; None: there is none,
+    since it holds the instrument well enough as that body does."""
+    path = bundled_path(character.id, instrument.id)
+    if not path.is_file():
+        return None
+    return read_hold(path, digest_of(character, model, instrument, body), fit_lips(character, instrument, body))
 
 
 def hold_for(

@@ -9,9 +9,10 @@ from typing import Final
 
 import numpy as np
 
+from app.arrays import FloatArray
 from app.rig import quaternion
 from app.rig.grip.carriage import Upright, upright
-from app.rig.grip.fitting.hand_problem import grip_problem
+from app.rig.grip.fitting.hand_problem import HandProblem, grip_problem
 from app.rig.grip.fitting.residuals import Residuals
 from app.rig.grip.grip_pose import GripPose, HandHold
 from app.rig.grip.lips import fit_lips
@@ -22,6 +23,9 @@ from metadata.model import Body
 
 SWIVELS: Final = 36
 """Number of tried positions of the elbow."""
+STRAINED: Final = (1.5, 7.0)
+"""Factor and difference of the cost of two characters' arms beyond which wrists leave the human ranges in motion (found
+on the bundled people and instruments)."""
 
 
 def with_own_arms(
@@ -43,6 +47,41 @@ def with_own_arms(
     )
 
 
+def arms_cost(
+    grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
+) -> float:
+    """Return how unnaturally both arms lie when a character has the hold of another one with the same hands: squares
+    of a fit's residuals of elbows and wrists."""
+    stand = upright(character, instrument, body, fit_lips(character, instrument, body))
+    hands = zip(grip.hands, instrument.hands, strict=True)
+    return sum(
+        float(_costs(hand, grip_problem(character, model, instrument, body, seed, stand)[0])[1].min())
+        for hand, seed in hands
+    )
+
+
+def are_strained(
+    grip: GripPose,
+    character: Character,
+    other: Character,
+    model: InstrumentModel,
+    carried: tuple[InstrumentMap, InstrumentMap],
+    body: Body,
+) -> bool:
+    """Return whether a character bends its wrists much further than another one with the same hands.
+
+    Parameters
+    ----------
+    grip : GripPose
+        The other character's.
+    carried : (InstrumentMap, InstrumentMap)
+        The instrument as either carries it.
+    """
+    times, more = STRAINED
+    usual = arms_cost(grip, other, model, carried[1], body)
+    return arms_cost(grip, character, model, carried[0], body) > max(times * usual, usual + more)
+
+
 def _elbow(
     hand: HandHold,
     character: Character,
@@ -53,6 +92,15 @@ def _elbow(
     stand: Upright,
 ) -> HandHold:
     problem, _ = grip_problem(character, model, instrument, body, seed, stand)
+    swivels, cost = _costs(hand, problem)
+    swivel = swivels[np.argmin(cost)]
+    down, out = problem.swivel_frame
+    pole = quaternion.rotate(stand.instrument_rotation, np.cos(swivel) * down + np.sin(swivel) * out)
+    return replace(hand, elbow_direction=pole)
+
+
+def _costs(hand: HandHold, problem: HandProblem) -> tuple[FloatArray, FloatArray]:
+    """Places of the elbow that are tried, and what each costs (`SWIVELS`,)."""
     swivels = np.linspace(*problem.swivel_range, SWIVELS)
     tried = np.zeros((SWIVELS, len(problem.low)))
     tried[:, 6] = swivels
@@ -61,7 +109,4 @@ def _elbow(
     for place, turn in zip(places, turns, strict=True):
         parts = residuals.arm(tried, np.tile(place, (SWIVELS, 1)), np.tile(turn, (SWIVELS, 1)))
         cost += np.square(parts).sum(axis=1)
-    swivel = swivels[np.argmin(cost)]
-    down, out = problem.swivel_frame
-    pole = quaternion.rotate(stand.instrument_rotation, np.cos(swivel) * down + np.sin(swivel) * out)
-    return replace(hand, elbow_direction=pole)
+    return swivels, cost

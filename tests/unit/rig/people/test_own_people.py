@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from app.errors import MapError
-from app.performance.bodies import suited_to
+from app.performance.bodies import is_strained, model_of, suited_to
 from app.plan.parameters import PlayerParameters
 from app.project.casting import StagePosition
 from app.project.performers import Player
@@ -22,9 +22,10 @@ from app.rig.characters.character_library import (
     remove_character,
 )
 from app.rig.people.body_shapes import Phenotype
-from app.rig.people.bundled_people import bundled_person
+from app.rig.people.bundled_people import bundled_person, person_of
 from app.rig.people.person import Person
 from app.rig.skeleton import rest_positions
+from instrument_maps.hold import Carriage
 from instrument_maps.load import bundled_maps
 
 
@@ -81,3 +82,33 @@ def test_a_person_that_cannot_be_is_not_kept(folder: Path) -> None:
     with pytest.raises(MapError):
         add_person(Person("man_adult", Phenotype(3.0)), "Giant")
     assert list(folder.iterdir()) == []
+
+
+def test_a_small_person_carries_an_instrument_within_its_range(folder: Path) -> None:
+    horn = bundled_maps()["english_horn"]
+    shares = bundled_person("cast_yumi").carriages["english_horn"]
+    id = add_person(bundled_person("cast_yumi"), "Like Yumi")
+    for one in ("cast_yumi", id):
+        player = Player("p", "", "", horn.id, one, PlayerParameters(), StagePosition(0.0, 0.0, 0.0))
+        carried = suited_to(player, horn).instrument
+        assert carried is not horn
+        assert suited_to(player, horn).instrument is carried
+        assert model_of(carried) is model_of(horn)
+        for posture in horn.hold.postures:
+            usual, own = horn.hold.carriage(posture), carried.hold.carriage(posture)
+            for share, before, after in zip(shares, ranges_of(usual), ranges_of(own), strict=True):
+                low, middle, high = before
+                end = high if share > 0.0 else low
+                assert after == (low, pytest.approx(middle + abs(share) * (end - middle)), high)
+
+
+def ranges_of(carriage: Carriage) -> tuple[tuple[float, ...], ...]:
+    return carriage.pitch_down_deg, carriage.yaw_left_deg, carriage.roll_left_deg
+
+
+def test_a_body_far_smaller_than_its_hands_is_strained() -> None:
+    clarinet = bundled_maps()["clarinet_Bb"]
+    small = person_of("small", taller(bundled_person("cast_yumi"), 1.41), character_named)
+    assert is_strained(small, clarinet)
+    assert not is_strained(character_named("cast_marie"), clarinet)
+    assert not is_strained(character_named("woman_adult"), clarinet)

@@ -1,4 +1,4 @@
-"""Bodies of phenotypes against anny's own, and people made from finished bodies."""
+"""Bodies of originals against anny's own, and people made from finished bodies."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import pytest
 from app.errors import MapError
 from app.formats.toml import toml
 from app.rig import quaternion
-from app.rig.characters.character_library import bundled_characters, character_named, our_characters
+from app.rig.characters.character_library import bundled_characters, character_named, our_arm_m, our_characters
 from app.rig.model import Character
 from app.rig.people.body_shapes import Phenotype, body_m, body_shapes, heights_m
-from app.rig.people.bundled_people import bundled_people, bundled_person
+from app.rig.people.bundled_people import bundled_people, bundled_person, finished_character
 from app.rig.people.make_person import original_of, person_character
-from app.rig.people.person import phenotypes, read_person
+from app.rig.people.person import originals, ranges, read_person
 from app.rig.skeleton import forward, rest_positions
 from app.rig.skinning import mesh_named, patch
 from instrument_maps.load import bundled_maps
@@ -26,6 +26,8 @@ from tests.support.deformed import deform
 
 ANNY = Path(__file__).parents[3] / "data" / "anny_bodies.json"
 """Answers of anny 0.6.2 for three people: some vertices and joints, metres, soles on the floor."""
+
+PARTS = ("UpperArm", "LowerArm", "Hand")
 
 
 @cache
@@ -56,12 +58,12 @@ def test_a_body_is_what_anny_makes_of_the_same_phenotype(name: str) -> None:
 @pytest.mark.parametrize("id", bundled_characters())
 def test_a_finished_body_is_made_of_its_own_phenotype_again(id: str) -> None:
     before, shapes = character_named(id), body_shapes()
-    original = original_of(before, shapes, phenotypes()[id])
+    original = original_of(before, shapes, originals()[id])
     skin = mesh_named(before, "body")
     nearest = original.base_m[original.bindings["body"].corners[:, 0]]
     # Hands and lids were changed after the phenotype; the head was not.
     assert np.mean(np.linalg.norm(nearest - skin.positions_m, axis=1) < 1e-4) > 0.4
-    after = person_character("again", original, shapes, phenotypes()[id])
+    after = person_character("again", original, shapes, originals()[id])
     for old, new in zip(before.meshes, after.meshes, strict=True):
         np.testing.assert_allclose(new.positions_m, old.positions_m, atol=1e-6)
         np.testing.assert_allclose(new.normals, old.normals, atol=1e-5)
@@ -82,7 +84,7 @@ def skin_at_rest(character: Character, mark: str) -> np.ndarray:
 @pytest.mark.parametrize("id", bundled_people())
 def test_a_person_has_the_hands_of_the_finished_body_and_a_height_of_its_own(id: str) -> None:
     person, character = bundled_person(id), character_named(id)
-    before = character_named(person.original)
+    before = finished_character(person.original, character_named)
     for side in ("left", "right"):
         wrist = before.skeleton.index(f"{side}Hand")
         hands = [skin_at_rest(one, f"{side}.hand") - rest_positions(one.skeleton)[wrist] for one in (before, character)]
@@ -95,10 +97,10 @@ def test_a_person_has_the_hands_of_the_finished_body_and_a_height_of_its_own(id:
     assert 0.92 * person.phenotype.height_m < eyes_m < 0.97 * person.phenotype.height_m
 
 
-@pytest.mark.parametrize("id", ["cast_yumi", "cast_henry"])
+@pytest.mark.parametrize("id", ["cast_yumi", "cast_henry", "child_hina"])
 def test_lids_close_over_the_eyes_of_everyone(id: str) -> None:
     """Blinking, the skin next to an eyeball is as far from it as the finished body's."""
-    character, before = character_named(id), character_named(bundled_person(id).original)
+    character, before = character_named(id), finished_character(bundled_person(id).original, character_named)
     least = []
     for one in (before, character):
         skin, eye = mesh_named(one, "body"), one.skeleton.index("leftEye")
@@ -107,6 +109,33 @@ def test_lids_close_over_the_eyes_of_everyone(id: str) -> None:
         far = np.linalg.norm(shut - np.linalg.inv(one.joint_from_mesh[eye])[:3, 3], axis=1)
         least.append(np.sort(far)[:100])
     np.testing.assert_allclose(least[1], least[0], atol=3e-4)
+
+
+def test_a_child_has_hands_of_its_own_and_arms_that_go_with_its_body() -> None:
+    child, woman = finished_character("child", character_named), character_named("woman_adult")
+    assert child.hands_of is None
+    assert child is finished_character("child", character_named)
+    spans = [np.ptp(skin_at_rest(one, "left.hand"), axis=0) for one in (woman, child)]
+    np.testing.assert_allclose(spans[1], originals()["child"].hands * spans[0], rtol=1e-3)
+    arms_m = []
+    for one in (woman, child):
+        places = np.linalg.inv(one.joint_from_mesh[[one.skeleton.index(f"right{part}") for part in PARTS]])[:, :3, 3]
+        arms_m.append(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
+    # Shares of stature: nothing is stretched.
+    assert arms_m[1] / 1.43 == pytest.approx(arms_m[0] / 1.68, rel=0.06)
+    assert our_arm_m("child_hina") < our_arm_m("cast_yumi")
+
+
+def test_children_are_made_from_the_child_within_its_ranges(tmp_path: Path) -> None:
+    children = [id for id in bundled_people() if bundled_person(id).original == "child"]
+    assert len(children) >= 3
+    assert ranges(["child"]) == ((1.3, 1.58), (11.0, 15.0))
+    table = {"original": "child", "name": {"en": "A", "ja": "A"}, "phenotype": {"height_m": 1.7, "age": 0.36}}
+    path = tmp_path / "a.toml"
+    path.write_text(toml(table), encoding="utf-8")
+    with pytest.raises(MapError) as raised:
+        read_person(path)
+    assert raised.value.message.arguments["place"] == "phenotype.height_m"
 
 
 def test_people_differ_and_are_named() -> None:

@@ -42,10 +42,11 @@ def test_the_wardrobe_lists_outfits_with_their_titles_and_colours() -> None:
     suit = wardrobe()["test_suit"]
     assert {"en": suit.title.en, "ja": suit.title.ja} == TITLE
     assert suit.tints == ("main", "second")
-    assert {*suit.files} == {"man_adult", "woman_adult"}
+    assert {*suit.files} == {"man_adult", "woman_adult", "child"}
     assert {body: facts.body for body, (_, facts) in wardrobe()["test_pair"].files.items()} == {
         "man_adult": "man_adult",
         "woman_adult": "woman_adult",
+        "child": "woman_adult",
     }
 
 

@@ -18,16 +18,27 @@ from app.rig.grip.fitting.grip_files import bundled_path, digest_of, hold_for, r
 from app.rig.grip.grip_pose import GripPose, Lips
 from app.rig.grip.lips import fit_lips
 from app.rig.instrument import load_instrument
+from app.rig.people.bundled_people import bundled_people, bundled_person, finished_character, not_cast_for
+from app.rig.people.person import originals
 from instrument_maps.load import bundled_maps, model_path
 from metadata.load import load_body
 
 PAIRS = [(character, instrument) for character in bundled_characters() for instrument in bundled_maps()]
+MADE = [
+    (character, instrument)
+    for character in [*originals(), *bundled_people()]
+    for instrument in bundled_maps()
+    if character not in bundled_characters() and bundled_path(character, instrument).is_file()
+]
+"""Pairs of bodies that are made of another one."""
 
 
 def inputs(character_id: str, instrument_id: str) -> tuple[Any, ...]:
     instrument = bundled_maps()[instrument_id]
     model = load_instrument(model_path(instrument), instrument)
-    return character_named(character_id), model, instrument, load_body()
+    is_person = character_id in bundled_people()
+    character = character_named(character_id) if is_person else finished_character(character_id, character_named)
+    return character, model, instrument, load_body()
 
 
 def lips_of(character_id: str, instrument_id: str) -> Lips:
@@ -55,7 +66,16 @@ def shipped() -> tuple[str, GripPose]:
     return digest, hold
 
 
-@pytest.mark.parametrize("pair", PAIRS, ids="-".join)
+def test_what_everyone_is_cast_for_is_shipped() -> None:
+    for id in bundled_people():
+        cast = set(bundled_maps()) - not_cast_for(id)
+        own = [name for name in cast if bundled_path(id, name).is_file()]
+        held = [name for name in cast if bundled_path(bundled_person(id).original, name).is_file()]
+        assert cast == {*own, *held}, id
+    assert MADE
+
+
+@pytest.mark.parametrize("pair", PAIRS + MADE, ids="-".join)
 def test_the_shipped_hold_is_up_to_date(pair: tuple[str, str]) -> None:
     assert read_hold(bundled_path(*pair), digest_of(*inputs(*pair)), lips_of(*pair)) is not None, (
         "run python -m resources.build.build_holds"
