@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from character_skeleton import SkeletonFit
 
 FLOAT, USHORT, UBYTE, BYTE, UINT = 5126, 5123, 5121, 5120, 5125
-_DTYPES = {
+_DTYPES: dict[int, np.dtype] = {
     FLOAT: np.dtype("<f4"),
     USHORT: np.dtype("<u2"),
     UBYTE: np.dtype("u1"),

@@ -67,9 +67,11 @@ def _edges(wearer: Wearer) -> tuple[np.ndarray, np.ndarray]:
     )
     share = np.linspace(0.0, 1.0, ALONG)
     knots = np.array([0.0, 0.3, 0.5, 0.75, 1.0])
-    return tuple(  # type: ignore[return-value]
-        np.stack([np.interp(share, knots, edge[:, axis]) for axis in range(3)], axis=1) for edge in (inner, outer)
-    )
+
+    def evenly(edge: np.ndarray) -> np.ndarray:
+        return np.stack([np.interp(share, knots, edge[:, axis]) for axis in range(3)], axis=1)
+
+    return evenly(inner), evenly(outer)
 
 
 def sailor_collar(wearer: Wearer, cloth: Cloth) -> tuple[Sewn, Sewn]:
@@ -87,7 +89,8 @@ def sailor_collar(wearer: Wearer, cloth: Cloth) -> tuple[Sewn, Sewn]:
         for number, own in enumerate((strip != STRIPE, strip == STRIPE)):
             used, few = np.unique(faces[own], return_inverse=True)
             halves[number].append(to_triangles(Cloth(points[used], weights[used], few.reshape(-1, 4))))
-    return tuple(plain(_both(*half)) for half in halves)  # type: ignore[return-value]
+    collar, stripe = (plain(_both(*half)) for half in halves)
+    return collar, stripe
 
 
 def _both(left: Cloth, right: Cloth) -> Cloth:

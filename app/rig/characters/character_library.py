@@ -235,7 +235,7 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 
 def carriage_of(id: str, instrument_id: str) -> tuple[float, float, float] | None:
-    """Return how a person carries an instrument (`Person.carriages`); None: as is usual."""
+    """Return the change of a person's carriage of an instrument (`Person.carriages`); None: the usual one."""
     entry = character_library().own.get(id)
     person = bundled_person(id) if id in bundled_people() else None if entry is None else entry.person
     return None if person is None else person.carriages.get(instrument_id)

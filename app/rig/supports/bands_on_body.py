@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import savgol_filter
 
 from app.arrays import FloatArray
 from app.rig.supports.band import Shares, SurfaceStrip, band
@@ -132,7 +131,7 @@ def leg_of(trunk: PosedTrunk, route: BandRoute, meet_m: FloatArray, low_m: Float
     parts = [_resampled(string, 0.0, share, _ON_BODY) for string in strings]
     on_body, outwards = parts[0]
     half = route.half_m(np.linspace(0.0, 1.0, _ON_BODY))[:, None] / widest
-    edges = np.array([on_body + half * savgol_filter(line - on_body, _EVEN, 1, axis=0) for line, _ in parts[1:]])
+    edges = np.array([on_body + half * _evened(line - on_body, _EVEN, 1) for line, _ in parts[1:]])
     weights = _smoothed(trunk.weights_at(on_body))
     joints = np.argsort(-weights[-1])[:_MOST_JOINTS]
     shares = weights[-1][joints] / weights[-1][joints].sum()
@@ -247,12 +246,19 @@ def _lengths(points: FloatArray) -> FloatArray:
     return found
 
 
+def _evened(points: FloatArray, window: int, degree: int) -> FloatArray:
+    """Rows (R, 3) smoothed by polynomials over windows of rows (Savitzky-Golay)."""
+    from scipy.signal import savgol_filter  # heavy: few pieces have straps
+
+    return np.asarray(savgol_filter(points, window, degree, axis=0))
+
+
 def _resampled(string: TautString, first: float, last: float, count: int) -> tuple[FloatArray, FloatArray]:
     """Points and ways outwards (R, 3) of a part of a string, at even distances."""
     at, asked = _lengths(string.points_m), np.linspace(first, last, count)
     points = np.stack([np.interp(asked, at, string.points_m[:, axis]) for axis in range(3)], axis=1)
     # Corners of the hull are those of triangles; what bends evenly is left as it is.
-    points[1:-1] = savgol_filter(points, _EVEN, 2, axis=0)[1:-1]
+    points[1:-1] = _evened(points, _EVEN, 2)[1:-1]
     ways = _smoothed(np.stack([np.interp(asked, at, string.outwards[:, axis]) for axis in range(3)], axis=1))
     return points, _unit(ways)
 

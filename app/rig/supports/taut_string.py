@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from app.arrays import FloatArray
 from app.rig.model import Character
@@ -43,6 +42,8 @@ class PosedTrunk:
 
     def weights_at(self, points_m: FloatArray) -> FloatArray:
         """Weights (N, J) of what lies at places (N, 3): those of the nearest vertices, evenly."""
+        from scipy.spatial import cKDTree  # heavy: few pieces have straps
+
         _, near = cKDTree(self.vertices_m).query(points_m, k=min(_NEAR, len(self.vertices_m)))
         found: FloatArray = self.weights[near.reshape(len(points_m), -1)].mean(axis=1)
         return found
@@ -160,6 +161,8 @@ def _cut(corners: FloatArray, origin: FloatArray, normal: FloatArray) -> FloatAr
 
 def _outer_path(points: FloatArray) -> FloatArray | None:
     """The hull's boundary from the first point over the top to the second (N, 2)."""
+    from scipy.spatial import ConvexHull, QhullError
+
     try:
         ring = np.asarray(ConvexHull(points).vertices, np.intp)
     except QhullError:

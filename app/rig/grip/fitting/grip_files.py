@@ -25,6 +25,7 @@ from app.formats.atomic import atomic_write
 from app.formats.cache import cache_folder
 from app.formats.files import read_file
 from app.formats.json_data import decode_json
+from app.formats.other_computers import is_file
 from app.rig.grip.body_size import face_size
 from app.rig.grip.carriage import usual_posture
 from app.rig.grip.finger_stations import asked_together, only_at
@@ -192,7 +193,7 @@ def own_hold(character: Character, model: InstrumentModel, instrument: Instrumen
     """Return the hold that comes with the program for a person with the hands of another body; None: there is none,
     since it holds the instrument well enough as that body does."""
     path = bundled_path(character.id, instrument.id)
-    if not path.is_file():
+    if not is_file(path):
         return None
     return read_hold(path, digest_of(character, model, instrument, body), fit_lips(character, instrument, body))
 

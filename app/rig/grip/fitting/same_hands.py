@@ -50,8 +50,8 @@ def with_own_arms(
 def arms_cost(
     grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
 ) -> float:
-    """Return how unnaturally both arms lie when a character has the hold of another one with the same hands: squares
-    of a fit's residuals of elbows and wrists."""
+    """Return the strain of both arms when a character has the hold of another one with the same hands: the sum of
+    squared residuals of elbows and wrists in a fit."""
     stand = upright(character, instrument, body, fit_lips(character, instrument, body))
     hands = zip(grip.hands, instrument.hands, strict=True)
     return sum(
