@@ -12,6 +12,11 @@ import pytest
 import instrument_maps.library as library
 from app.cli import main
 from app.formats.cache import CACHE_VARIABLE
+from app.performance.bodies import character_of, hold_of, is_strained, suited_to
+from app.plan.parameters import PlayerParameters
+from app.project.casting import StagePosition
+from app.project.performers import Player
+from app.rig.grip.fitting.fitted_instrument import FittedInstrument
 from instrument_maps.load import bundled_maps
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "tin-whistle"
@@ -58,6 +63,19 @@ def test_the_guides_whistle_plays_without_a_line_of_code(
     assert set(measures["controls"]) == {f"hole_{hand}{place}" for hand in "LR" for place in "123"}
     assert measures["penetration"]["max_mm"] <= 3.0
     assert all(contact["max_mm"] <= contact["bound_mm"] for contact in measures["contacts"].values())
+
+
+def test_a_child_holds_the_whistle_as_it_is(piece: Path) -> None:
+    """No hold of it comes with the program: one is fitted to the child's hands."""
+    player = Player("p", "P", "p", "tin_whistle_D", "child_hina", PlayerParameters(), StagePosition(0.0, 0.0, 0.0))
+    whistle = library.find_map("tin_whistle_D")
+    assert suited_to(player, whistle) == FittedInstrument(whistle, ())
+    for hand in hold_of(player, whistle).hands:
+        assert hand.penetration_m <= 0.0035
+        for fit in hand.contacts:
+            assert fit.distance_m <= 0.002, fit
+            assert fit.control is None or fit.waits_m >= 0.004, fit
+    assert not is_strained(character_of(player), whistle)
 
 
 def test_the_example_is_what_its_script_makes(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ class Played:
     def _measured(self) -> PlayerMeasures:
         player = character_scene(self.character, self.motion, "x", "test")
         held = instrument_scene(self.instrument, self.model, self.motion, "x", "test")
-        nobody = Player("x", "X", "x", "x", "x", PlayerParameters(seed=1), StagePosition(0.0, 0.0, 0.0))
+        nobody = Player("x", "X", "x", "x", self.character.id, PlayerParameters(seed=1), StagePosition(0.0, 0.0, 0.0))
         performer = Performer(nobody, self.character, load_body(), self.instrument, self.model, self.hold)
         return PlayerJudge(performer, self.plan).measure(player, held, self.motion.first_frame_s).measures
 
