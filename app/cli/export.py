@@ -229,6 +229,7 @@ def say_what_is_there(request: ExportRequest, unreal: Path | None) -> None:
             request.stage,
             bars=bars,
             props=request.with_props,
+            motion_only=request.motion_only,
         )
     for id, files in (("export_report.will_replace", seen.replaced), ("export_report.will_remove", seen.removed)):
         if files:

@@ -73,7 +73,7 @@ def export_dancer(request: ExportRequest, cast: CastDancing, folder: Path, repor
     for row in rows:
         if row.read is not None and measures is None:
             path = folder / files[row.key("character")]
-            read = read_again(row, path, scenes[row.humanoid].meshes, options.meshes)
+            read = read_again(row, path, scenes[row.humanoid], options.meshes)
             standing, target = dancing.standing(span.fps, span.first, span.count), cast.target_in(row)
             measures = measure_dancer(without_place(read, target.place), dancing.character, target, standing)
     reported(1.0)

@@ -10,7 +10,7 @@ from app.encoding import shown
 from app.errors import Message
 from app.export.earlier_exports import other_bars
 from app.export.file_names import REPORT, file_names, sound_name, stage_names
-from app.export.formats import Format
+from app.export.formats import Format, requested
 from app.export.unreal.project import UnrealProject, find_project
 from app.export.unreal.run import plan_export
 from app.performance.ensemble import Performance
@@ -28,7 +28,8 @@ class Foreseen:
         Names of files that are there.
     kept : tuple of Message
     remarks : tuple of Message
-        What an earlier export has otherwise: other bars, or the same music under another name.
+        What an earlier export has otherwise (other bars, or the same music under another name), and formats whose files
+        will have no face.
     project : UnrealProject or None
     """
 
@@ -73,6 +74,7 @@ def foresee_folder(
     *,
     bars: tuple[int, int] | None = None,
     props: bool = True,
+    motion_only: bool = False,
 ) -> Foreseen:
     """Foresee an export into a folder.
 
@@ -86,6 +88,8 @@ def foresee_folder(
         First and last bar that is exported; None: the whole piece.
     props : bool
         Whether straps and chairs are written too.
+    motion_only : bool
+        Whether meshes are left out.
     """
     names = file_names(performance, formats, props)
     project = performance.project
@@ -94,11 +98,17 @@ def foresee_folder(
         *player_ids,
         *(one.id for one in project.players if one.doubles in player_ids and project.musician(one) is not one),
     ]
-    requested = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
+    written = [name for player_id in everything for name in names[player_id].values()] + [REPORT]
     if sound:
-        requested.append(sound_name(source))
+        written.append(sound_name(source))
     if stage:
-        requested += stage_names(performance, formats, source).values()
-    replaced = tuple(name for name in requested if os.path.exists(folder / name))
-    remark = other_bars(folder, bars) if replaced else None
-    return Foreseen(len(requested), replaced, remarks=() if remark is None else (remark,))
+        written += stage_names(performance, formats, source).values()
+    replaced = tuple(name for name in written if os.path.exists(folder / name))
+    remarks = [other_bars(folder, bars) if replaced else None, _without_face(formats) if motion_only else None]
+    return Foreseen(len(written), replaced, remarks=tuple(remark for remark in remarks if remark is not None))
+
+
+def _without_face(formats: frozenset[Format]) -> Message | None:
+    """Return the remark on formats whose files without meshes have no face."""
+    faceless = [row.label for row in requested(formats) if row.without_meshes and not row.face_without_meshes]
+    return Message("motion_only.no_face", {"formats": ", ".join(faceless)}) if faceless else None

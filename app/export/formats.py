@@ -88,6 +88,8 @@ class FileFormat:
         Whether all bones share their keys.
     without_meshes : bool
         Whether meshes can be omitted (`WriteOptions.meshes`).
+    face_without_meshes : bool
+        Whether files without meshes have the weights of the face.
     textured : bool
         Whether surfaces have textures.
     bones_by_name : bool
@@ -112,6 +114,7 @@ class FileFormat:
     reduces_keys: bool = True
     keys_by_pose: bool = False
     without_meshes: bool = False
+    face_without_meshes: bool = False
     textured: bool = False
     bones_by_name: bool = False
     package: str = ""
@@ -201,7 +204,17 @@ FILE_FORMATS: Final[Mapping[Format, FileFormat]] = {
     row.id: row
     for row in (
         FileFormat(
-            "fbx", "FBX", ".fbx", _ALL, 3.0, _write_fbx, read=_read_fbx, usual=True, without_meshes=True, textured=True
+            "fbx",
+            "FBX",
+            ".fbx",
+            _ALL,
+            3.0,
+            _write_fbx,
+            read=_read_fbx,
+            usual=True,
+            without_meshes=True,
+            face_without_meshes=True,
+            textured=True,
         ),
         FileFormat(
             "bvh",

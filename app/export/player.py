@@ -27,7 +27,7 @@ from app.export.scene_keys import KeyCount, key_count
 from app.export.target import TargetSkeleton
 from app.export.targets import CheckedTarget
 from app.export.threads import in_threads
-from app.formats.scene import Scene, SkinnedMesh
+from app.formats.scene import Scene
 from app.performance.cast import Performer
 from app.performance.dances import danced_feet
 from app.performance.ensemble import changes_of
@@ -75,14 +75,14 @@ def export_player(
     reports: list[DoubleReport] = []
     problems: dict[str, tuple[Problem, ...]] = {}
     torsos: list[FloatArray | None] = []
-    meshes: tuple[SkinnedMesh, ...] = ()
+    figure: Scene | None = None
     for index, performer in enumerate(musician.performers):
 
         def share_of(share: float, done: int = index) -> None:
             reported((done + share) / len(musician.performers))
 
-        written = _write(request, musician, performer, folder, share_of, cores, meshes)
-        meshes = written.meshes
+        written = _write(request, musician, performer, folder, share_of, cores, figure)
+        figure = written.figure
         problems[performer.player.id] = written.problems
         measured = _measured(request, musician, performer, written.read, share_of)
         reports.append(_reported(request, musician, performer, written.keys, measured))
@@ -106,12 +106,12 @@ def export_player(
 
 @dataclass(frozen=True)
 class _Written:
-    """Intermediate result for one instrument of a musician: keys, problems, meshes of the character, and the files read
+    """Intermediate result for one instrument of a musician: keys, problems, the character's scene, and the files read
     back for measuring.
     """
 
     keys: KeyCount
-    meshes: tuple[SkinnedMesh, ...]
+    figure: Scene | None
     problems: tuple[Problem, ...]
     read: dict[FileContent, Scene]
 
@@ -123,10 +123,10 @@ def _write(
     folder: Path,
     reported: Progress,
     cores: int,
-    meshes: tuple[SkinnedMesh, ...],
+    figure: Scene | None,
 ) -> _Written:
-    """Write the instrument of one of a musician's players, and the character for the first one; ``meshes`` are those of
-    an already written character.
+    """Write the instrument of one of a musician's players, and the character for the first one; ``figure`` is the scene
+    of an already written character.
     """
     performance, first = request.performance, performer is musician.performers[0]
     rows, reads = files_of(request.formats), files_of(request.formats, reads=True)
@@ -161,7 +161,9 @@ def _write(
             row.write(path, (scene,), options)
         if (row, held) in reads and row.read is not None:
             # Read back at once, while other files are written.
-            read[held] = read_again(row, path, meshes if scene is None else scene.meshes, options.meshes)
+            known = figure if scene is None else scene
+            assert known is not None
+            read[held] = read_again(row, path, known, options.meshes)
 
     def judge() -> None:
         problems.append(judged_problems(performance, performer, motion))
@@ -175,20 +177,24 @@ def _write(
         reported(sum(done) / work)
 
     in_threads([*(partial(write, *one) for one in writing), judge], finished)
-    judged = next((scenes[held, row.humanoid] for row, held in reads or rows if held == "character" and first), None)
-    return _Written(keys, meshes if judged is None else judged.meshes, problems[0], read)
+    judged = (scenes[held, row.humanoid] for row, held in reads or rows if held == "character" and first)
+    return _Written(keys, next(judged, figure), problems[0], read)
 
 
-def read_again(row: FileFormat, path: Path, meshes: tuple[SkinnedMesh, ...], in_file: bool) -> Scene:
-    """Read a written file for measuring, with its meshes, which need not be ``in_file``."""
+def read_again(row: FileFormat, path: Path, written: Scene, in_file: bool) -> Scene:
+    """Read a written file for measuring, with its meshes, which need not be ``in_file``; of a file that has no face
+    without them, with the written weights of the face too.
+    """
     assert row.read is not None
     if in_file or not row.without_meshes:
-        return row.read(path, meshes)
+        return row.read(path, written.meshes)
     found = row.read(path, ())
     assert found.clip is not None
-    shapes = {morph.name for mesh in meshes for morph in mesh.morphs}
-    weights = {name: values for name, values in found.clip.morph_weights.items() if name in shapes}
-    return replace(found, meshes=meshes, clip=replace(found.clip, morph_weights=weights))
+    shapes = {morph.name for mesh in written.meshes for morph in mesh.morphs}
+    face = (found if row.face_without_meshes else written).clip
+    assert face is not None
+    weights = {name: values for name, values in face.morph_weights.items() if name in shapes}
+    return replace(found, meshes=written.meshes, clip=replace(found.clip, morph_weights=weights))
 
 
 def _counted(scenes: Mapping[tuple[FileContent, bool], Scene]) -> Iterable[Scene]:

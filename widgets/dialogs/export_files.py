@@ -372,7 +372,16 @@ class ExportDialog(WorkingDialog):
             seen = foresee_unreal(place, performance, ids, source, bars)
         else:
             seen = foresee_folder(
-                place, performance, ids, made.formats, source, made.sound, made.stage, bars=bars, props=made.props
+                place,
+                performance,
+                ids,
+                made.formats,
+                source,
+                made.sound,
+                made.stage,
+                bars=bars,
+                props=made.props,
+                motion_only=made.motion_only,
             )
         lines = []
         if seen.project is not None:

@@ -77,6 +77,20 @@ def test_the_report_judges_the_motion_of_the_file_as_with_its_meshes(exported: d
         assert alone["contacts"][name]["max_mm"] == pytest.approx(spread["max_mm"], abs=1e-3)
 
 
+def test_lips_and_breaths_of_a_glb_without_meshes_are_judged_with_the_face(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ("--from-bar", "7", "--to-bar", "8", "--player", "Trumpet 1", "--format", "glb")
+    for name, options in (("whole", ()), ("alone", ("--motion-only",))):
+        assert main(["export", str(QUARTET), "--to", str(tmp_path / name), *arguments, *options]) == 0
+        assert ("GLB without meshes has no face" in capsys.readouterr().err) == (name == "alone")
+    whole, alone = _report(tmp_path / "whole"), _report(tmp_path / "alone")
+    assert whole["breaths"]["shown"] > 0
+    assert alone["breaths"] == whole["breaths"]
+    for name in ("lips", "upper_lip_in_breaths"):
+        assert alone[name]["max_mm"] == pytest.approx(whole[name]["max_mm"], abs=1e-3)
+
+
 def test_properties_of_the_face_are_a_users_and_animated(tmp_path: Path) -> None:
     """The FBX SDK, and Unreal by it, takes such properties for curves: flags A and U, and a curve node on each."""
     scene = without_meshes(scenes.character(Fraction(60)))
