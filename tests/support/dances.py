@@ -11,6 +11,7 @@ from app.choreography.body import SEGMENTS
 from app.choreography.clip import BodyShape, MotionClip
 from app.choreography.model import ChoreographyModel, MotionSegment, TrainingPair
 from app.choreography.rhythm import Rhythm
+from app.rig import quaternion
 
 HIPS_M, ANKLE_M, THIGH_M, SHANK_M = 0.95, 0.08, 0.43, 0.40
 _ARM, _LEG = [(0.18, 0.22, 0), (0.3, 0, 0), (0.26, 0, 0)], [(0.1, -0.04, 0), (0, -THIGH_M, 0), (0, -SHANK_M, 0)]
@@ -64,6 +65,20 @@ def stepping(beats: int, seed: int = 1, beat_s: float = 0.5, fps: int = 60) -> M
         swing[:, 0] = -arms[:, side]
         rotations[:, SEGMENTS.index(f"{name}UpperArm")] = (down(swing) * down(hang)).as_quat()
     return MotionClip(SHAPE, clip.fps, clip.hips_m, rotations)
+
+
+def moving(frames: int, seed: int = 1) -> MotionClip:
+    """Smooth turns of all joints by chance; knees and elbows bend about one axis, as those of people do."""
+    random = np.random.default_rng(seed)
+    times_s = np.arange(frames)[:, None, None] / 60.0
+    phases, rates = random.uniform(0.0, 6.0, (2, 1, len(SEGMENTS), 3))
+    turns = 0.3 * np.sin(phases + rates * times_s)
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        for part, axis in (("LowerLeg", (1.0, 0.0, 0.0)), ("LowerArm", (0.0, -sign, 0.0))):
+            at = SEGMENTS.index(side + part)
+            turns[:, at] = (0.6 + turns[:, at, :1]) * axis
+    hips_m = (0.0, HIPS_M, 0.0) + 0.3 * np.sin(times_s[:, 0] * (1.0, 2.0, 3.0))
+    return MotionClip(SHAPE, Fraction(60), hips_m, quaternion.from_rotation_vector(turns))
 
 
 def model(beats: int = 24, states: int = 4, seed: int = 1) -> ChoreographyModel:

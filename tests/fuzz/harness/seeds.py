@@ -221,10 +221,10 @@ def fbx_motion() -> list[bytes]:
 
 
 def _dance() -> Scene:
-    from tests.unit.choreography.test_features import random_clip
+    from tests.support.dances import moving
     from tests.unit.rig.test_node_motion import scene_of
 
-    return scene_of(random_clip(5, 20), 1)
+    return scene_of(moving(20), 1)
 
 
 @cache
