@@ -76,7 +76,8 @@ def test_without_bars_nothing_returns() -> None:
 
 
 def test_what_returns_is_danced_again_with_variation() -> None:
-    rhythm, choreographer = played("ABCA"), Choreographer(model())
+    # Of a small stock few segments meet the beats well, and they are danced again anyway.
+    rhythm, choreographer = played("ABA"), Choreographer(model(beats=48))
 
     def again(weights: Weights) -> float:
         same = []
@@ -84,7 +85,7 @@ def test_what_returns_is_danced_again_with_variation() -> None:
             steps = {
                 step.place: step.segment for step in choreographer.steps(rhythm, Manner(seed=seed), weights=weights)
             }
-            pairs = [(steps.get(place - 96), steps[place]) for place in steps if 96 <= place < 128]
+            pairs = [(steps.get(place - 64), steps[place]) for place in steps if 64 <= place < 96]
             same.append(np.mean([one == other for one, other in pairs]))
         return float(np.mean(same))
 
