@@ -130,10 +130,14 @@ class AsidePlace:
                 continue
             limb, sign = arm(skeleton, hand.side), 1.0 if hand.side == "right" else -1.0
             hangs = quaternion.from_axis_angle(Z_AXIS, sign * HANGS_RAD)
+            along = limb.lower_vector_m / np.linalg.norm(limb.lower_vector_m)
             joint, _ = clavicle_of(skeleton, hand.side)
             for bone in (joint, limb.upper, limb.lower, limb.end):
                 there = hangs if bone == limb.upper else quaternion.IDENTITY
-                freed = quaternion.slerp(arms[bone], np.broadcast_to(there, arms[bone].shape), stowed)
+                # An elbow bends and turns each for itself: on the shortest way to both it would bend sideways.
+                parts = quaternion.swing_twist(arms[bone], along) if bone == limb.lower else (arms[bone],)
+                ways = [quaternion.slerp(part, np.broadcast_to(there, part.shape), stowed) for part in parts]
+                freed = ways[0] if len(ways) == 1 else quaternion.multiply(*ways)
                 result[bone] = np.where(stowed[:, None] > 0.0, freed, arms[bone])
         return result
 
