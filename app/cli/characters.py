@@ -160,6 +160,9 @@ def add_character(arguments: argparse.Namespace) -> None:
         notes += [] if note is None else [note]
     for note in notes:
         warn(spoken()(note))
+    if reading.joints.doubtful:
+        bones = {joint: reading.figure.bone_names[reading.joints.bones[joint]] for joint in reading.joints.doubtful}
+        warn(said("characters.doubtful", joints=", ".join(f"{joint} ({bone})" for joint, bone in bones.items())))
     say(add(arguments.file, arguments.name, joints, morphs, arguments.height, hidden))
 
 
@@ -230,6 +233,7 @@ def checked(
     """
     from app.rig.characters.figure_build import at_height, figure_height
     from app.rig.characters.figure_to_character import figure_character
+    from app.rig.characters.joint_mapping import JointMapping
     from app.rig.characters.load_character import read_character
     from app.rig.characters.split_hands import bones_beside_hands
     from app.rig.grip.fitting.fitted_instrument import notes_on_body
@@ -240,8 +244,10 @@ def checked(
     hidden, note = (hidden, None) if keep_props else _left_out(reading, hidden)
     figure = at_height(reading.figure.without(hidden), height_m)
     lacking = [joint for joint in REQUIRED_JOINTS if joint not in reading.joints.bones]
+    # What only shape found in a figure without a whole body is no joint.
+    mapped = reading.joints if reading.joints.profile or not lacking else JointMapping("", {}, (), ())
     beside: dict[str, list[str]] = {}
-    for bone, joint in bones_beside_hands(reading.figure, reading.joints.bones).items():
+    for bone, joint in bones_beside_hands(reading.figure, mapped.bones).items():
         beside.setdefault(joint, []).append(names[bone])
     reported = [*figure.notes, *([] if note is None else [note])]
     if not lacking:
@@ -255,12 +261,12 @@ def checked(
         "height_m": round(figure_height(figure) or 0.0, 4),
         "meshes": [mesh.name for mesh in reading.figure.meshes],
         "hidden_meshes": list(hidden),
-        "names": reading.joints.profile,
-        "joints": {joint: names[bone] for joint, bone in reading.joints.bones.items()},
+        "names": mapped.profile,
+        "joints": {joint: names[bone] for joint, bone in mapped.bones.items()},
         "further_bones": beside,
-        "missing_joints": list(reading.joints.missing),
+        "missing_joints": list(mapped.missing),
         "required_joints": lacking,
-        "doubtful_joints": list(reading.joints.doubtful),
+        "doubtful_joints": list(mapped.doubtful),
         "face": reading.face.profile,
         "morphs": {shape: dict(own) for shape, own in reading.face.morphs.items()},
         "missing_morphs": list(reading.face.missing),
@@ -276,14 +282,14 @@ def as_text(found: Mapping[str, Any]) -> list[str]:
     names: str = found["names"]
     lines = [
         said("characters.figure", file=restored(found["file"]), meshes=len(found["meshes"]), **counts),
-        "",
-        said("characters.joints", found_by=said(ways[names]) if names in ways else names),
-        *(
+    ]
+    if found["joints"]:
+        lines += ["", said("characters.joints", found_by=said(ways[names]) if names in ways else names)]
+        lines += (
             f"  {on_left(joint, 26)}{'?' if joint in doubtful else ' '} "
             + " + ".join([bone, *found["further_bones"].get(joint, ())])
             for joint, bone in found["joints"].items()
-        ),
-    ]
+        )
     hidden = set(found["hidden_meshes"])
     listed = [said("characters.hidden", name=name) if name in hidden else name for name in found["meshes"]]
     lines += ["", said("characters.meshes", names=", ".join(listed))]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Final
 
 import numpy as np
@@ -200,8 +200,7 @@ def joints_by_shape(tree: Tree) -> dict[str, int]:
     chest = halves.meeting(tip)
     if chest is None or halves.side(chest) != 0:
         return joints
-    for side, end in (("left", tip), ("right", halves.partner[tip])):
-        joints |= _arm(halves, side, tree.path(chest, end))
+    joints |= _arms(halves, {"left": tree.path(chest, tip), "right": tree.path(chest, halves.partner[tip])})
     hips, chain = _hips(tree, joints, hips, tree.path(hips, chest) if chest != hips else [])
     return joints | {"hips": hips} | spread_spine(tree, chain) | _head(halves, chest)
 
@@ -309,7 +308,7 @@ def _leg(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
     upper = beside if len(beside) >= 2 else upper
     if len(upper) < 2:
         return {}
-    thigh, knee = _two(tree, upper, ankle, LEG_LENGTH * height)
+    thigh, knee = (upper[at] for at in _two(tree, [(upper, ankle)], LEG_LENGTH * height))
     found = {f"{side}UpperLeg": thigh, f"{side}LowerLeg": knee, f"{side}Foot": ankle}
     ahead = max(tree.children[ankle], key=lambda bone: (tree.positions_m[bone, 2], -bone), default=None)
     if ahead is not None and tree.positions_m[ahead, 2] > tree.positions_m[ankle, 2]:
@@ -337,27 +336,39 @@ def _points_ahead(halves: _Halves, path: list[int]) -> int | None:
     return None
 
 
-def _arm(halves: _Halves, side: str, path: list[int]) -> dict[str, int]:
+def _arms(halves: _Halves, paths: Mapping[str, list[int]]) -> dict[str, int]:
+    """Return both arms, by the bones from below the chest to the tip of each side; arms of equally many bones begin and
+    bend at the same ones.
+    """
+    found = {side: _hand(halves, side, path) for side, path in paths.items()}
+    limbs = {side: (upper, hand) for side, (upper, hand, _) in found.items() if len(upper) >= 2}
+    alike = len({len(upper) for upper, _ in limbs.values()}) == 1
+    joints: dict[str, int] = {}
+    for side, (upper, hand) in limbs.items():
+        both = list(limbs.values()) if alike else [(upper, hand)]
+        start, elbow = _two(halves.tree, both, ARM_LENGTH * halves.height)
+        joints |= {f"{side}UpperArm": upper[start], f"{side}LowerArm": upper[elbow], f"{side}Hand": hand}
+        if start:
+            joints[f"{side}Shoulder"] = upper[0]
+        joints |= found[side][2] or fingers(halves.tree, side, hand)
+    return joints
+
+
+def _hand(halves: _Halves, side: str, path: list[int]) -> tuple[list[int], int, dict[str, int]]:
+    """Return the bones of an arm before its hand, the hand, and the joints of a palm of several bones."""
     tree, height = halves.tree, halves.height
     hand = _hand_of_fingers(halves, path)
     if hand is None:
         # No fingers: the bone that makes the best arm of those before it.
         ends = path[2:]
         if not ends:
-            return {}
+            return [], path[-1], {}
         hand = min(ends, key=lambda bone: _off(tree, path[: path.index(bone)], bone, ARM_LENGTH * height))
     upper = path[: path.index(hand)]
     palm = hand_of_palms(tree, side, upper[-1], hand) if upper else {}
     if palm:
         upper, hand = [*upper, hand], palm[f"{side}Hand"]
-    if len(upper) < 2:
-        return {}
-    start, elbow = _two(tree, upper, hand, ARM_LENGTH * height)
-    found = {f"{side}UpperArm": start, f"{side}LowerArm": elbow, f"{side}Hand": hand}
-    before = path[: path.index(start)]
-    if before:
-        found[f"{side}Shoulder"] = before[0]
-    return found | (palm or fingers(tree, side, hand))
+    return upper, hand, palm
 
 
 def _hand_of_fingers(halves: _Halves, path: list[int]) -> int | None:
@@ -396,19 +407,17 @@ def hand_of_palms(tree: Tree, side: str, upper: int, forearm: int) -> dict[str, 
     return {f"{side}Hand": hand} | digits
 
 
-def _two(tree: Tree, upper: list[int], end: int, length_m: float) -> tuple[int, int]:
-    """Return the start of a limb and its middle joint, for equal halves and a plausible length."""
-    return min(
-        _pairs(upper),
-        key=lambda pair: (
-            abs(tree.distance(pair[0], pair[1]) - tree.distance(pair[1], end))
-            + 0.5 * abs(tree.distance(pair[0], end) - length_m)
-        ),
-    )
+def _two(tree: Tree, limbs: Sequence[tuple[list[int], int]], length_m: float) -> tuple[int, int]:
+    """Return the indices of the first bone and the middle joint of limbs with equally many bones before their ends, for
+    equal halves and a plausible length.
+    """
 
+    def off_m(upper: list[int], end: int, pair: tuple[int, int]) -> float:
+        start, middle = (upper[at] for at in pair)
+        uneven_m = abs(tree.distance(start, middle) - tree.distance(middle, end))
+        return uneven_m + 0.5 * abs(tree.distance(start, end) - length_m)
 
-def _pairs(upper: list[int]) -> list[tuple[int, int]]:
-    return [(start, middle) for at, start in enumerate(upper) for middle in upper[at + 1 :]]
+    return min(combinations(range(len(limbs[0][0])), 2), key=lambda pair: sum(off_m(*limb, pair) for limb in limbs))
 
 
 def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
@@ -416,7 +425,7 @@ def _off(tree: Tree, upper: list[int], end: int, length_m: float) -> float:
     arms may be half as long.
     """
     ratios = []
-    for start, middle in _pairs(upper):
+    for start, middle in combinations(upper, 2):
         halves = np.maximum((tree.distance(start, middle), tree.distance(middle, end)), 1e-9)
         ratios.append(abs(np.log(halves[0] / halves[1])) + 0.5 * abs(np.log(halves.sum() / length_m)))
     return float(min(ratios))

@@ -1,6 +1,8 @@
 """`suisou characters`: what is printed of a figure, corrections by hand, adding."""
 
 import json
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +11,10 @@ import pytest
 from app.cli import main
 from app.cli.characters import joints_of, morphs_of
 from app.errors import MapError, UsageError
-from app.rig.characters import character_library, figure_build
+from app.rig.characters import character_library, figure_build, load_character
 from app.rig.characters.character_library import FOLDER_VARIABLE, characters
+from app.rig.characters.joint_mapping import JointMapping, map_joints
+from app.rig.figure import Figure
 from tests.support.wardrobe import wardrobe_in, write_outfit
 
 DATA = Path(__file__).parents[2] / "data" / "characters"
@@ -96,6 +100,31 @@ def test_what_is_odd_in_a_file_is_said_when_it_is_added(
     assert "is 1.53" in capsys.readouterr().err
     assert main(["characters", "add", file, "--name", "as told", "--height", "1.1"]) == 0
     assert capsys.readouterr().err == ""
+
+
+def test_joints_in_doubt_are_said_when_a_character_is_added(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def doubting(figure: Figure, requested: Mapping[str, str] | None = None) -> JointMapping:
+        return replace(map_joints(figure, requested), doubtful=("leftHand",))
+
+    monkeypatch.setattr(load_character, "map_joints", doubting)
+    assert main(["characters", "add", str(DATA / "woman_game_engine.glb"), "--name", "guessed"]) == 0
+    assert "joints in doubt: leftHand (hand_l);" in capsys.readouterr().err
+
+
+def test_of_a_refused_figure_found_by_shape_no_joint_is_listed(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    guessed = JointMapping("", {"hips": 0, "spine": 1}, ("head",), ("hips", "spine"))
+    monkeypatch.setattr(load_character, "map_joints", lambda figure, requested: guessed)
+    file = str(DATA / "woman_game_engine.glb")
+    assert main(["characters", "check", file, "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert (found["joints"], found["doubtful_joints"], found["missing_joints"]) == ({}, [], [])
+    assert "leftHand" in found["required_joints"]
+    assert main(["characters", "check", file]) == 1
+    assert "by shape" not in capsys.readouterr().out
 
 
 def test_a_person_is_made_and_ours_are_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -55,12 +55,24 @@ KNIGHT: Final[Bones] = {
 """Long arms, a hand called a palm, a thumb at the forearm, feet at the root (Quaternius' knight)."""
 
 
-def figure(bones: Bones) -> Figure:
-    """A figure of both sides without a mesh, its bones unturned."""
+CROSSED: Final[Bones] = {
+    "LowerArm.R": ("UpperArm.R", -1.56, 3.66, -0.21),
+    "Palm.R": ("LowerArm.R", -2.74, 3.7, -0.23),
+    "Thumb.L": ("LowerArm.R", -2.52, 3.63, -0.02),
+    "Thumb.R": ("LowerArm.L", 2.52, 3.63, -0.02),
+    "Thumb2.L": ("Thumb.L", -2.62, 3.54, 0.12),
+    "Thumb2.R": ("Thumb.R", 2.62, 3.54, 0.12),
+}
+"""The knight's arms as in its file: thumbs named for the other side, and a shorter right upper arm."""
+
+
+def figure(bones: Bones, otherwise: Bones | None = None) -> Figure:
+    """A figure of both sides without a mesh, its bones unturned; ``otherwise`` replaces bones of a side."""
     whole = dict(bones)
     for name, (parent, x, y, z) in bones.items():
         if name.endswith(".L"):
             whole[f"{name[:-1]}R"] = (f"{parent[:-1]}R" if parent.endswith(".L") else parent, -x, y, z)
+    whole |= otherwise or {}
     names = list(whole)
     names.sort(key=lambda name: _depth(whole, name))
     places = np.array([whole[name][1:] for name in names], np.float64)
@@ -91,4 +103,11 @@ def test_a_free_cast_is_read_by_its_shape(bones: Bones, hips: str, named: bool) 
     for part in SIDES if named else SIDES[2:]:
         # Without a name a shoulder may as well be the upper arm.
         own = part if f"{part}.L" in bones else "Palm"
+        assert (found[f"left{part}"], found[f"right{part}"]) == (f"{own}.L", f"{own}.R")
+
+
+def test_an_arm_without_a_hands_name_is_mapped_like_the_other_one() -> None:
+    knight = figure(KNIGHT, CROSSED)
+    found = {joint: knight.bone_names[bone] for joint, bone in map_joints(knight).bones.items()}
+    for part, own in {"Shoulder": "Shoulder", "UpperArm": "UpperArm", "LowerArm": "LowerArm", "Hand": "Palm"}.items():
         assert (found[f"left{part}"], found[f"right{part}"]) == (f"{own}.L", f"{own}.R")
