@@ -8,7 +8,7 @@ one use the T-pose.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -23,12 +23,18 @@ from app.motion.model import Motion
 from app.rig import quaternion
 from app.rig.characters.bone_placements import world_placements
 from app.rig.characters.t_pose import AHEAD
-from app.rig.model import Character
+from app.rig.model import Character, Skeleton
 from metadata.load import load_face_names, load_skeleton
 from metadata.model import ARKIT_MORPHS
 
 EYES = ("leftEye", "rightEye")
 _TRUNK = ("spine", "chest", "upperChest")
+_ENDS = {
+    f"{side}{limb}": f"{side}{end}"
+    for side in ("left", "right")
+    for limb, end in (("UpperArm", "LowerArm"), ("LowerArm", "Hand"), ("UpperLeg", "LowerLeg"), ("LowerLeg", "Foot"))
+}
+"""The joint at the end of each limb."""
 _OF_VRM = ("vrm0", "vrm1")
 _VRM = "vrm"
 
@@ -60,6 +66,7 @@ def humanoid_target(character: Character, place: NodePlace | None = None) -> Tar
             bone = own.bone_of_joint[joint]
             positions_m[joint] = rest_m[bone]
             turns[joint] = quaternion.multiply(resting[bone], quaternion.conjugate(own.joint_from_bone[joint]))
+        _point_at_ends(skeleton, positions_m, turns, [joint for joint in joints if skeleton.names[joint] in _ENDS])
     bone_of_joint = {joint: bone for bone, joint in enumerate(joints)}
     parents: list[int] = []
     for joint in joints:
@@ -91,6 +98,20 @@ def humanoid_target(character: Character, place: NodePlace | None = None) -> Tar
         hips=bone_of_joint[skeleton.index(HIPS)],
         place=place,
     )
+
+
+def _point_at_ends(skeleton: Skeleton, positions_m: FloatArray, turns: FloatArray, limbs: Sequence[int]) -> None:
+    """Turn limbs (``turns``, in place) to where the joint below them is in the rest pose: bones between the two, which
+    a viewer leaves as they rest, may be bent there.
+    """
+    for joint in limbs:
+        end = skeleton.index(_ENDS[skeleton.names[joint]])
+        bound = quaternion.rotate(turns[joint], np.asarray(skeleton.offsets_m[end], np.float64))
+        resting = positions_m[end] - positions_m[joint]
+        lengths_m = np.linalg.norm(bound), np.linalg.norm(resting)
+        if min(lengths_m) > 0.0:
+            way = quaternion.between(bound / lengths_m[0], resting / lengths_m[1])
+            turns[joint] = quaternion.multiply(way, turns[joint])
 
 
 def humanoid_scene(character: Character, motion: Motion, name: str, creator: str, target: TargetSkeleton) -> Scene:

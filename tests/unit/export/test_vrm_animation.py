@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 from collections.abc import Callable, Mapping
@@ -190,6 +191,20 @@ def test_it_is_read_back_as_it_was_written(cast: Cast, tmp_path: Path) -> None:
     np.testing.assert_allclose(read.clip.translations_cm[0], scene.clip.translations_cm[0], atol=1e-4)
     for name, weights in scene.clip.morph_weights.items():
         np.testing.assert_allclose(read.clip.morph_weights[name], weights, atol=1e-6)
+
+
+def test_limbs_with_bent_bones_between_their_joints_end_where_our_glb_has_them(tmp_path: Path) -> None:
+    """The toddler's second bones of thighs and upper arms are bent in the pose in which its file rests."""
+    character = load_character(FOLDER / "toddler_vrm1.vrm")
+    toddler = Cast(character, FOLDER / "toddler_vrm1.vrm", own_target(character))
+    motion = moving(character)
+    scene = humanoid_scene(character, motion, "test", "test", humanoid_target(character))
+    assert scene.clip is not None
+    shown = ScenePlayback(scene, scene.clip).world(0, motion.frames)[:, :, :3, 3]
+    names = [bone.name for bone in scene.bones]
+    for name, (positions_m, _) in expected(toddler, motion).items():
+        off_mm = 1000.0 * np.linalg.norm(shown[:, names.index(name)] - positions_m, axis=1).max()
+        assert off_mm < (1.0 if re.search("LowerLeg|Foot|Toes", name) else 0.5), (name, off_mm)
 
 
 def test_a_place_on_the_stage_is_in_the_path_of_the_hips() -> None:
