@@ -42,7 +42,8 @@ def reported_least_m(distances_m: FloatArray) -> float:
 
 
 class Spread(msgspec.Struct, frozen=True):
-    """Distribution of a distance over frames, with its bound. Without frames there is no value and no violation."""
+    """Distribution of a distance in millimetres over ``frames`` frames: maximum, 99th percentile, and the bound it must
+    meet. Without frames there is no value and no violation."""
 
     max_mm: float
     p99_mm: float
@@ -51,7 +52,7 @@ class Spread(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, distances_m: FloatArray, bound_mm: float) -> Spread:
-        """Measure distances (F,)."""
+        """Measure distances (F,) in metres over F frames against a bound."""
         if not len(distances_m):
             return cls(0.0, 0.0, bound_mm, 0)
         distances_mm = distances_m * 1000.0
@@ -78,12 +79,12 @@ def allowed_mm(name: str, bound_mm: float, missed: Mapping[str, float]) -> float
 
 
 def contact_name(contact: Contact | ContactFit) -> str:
-    """Name of a contact in reports."""
+    """Return the name of a contact in reports, such as ``"left.index.pad on valve_1"``."""
     return f"{contact.part} on {'+'.join((contact.control or contact.node, *contact.together))}"
 
 
 def in_place(control: Control, values: FloatArray, targets: FloatArray) -> BoolArray:
-    """Return a mask of the values of a control that are close enough to their targets."""
+    """Return a mask of the values of a control (F,) that are close enough to their targets (F,)."""
     off = np.abs(values - targets)
     if control.kind == "slide" and control.travel_m:
         return off * control.travel_m <= SLIDE_M

@@ -47,12 +47,12 @@ class Break:
 
     @property
     def contact(self) -> tuple[str, str, str]:
-        """Return the key of the broken contact."""
+        """Key of the broken contact: kind, part of the body, control of the instrument."""
         return self.kind, self.part, self.control
 
 
 def runs(contact: tuple[Kind, str, str], times_s: FloatArray, gaps_m: FloatArray, broken: BoolArray) -> Iterator[Break]:
-    """Yield the spans of broken frames (F,)."""
+    """Yield a break for each span of consecutive frames in which ``broken`` (F,) is true, with its largest gap."""
     if not broken.any():
         return
     indices = np.flatnonzero(broken)
@@ -94,7 +94,7 @@ def contact_problems(
 
 
 def by_time(problems: Iterable[Problem]) -> tuple[Problem, ...]:
-    """Problems in the order of time."""
+    """Return problems sorted by their start."""
     return tuple(sorted(problems, key=lambda problem: problem.start_s))
 
 
@@ -109,7 +109,7 @@ def _united(spans_s: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def joined(breaks: Iterable[Break]) -> list[Break]:
-    """Merge breaks of one contact that are close to each other."""
+    """Merge those breaks of one contact that follow each other closely."""
     result: list[Break] = []
     for item in sorted(breaks, key=lambda item: (*item.contact, item.start_s)):
         last = result[-1] if result else None

@@ -70,7 +70,8 @@ class NoteFrames:
         return self._inside(*self._bounds(starts_s, ends_s))
 
     def targets(self, control: Control) -> FloatArray:
-        """Value of a control for each note."""
+        """Return the value (N,) that each note requests of a control; the control's rest value where a note does not
+        use it."""
         known = self._targets.get(control.name)
         if known is None:
             asked = [note.controls.get(control.name, control.rest_value) for note in self.notes]
@@ -78,9 +79,8 @@ class NoteFrames:
         return known
 
     def working(self, control: Control, values: FloatArray) -> tuple[BoolArray, BoolArray]:
-        """Masks of the frames with a sounding note at which a control is away from rest as required, and at rest as
-        required.
-        """
+        """Return two masks (F,) of frames in a sounding note: the control is away from rest as the note requires, and
+        at rest as the note requires."""
         pressed, released = np.zeros((2, len(self._times_s)), dtype=np.bool_)
         frames, notes = self._frames_of_notes
         targets = self.targets(control)[notes]
@@ -91,7 +91,7 @@ class NoteFrames:
 
     @cached_property
     def _frames_of_notes(self) -> tuple[IndexArray, IndexArray]:
-        """Frames of each note, concatenated, and the note index of each; notes may overlap."""
+        """Frames of all notes, concatenated (K,), and the note index (K,) of each; notes may overlap."""
         starts, stops = self._bounds(self._starts_s, self._ends_s)
         return _indices(starts, stops), np.repeat(np.arange(len(starts)), np.maximum(stops - starts, 0))
 
@@ -209,7 +209,7 @@ class NoteFrames:
         return self._bounds(self._starts_s, np.minimum(self._ends_s, following_s[: len(self.notes)]))
 
     def _bounds(self, starts_s: FloatArray, ends_s: FloatArray) -> tuple[IndexArray, IndexArray]:
-        """First frames (K,) of spans, and the frames after their last."""
+        """Return the index of the first frame (K,) of each of K spans of seconds, and of the frame after its last."""
         return np.searchsorted(self._times_s, starts_s - 1e-9), np.searchsorted(self._times_s, ends_s - 1e-9)
 
     def _inside(self, starts: IndexArray, stops: IndexArray) -> BoolArray:
@@ -222,7 +222,7 @@ class NoteFrames:
 
 
 def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
-    """Concatenated indices of spans (K,)."""
+    """Concatenate the indices of spans: all i with ``starts[k] <= i < stops[k]``, shape (K,)."""
     lengths = np.maximum(stops - starts, 0)
     before = np.cumsum(lengths) - lengths
     indices: IndexArray = np.arange(lengths.sum()) + np.repeat(starts - before, lengths)
@@ -230,7 +230,8 @@ def _indices(starts: IndexArray, stops: IndexArray) -> IndexArray:
 
 
 def _stops_short(control: Control, values: FloatArray, targets: FloatArray, unreached: BoolArray) -> BoolArray:
-    """Mask of frames in which a control that a hand moves along stays before its place, for a note out of reach."""
+    """Return the frames (F,) in which a control moved by a whole hand stops before its target because the note is out
+    of the arm's reach (``unreached``)."""
     if not control.finger.endswith(".hand"):
         return np.zeros(len(values), dtype=np.bool_)
     near: BoolArray = np.abs(values - control.rest_value) < np.abs(targets - control.rest_value)

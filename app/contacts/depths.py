@@ -160,7 +160,7 @@ class _Pairs:
         return _Pairs(*map(np.concatenate, both))
 
     def of_blocks(self, values: SingleArray) -> SingleArray:
-        """Expand values (B,) of blocks to the pairs (N,)."""
+        """Return the value (N,) of the block to which each of N pairs belongs, from one value (B,) per block."""
         found: SingleArray = values[self.blocks][self.spots]
         return found
 
@@ -267,7 +267,7 @@ class _Search:
         return places_m
 
     def _placed(self, pairs: _Pairs, vertices: IndexArray) -> NodePoints:
-        """Positions of candidate vertices (S,) in their nodes' frames at the middle of the blocks."""
+        """Return the positions of the candidate vertices (S,) in their nodes' frames at the middle of the blocks."""
         size, spots = self._moved.size, pairs.spots
         middles = pairs.blocks * size + size // 2
         places_m, moves_m = self._poses.places_m(middles, vertices), np.full(len(vertices), _ROUNDING_M)
@@ -279,9 +279,9 @@ class _Search:
     def _near(
         self, pairs: _Pairs, vertices: IndexArray, radii_m: SingleArray, depths_m: SingleArray
     ) -> tuple[BoolArray, NodePoints]:
-        """Return a mask of the pairs (N,) that may be deepest in some frame of their block, for vertices (S,) with
-        radii (S,) around them. Raises the depths (B, size) found.
-        """
+        """Return a mask of the pairs (N,) of block and vertex that may be deepest in any frame of their block;
+        ``radii_m`` (S,) surround the vertices (S,). Depths (B, size) of B blocks are raised as far as they are
+        certain."""
         placed, own_m = self._placed(pairs, vertices), radii_m[pairs.spots]
         # Something this far away is known to be less deep than what has been found.
         clear_m = own_m + placed.moves_m - pairs.of_blocks(depths_m.min(axis=1))
@@ -292,7 +292,7 @@ class _Search:
 
 
 def _raise(depths_m: SingleArray, pairs: _Pairs, found_m: SingleArray) -> None:
-    """Raise the lower bounds (B, size) of blocks to the depths found (N,)."""
+    """Raise the lower bounds (B, size) of the frames of B blocks to the depths found (N,) for N pairs."""
     rows = np.flatnonzero(found_m > 0.0)
     deepest_m = np.zeros(len(depths_m), dtype=np.float32)
     np.maximum.at(deepest_m, pairs.blocks[pairs.spots[rows]], found_m[rows])
@@ -344,7 +344,7 @@ def _groups(places_m: bytes, strongest: bytes) -> _Groups:
 
 
 def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
-    """Halve a group along its longest side until the parts are small."""
+    """Halve a group of vertices along its longest side until every group has at most `GROUP`; returns their rows."""
     if len(rows) <= GROUP:
         return [rows]
     extent = np.ptp(positions_m[rows], axis=0)
@@ -355,7 +355,8 @@ def _split(rows: IndexArray, positions_m: FloatArray) -> list[IndexArray]:
 
 @lru_cache(maxsize=8)
 def _field(bodies: tuple[Proxy, ...]) -> tuple[tuple[str, ...], DistanceField]:
-    """Nodes with bodies, and the distance field of these; cached, since hands and similar players share it."""
+    """Return the names of the nodes that have bodies, and the distance field of the bodies; cached, since hands and
+    similar players share it."""
     by_node: dict[str, list[Proxy]] = {}
     for body in bodies:
         by_node.setdefault(body.node, []).append(body)

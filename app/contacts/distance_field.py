@@ -196,7 +196,7 @@ class DistanceField:
         return bricks
 
     def _nodes_of(self, flat: AnyIntArray) -> IndexArray:
-        """Node (N,) of each brick."""
+        """Return the index (N,) of the node to which each flat brick index belongs."""
         return np.searchsorted(self._starts, flat, side="right") - 1
 
     def _corners_of(self, flat: AnyIntArray) -> FloatArray:

@@ -46,7 +46,7 @@ class SkinnedVertices:
 
 
 def skinned_vertices(skin: Skin) -> SkinnedVertices:
-    """Extract the vertices of a skin."""
+    """Return a skin's vertices in the form for fast skinning: per vertex the joints that carry it."""
     count = int(np.count_nonzero(skin.weights, axis=1).max())
     carriers = np.argsort(-skin.weights, axis=1, kind="stable")[:, :count]
     from_mesh = skin.joint_from_mesh[carriers]
@@ -65,12 +65,13 @@ def skinned_vertices(skin: Skin) -> SkinnedVertices:
 
 
 def _by_carrier(vectors: FloatArray) -> SingleArray:
-    """Convert vectors (V, K, 3) to (K, 3, V) in single precision."""
+    """Convert vectors (V, K, 3) of V vertices and K carriers to (K, 3, V) in single precision."""
     return vectors.transpose(1, 2, 0).astype(np.float32, order="C")
 
 
 def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -> SingleArray:
-    """``node_from_joint`` (3, 4, F, J) from ``world_from_node`` (F, 4, 4) and ``world_from_joint`` (F, 3, J, 4)."""
+    """Return the matrices ``node_from_joint`` (3, 4, F, J) of J joints in F frames from ``world_from_node`` (F, 4, 4)
+    and ``world_from_joint`` (F, 3, J, 4)."""
     node_from_world = np.linalg.inv(world_from_node)[:, :3].astype(np.float32)
     frames, _, joints, _ = world_from_joint.shape
     turned = (node_from_world[:, :, :3] @ world_from_joint.reshape(frames, 3, 4 * joints)).reshape(frames, 3, joints, 4)
@@ -79,7 +80,7 @@ def joints_in_node(world_from_node: FloatArray, world_from_joint: SingleArray) -
 
 
 def _through(matrices: SingleArray, at: IndexArray, points_m: SingleArray) -> SingleArray:
-    """Transform points (3, N) by the matrices (3, 4, M) selected by ``at`` (N,)."""
+    """Transform N points (3, N) by the matrices selected by ``at`` (N,) among M matrices (3, 4, M)."""
     result = np.empty_like(points_m)
     for axis, row in enumerate(matrices):
         # In the order of a matrix product, whose rounding this has.
@@ -132,7 +133,8 @@ class VertexPoses:
         return result
 
     def moves(self, size: int, blocks: IndexArray) -> Moves:
-        """Return the movement of joints relative to the middle frames of some blocks (B,) of a size."""
+        """Return the movement of joints relative to the middle frames of the blocks with the indices ``blocks`` (B,),
+        each of ``size`` frames."""
         joints = self._node_from_joint.shape[3]
         placed = self._node_from_joint.reshape(3, 4, -1, size, joints)[:, :, blocks]
         moved = placed - placed[:, :, :, size // 2, None]
@@ -188,7 +190,8 @@ class Moves:
 
 
 def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArray) -> int:
-    """Index of the node (each (F, 4, 4)) relative to which the mean of some joints (F, 3, J, 4) moves least."""
+    """Index of the node (each (F, 4, 4) over F frames) relative to which the mean of J joints (F, 3, J, 4) moves
+    least."""
     middle_m = world_from_joint[..., 3].mean(axis=2, dtype=np.float64)
     ways_m = []
     for here in world_from_node:
@@ -198,9 +201,8 @@ def steadiest(world_from_node: Sequence[FloatArray], world_from_joint: SingleArr
 
 
 def moving_parts_m(world_from_node: Sequence[FloatArray], base: int, point_m: SingleArray) -> SingleArray:
-    """Return coordinates (F, M) of a point of the base node in the frames of those nodes (each (F, 4, 4)) that move
-    relative to it there.
-    """
+    """Return coordinates (F, M) of a point of the node ``base`` in the frames of those nodes (each (F, 4, 4)) that move
+    relative to it there; three columns each."""
     world_m = world_from_node[base][:, :3] @ np.append(point_m, 1.0)
     moving = [np.empty((0, len(world_m)), dtype=np.float32)]
     for node, here in enumerate(world_from_node):
@@ -313,7 +315,7 @@ class NodePoints:
 
     @property
     def moves_m(self) -> SingleArray:
-        """Return the largest change of the distance within the block."""
+        """Largest change (N,) of each point's distance within the block of frames, in metres."""
         return self.shifts_m + self.turns_m
 
     def least_m(self, middle_m: SingleArray) -> SingleArray:

@@ -35,7 +35,7 @@ Place = tuple[tuple[str, float], ...]
 
 
 class Holding(NamedTuple):
-    """A body that holds an instrument."""
+    """A player's body that holds an instrument: character, grip and table of motion."""
 
     player_id: str
     character: Character

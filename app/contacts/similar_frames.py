@@ -1,4 +1,4 @@
-"""Sorts frames so that neighbours are similar."""
+"""Sorts frames of motion so that similar ones are neighbours, which makes the search for depths faster."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ class Traces:
 
 
 def distance_m(places_m: FloatArray, others_m: FloatArray) -> FloatArray:
-    """Distances (F,) between positions (F, 3)."""
+    """Return the distances (F,) in metres between positions (F, 3) and others (F, 3)."""
     result: FloatArray = np.linalg.norm(places_m - others_m, axis=1)
     return result
 
@@ -83,9 +83,8 @@ def hand_gaps_m(
     controls: Mapping[str, FloatArray],
     placed: Mapping[str, StationBlend] | None = None,
 ) -> FloatArray:
-    """Return the distance (F,) of a hand from its place on the instrument; parameters as in
-    `app.rig.grip.grip_pose.hand_targets`.
-    """
+    """Return the distance (F,) in metres of a hand's wrist from its place on the instrument; parameters as in
+    `app.rig.grip.grip_pose.hand_targets`."""
     requested_m, _ = hand_targets(hand, world_from_instrument_m, world_from_instrument_rotation, controls, placed)
     return distance_m(wrist_m, requested_m)
 
@@ -155,7 +154,7 @@ class TouchJudge:
 
     @cached_property
     def _stations(self) -> Mapping[str, IndexArray]:
-        """Return the station of each finger in each note."""
+        """For each finger the station of the hand in each note (N,)."""
         fingered = ((note.controls, note.fingers) for note in self._notes.notes)
         return stations_of_notes(self._instrument, fingered)
 
@@ -193,7 +192,8 @@ class TouchJudge:
         return frames
 
     def hovering_m(self) -> dict[str, FloatArray]:
-        """Return the distance of idle fingers from their nearest station, or from the line between two stations."""
+        """Return the distance (F,) of each idle finger from its nearest station, or from the line between two stations,
+        by finger, metres."""
         found = {}
         contacts, traces = self._instrument.contacts, self._traces
         for finger, places in stations(self._instrument).items():

@@ -94,11 +94,11 @@ class BodyMotion:
     looks: dict[str, FloatArray] = field(default_factory=dict)
 
     def __getitem__(self, frames: slice) -> BodyMotion:
-        """The motion in some frames."""
+        """Return the motion in a range of frames."""
         return self._each(lambda values: values[frames])
 
     def for_frames(self, frames: int) -> BodyMotion:
-        """A one-frame motion, repeated for all frames."""
+        """Return the motion of a single frame repeated for ``frames`` frames."""
         return self._each(lambda values: np.tile(values, frames))
 
     def _each(self, made: Callable[[FloatArray], FloatArray]) -> BodyMotion:

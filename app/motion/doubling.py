@@ -36,7 +36,8 @@ class LastChunk:
     def motion(
         self, number: int, curves: PerformanceCurves, fps: Fraction, first_frame: int, frames: int, every: int
     ) -> Motion:
-        """The motion with one instrument, made by ``curves``. Several threads may compute the same at once."""
+        """Return the frames of a musician's motion with the instrument ``number``, made by ``curves`` unless they were
+        the last ones computed. Several threads may compute the same at once."""
         kept, asked = self._kept, (fps, first_frame, frames, every)
         if kept[0] != asked:
             kept = self._kept = asked, {}
@@ -130,7 +131,8 @@ class Doubling(PerformanceCurves):
                 values[here] = first + (second - first) * share
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
-        """Changed spans as in `PerformanceCurves`, over all instruments of the musician."""
+        """Return the spans (K, 2) in seconds in which the motion differs from ``other``, over all instruments of the
+        musician; everything if they are not comparable."""
         if not isinstance(other, Doubling):
             return EVERYWHERE
         if len(self.played) != len(other.played) or self.number != other.number:
@@ -229,7 +231,8 @@ def _lowered(curves: PerformanceCurves, ways: Sequence[tuple[float, float, float
 
 
 def _share(player_id: str, first: str, found: Sequence[InstrumentChange]) -> Curve:
-    """Weight of one instrument's motion over time."""
+    """Return the curve 0..1 of a doubling musician's motion that belongs to one instrument: 1 while it is played,
+    moving at the changes."""
     ways = [
         (change.put_s, change.taken_s, 1.0 if change.after == player_id else 0.0)
         for change in found

@@ -48,12 +48,12 @@ class Motion:
 
     @property
     def frames(self) -> int:
-        """Number of frames."""
+        """Number of frames in the motion."""
         return len(self.hips_m)
 
 
 def joined(pieces: Sequence[Motion]) -> Motion:
-    """Concatenate the frames of several motions."""
+    """Concatenate consecutive stretches of one motion along their frames."""
     if len(pieces) == 1:
         return pieces[0]
     first = pieces[0]

@@ -122,12 +122,12 @@ class PerformanceCurves:
 
     @property
     def player_id(self) -> str:
-        """The player's id."""
+        """Id of the player whose motion the curves describe."""
         return self.plan.player_id
 
     @property
     def start_s(self) -> float:
-        """Time of frame 0."""
+        """Performance time of frame 0 in seconds."""
         return self.plan.time_frame.first_frame_s
 
     def motion(self, fps: Fraction, first_frame: int, frames: int, every: int = 1) -> Motion:
@@ -220,9 +220,8 @@ class PerformanceCurves:
         return leaning_further(self.plan.breaths, self.layers.full, self._torso_rad)
 
     def _torso_rad(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Forward lean of the torso at ascending times, without and with breathing; without dance, which gives way to
-        breaths, and without the animator's poses.
-        """
+        """Forward lean (F,) of the trunk in radians at ascending times, without and with breathing; without dance,
+        which gives way to breaths, and without poses by hand."""
         levels = self._breathing(replace(self.layers.sample(times_s), held={}), times_s)
         look, skeleton, place = self.gaze.sample(times_s), self.player.skeleton, self.player.place
 
@@ -233,7 +232,7 @@ class PerformanceCurves:
         return lean_rad(replace(levels, full=np.zeros(len(times_s)))), lean_rad(levels)
 
     def _breathing(self, levels: LayerSamples, times_s: FloatArray) -> LayerSamples:
-        """The layers with breathing scaled by style spans."""
+        """Return the layers of motion with the breathing scaled by the styles in force."""
         share = share_at(self.plan.styles, "breath", times_s)
         if isinstance(share, float):
             return levels
@@ -256,7 +255,8 @@ class PerformanceCurves:
         return {side: footing(self.player.place, side, moved, len(times_s)).ankle_m for side in SIDES}
 
     def changed_s(self, other: PerformanceCurves) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which, and of `padding_frames` around them, both have equal frames."""
+        """Return the K spans (K, 2) in seconds outside of which, and of `padding_frames` around them, both motions have
+        equal frames."""
         mine, others = self._settings, other._settings
         if mine[0] != others[0] or any(a is not b for a, b in zip(mine[1:], others[1:], strict=True)):
             return EVERYWHERE
@@ -386,7 +386,7 @@ def _given(
     felt_beats: FeltBeats,
     dances: bool,
 ) -> dict[str, object]:
-    """Return the inputs of the steps that make the curves."""
+    """Return everything that the steps of a player's motion depend on, by the names of their inputs."""
     return {
         "plan": plan,
         "embouchure_tension": parameters.embouchure_tension,

@@ -213,7 +213,7 @@ def _shared_by_all(
     everyone: Mapping[str, object],
     runs: StepRuns,
 ) -> StepResults:
-    """Begin the steps that involve all players."""
+    """Begin the planning steps that involve all players at once, such as cues."""
     stage = everyone["stage"]
     assert isinstance(stage, Mapping)
     return runs.begin(
@@ -229,7 +229,7 @@ def _shared_by_all(
 def _shared_lines(
     playable: Mapping[str, StepResults], everyone: Mapping[str, object], runs: StepRuns
 ) -> list[SharedLine]:
-    """Return the summary of each player for comparison with the others."""
+    """Return a summary of each player's line, by which players are found who play the same."""
     return [
         runs.begin(SHARED_LINE, player_id, **everyone, times=results.of(note_times)).of(shared_line)
         for player_id, results in playable.items()
@@ -268,7 +268,7 @@ def _leading(
     sound_corrections: tuple[Correction, ...],
     musician: str,
 ) -> MonophonicPart:
-    """Return the part with only the fields that affect cues."""
+    """Return a player's part with only those fields that affect the planning of cues."""
     corrections = of_kinds(sound_corrections, (SetCue, RemoveEvent, SetBreath))
     return MonophonicPart(
         player_id, played_notes, instrument, parameters_deciding(parameters, "cues"), corrections, musician=musician

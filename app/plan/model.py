@@ -92,7 +92,7 @@ ATTACK: Final = Message("tongue.attack")
 
 
 class TongueEvent(msgspec.Struct, frozen=True, gc=False):
-    """Tongue stroke before an attacked note; the tongue releases at ``end_s``, the onset.
+    """Stroke of the tongue before an attacked note; the tongue releases at ``end_s``, the onset.
 
     ``strength`` is its size relative to a plain stroke of the tip.
     """
@@ -339,7 +339,8 @@ class PlayerPlan(msgspec.Struct, frozen=True):
 
 
 def grips_of(fingerings: tuple[FingeringEvent, ...]) -> tuple[FingeringEvent, ...]:
-    """The fingerings, with each vented one split in two; the same tuple if none is vented."""
+    """Return the fingerings with each vented one (keys released once the note speaks) split in two; the same tuple if
+    none is vented."""
     if all(event.vent is None for event in fingerings):
         return fingerings
     return _GRIPS.step(_all_grips, fingerings)
@@ -376,5 +377,5 @@ def only(plan: PlayerPlan, fields: tuple[str, ...]) -> PlayerPlan:
 
 @lru_cache(maxsize=256)
 def no_events(player_id: str, frame: TimeFrame) -> PlayerPlan:
-    """Return a player's empty plan."""
+    """Return a player's plan without any events, such as for a part without notes."""
     return PlayerPlan(player_id, frame, (), (), (), (), (), (), (), ())

@@ -101,7 +101,7 @@ class Parameter:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """Text ids of everything the user may see of it."""
+        """Ids of all texts about the parameter that the user may see: label, tip, unit and choices."""
         return tuple(filter(None, (self.label, self.tip, self.unit, *(word for _, word in self.choices))))
 
     @property
@@ -120,7 +120,7 @@ class Parameter:
         return ", ".join(options)
 
     def allows(self, value: object) -> bool:
-        """Return whether a value is allowed."""
+        """Return whether a value has the type of the parameter and is within its bounds."""
         try:
             msgspec.convert(value, self.kind)
         except msgspec.ValidationError:
@@ -272,5 +272,5 @@ def parameters_deciding(parameters: PlayerParameters, kind: Decided) -> PlayerPa
 
 
 def deciding_values(parameters: PlayerParameters, *kinds: Decided) -> tuple[Value, ...]:
-    """The values of the parameters that affect some results; equal values give equal results."""
+    """Return the values of those parameters that affect the given kinds of results; equal values give equal results."""
     return tuple(getattr(parameters, name) for kind in kinds for name in _DECIDING[kind])

@@ -89,7 +89,8 @@ def _pins(corrections: tuple[Correction, ...]) -> dict[str, str]:
 def _envelope(
     controller: ControllerInput | None, clock: TempoMap, times: LineTimes, marks: tuple[Mark, ...], source: Source
 ) -> BreathEnvelope | None:
-    """Return the recorded breath curve; without one, the written dynamics if they change within notes."""
+    """Return the recorded breath curve; without one, a curve of the written dynamics if they change within notes, else
+    None."""
     if controller is not None and controller.breath is not None:
         return blown(controller.breath, clock)
     return dynamics_within(times, marks, source, clock) if marks else None
@@ -118,14 +119,14 @@ def _cues_of(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent
 
 
 def _answered(cue_events: tuple[CueEvent, ...], player_id: str) -> tuple[CueEvent, ...]:
-    """Return the cues with which a player comes in."""
+    """Return the cues given by others with which a player comes in."""
     return tuple(cue for cue in cue_events if player_id in cue.takers)
 
 
 def _seen(
     player_id: str, cues: tuple[CueEvent, ...], answered: tuple[CueEvent, ...], stage: Mapping[str, StagePlace]
 ) -> dict[str, StagePlace]:
-    """Return the places of the player, the conductor and all players looked at."""
+    """Return the positions on stage, by id, of the player, the conductor and all players looked at."""
     others = {cue.player_id for cue in answered} | {taker for cue in cues for taker in cue.takers} | {CONDUCTOR}
     return {one: place for one, place in stage.items() if one == player_id or one in others}
 
@@ -141,7 +142,7 @@ def _after_the_end(
 
 
 def _looking(gestures: tuple[GestureEvent, ...]) -> tuple[GestureEvent, ...]:
-    """Return the gestures that affect glances."""
+    """Return those gestures that move the eyes or direct the gaze."""
     return tuple(
         event
         for event in gestures
@@ -172,7 +173,7 @@ def _lost(
     made_expressions: tuple[ExpressionEvent, ...],
     frame: TimeFrame,
 ) -> tuple[Problem, ...]:
-    """Return a problem for every correction whose note or event does not exist."""
+    """Return a problem for every correction whose note or planned event does not exist any more."""
     made = planned_breaths.generated_ids | cue_ids
     made |= {event.id for event in made_gestures} | {event.id for event in made_expressions}
     return orphans(corrections, note_ids, made, frame.first_frame_s)

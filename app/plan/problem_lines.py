@@ -87,7 +87,7 @@ def problems_in_bars(
 
 
 def note_place(score: Score, note: Note) -> Message:
-    """Place of a note, as a message."""
+    """Return a message that names a note by its pitch and its place (bar and beat)."""
     return Message("note.place", {"pitch": note.pitch, "place": score.metre_map.label(note.onset_tick)})
 
 
@@ -128,7 +128,7 @@ _indexed: dict[str, tuple[tuple[Note, ...], dict[str, Note]]] = {}
 def _line(
     found: list[Problem], score: Score, wording: Wording, part_id: str | None, instrument: InstrumentMap | None
 ) -> str:
-    """Line for problems of one kind: the text of the first, and the positions of the others."""
+    """Return the line of text about problems of one kind: the message of the first, and the positions of the others."""
     message, first = found[0].message, _place(found[0], score, part_id)
     line = wording(with_names(message, score, wording, part_id, instrument))
     if not NOTES & message.arguments.keys() and first:

@@ -29,7 +29,7 @@ DEPTH_SEMITONES: Final = 6.0
 
 @dataclass(frozen=True, eq=False)
 class Facts:
-    """Facts about the notes of a part for the conditions of rules: arrays (N,)."""
+    """Facts about N notes of a part, to which conditions of rules refer: arrays (N,)."""
 
     loudness: FloatArray
     pitch: FloatArray

@@ -45,7 +45,7 @@ class Ruled(NamedTuple):
 
 
 class _Line(NamedTuple):
-    """Notes of a part as input of rules."""
+    """The notes of a part with their facts, to which rules of acting are applied."""
 
     notes: tuple[Note, ...]
     times: LineTimes
@@ -140,7 +140,8 @@ def in_order(event: ExpressionEvent) -> tuple[float, bool, str]:
 
 
 def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | None) -> tuple[FloatArray, FloatArray]:
-    """Return start and end of a rule's events for some notes; ``length_s`` is the fixed length, if there is one."""
+    """Return start and end (N,) in seconds of the events that a rule makes at the notes with the indices ``found``;
+    ``length_s`` is the fixed length, if there is one."""
     anchors = {"onset": times.onset_s[found], "end": times.played_end_s[found]}
     start_s = anchors[rule.do.start] + rule.do.start_s
     if length_s is not None and rule.do.end_s is None:
@@ -149,7 +150,7 @@ def _spans_s(rule: Rule, times: LineTimes, found: IntArray, length_s: float | No
 
 
 def _faces(line: _Line, rule: Rule, face: Expression, found: IntArray, sizes: FloatArray) -> list[ExpressionEvent]:
-    """Make one expression for every run of notes with at most `Rule.apart_s` between them."""
+    """Return one expression event for every run of notes with at most `Rule.apart_s` between them."""
     starts_s, ends_s = _spans_s(rule, line.times, found, None)
     apart = starts_s[1:] - np.maximum.accumulate(ends_s)[:-1] > rule.apart_s
     events = []
@@ -215,9 +216,8 @@ def _gestures(
     lowered: LoweredSpans,
     others: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Make a gesture for every note where it is possible, at least `Rule.apart_s` after the previous one and clear of
-    ``others``.
-    """
+    """Make the rule's gesture for every one of the ``found`` notes where it is possible, at least `Rule.apart_s` after
+    the previous one and clear of ``others``."""
     notes, times, clock, seeds = line.notes, line.times, line.clock, line.seeds
     starts_s, ends_s = _spans_s(rule, times, found, gesture.length_s)
     if rule.do.spread_s:
@@ -284,6 +284,6 @@ def _is_overruled(event: GestureEvent | ExpressionEvent, spans: Mapping[str, Spa
 
 
 def lowered_spans_s(gestures: Sequence[GestureEvent]) -> tuple[tuple[float, float], ...]:
-    """Return the spans in which the instrument is off the lips."""
+    """Return the spans in seconds in which gestures take the instrument off the lips."""
     lowering = answered_by("lowering")
     return tuple((event.start_s, event.end_s) for event in gestures if event.kind in lowering)

@@ -1,4 +1,4 @@
-"""Sampled curves of lips and air within notes."""
+"""Curves of lip tension and air within notes, sampled from a recording or following the score's dynamics."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ def amount_at(
 
 
 def most_shown(styles: Sequence[StyleEvent], usual: Acting) -> Acting:
-    """Largest amount of each layer at any time."""
+    """Return for each layer of acting the largest amount that any style in the piece gives it."""
     if not styles:
         return usual
     shown = (usual, *(event.acting for event in styles))
@@ -95,7 +95,8 @@ def most_shown(styles: Sequence[StyleEvent], usual: Acting) -> Acting:
 
 
 def share_at(styles: Sequence[StyleEvent], layer: str, times_s: FloatArray) -> FloatArray | float:
-    """Amount of a layer at some times relative to `most_shown`; 1.0 without spans."""
+    """Return the amount (N,) of a layer of acting at given times relative to `most_shown`; 1.0 if there are no style
+    spans."""
     if not styles:
         return 1.0
     usual = styles[0].usual
@@ -117,7 +118,7 @@ def shown_in_style(plan: PlayerPlan) -> PlayerPlan:
 
 
 def differing_s(styles: Sequence[StyleEvent], others: Sequence[StyleEvent]) -> FloatArray:
-    """Spans (K, 2) in seconds in which the style spans of two players with equal `most_shown` may differ."""
+    """Return the K spans (K, 2) in seconds in which the styles of two plans with equal `most_shown` may differ."""
     if tuple(styles) == tuple(others):
         return np.zeros((0, 2))
     different = [event for event in (*styles, *others) if event not in styles or event not in others]
@@ -125,7 +126,7 @@ def differing_s(styles: Sequence[StyleEvent], others: Sequence[StyleEvent]) -> F
 
 
 def styles_at(styles: Sequence[StyleEvent], usual: str, times_s: FloatArray) -> list[str]:
-    """Name of the style at each time."""
+    """Return the name of the style in force at each time; ``usual`` outside the style spans."""
     found = [usual] * len(times_s)
     for event in styles:
         for place in np.flatnonzero((times_s >= event.start_s) & (times_s < event.end_s)).tolist():
@@ -152,14 +153,14 @@ def _shown_cues(cues: tuple[CueEvent, ...], styles: tuple[StyleEvent, ...]) -> t
 
 
 def _presence(event: StyleEvent, times_s: FloatArray | float) -> FloatArray | float:
-    """Return the weight of a style span, 0..1, with eased edges."""
+    """Return the weight of a style at given times, 0..1, with its smooth fade-in and fade-out."""
     rising = _eased((times_s - event.start_s) / max(event.fade_in_s, 1e-9))
     falling = _eased((event.end_s - times_s) / max(event.fade_out_s, 1e-9))
     return np.minimum(rising, falling)
 
 
 def _eased(phase: FloatArray | float) -> FloatArray | float:
-    """A minimum-jerk move over phases 0..1."""
+    """Return a smooth step (minimum jerk) from 0 to 1 for phases, which are limited to 0..1."""
     u = np.clip(phase, 0.0, 1.0)
     eased: FloatArray | float = u * u * u * (10.0 + u * (6.0 * u - 15.0))
     return eased

@@ -104,7 +104,8 @@ def air(breaths: Sequence[BreathEvent]) -> Curve:
 
 
 def widened(level: FloatArray, push: FloatArray | float, breath: BreathMotion, amount: float) -> dict[str, FloatArray]:
-    """Weights of the trunk's morphs for an amount of air and a push of the belly, 0..1."""
+    """Weights (F,), by name, of the morphs that widen chest and belly, from the lungs' ``level`` and the ``push`` of
+    the belly, 0..1."""
     chest, belly = BREATH_MORPHS
     full = np.clip(amount * level, 0.0, 1.0)
     return {

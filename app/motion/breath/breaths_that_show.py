@@ -65,6 +65,6 @@ def leaning_further(
 
 
 def _rise(values: FloatArray) -> FloatArray:
-    """Change (N, M) of values (N, 1 + M) relative to the first of each row."""
+    """Return the change (N, M) of M values relative to the first value of each row of ``values`` (N, 1 + M)."""
     change: FloatArray = values[:, 1:] - values[:, :1]
     return change

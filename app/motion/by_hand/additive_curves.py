@@ -29,14 +29,14 @@ OF_LIPS: Final = ("mouth", "jaw", "tongue", "cheekPuff")
 
 @dataclass(frozen=True)
 class Added:
-    """Values (F,) added to a channel, with the channel's limits; radians, metres or weights."""
+    """Values (F,) that the user adds to an animation channel, with the channel's limits; radians, metres or weights."""
 
     values: FloatArray
     low: float
     high: float
 
     def beside(self, other: FloatArray | float) -> FloatArray:
-        """The values limited to the range that another offset of the channel leaves."""
+        """Return the curve's values (F,) limited to the range that another offset of the same channel leaves."""
         return within(self.values, self.high - other, other - self.low)
 
 
@@ -57,7 +57,7 @@ class Additive:
 
     @classmethod
     def of(cls, events: Sequence[AdditiveEvent]) -> Additive:
-        """The curves of a plan's events."""
+        """Collect the additive curves of a plan's events, so that they can be sampled."""
         return cls(tuple(events), tuple(rows(event.segments) for event in events))
 
     def sample(self, times_s: FloatArray) -> dict[str, Added]:
@@ -75,13 +75,14 @@ class Additive:
         return sums
 
     def changed_s(self, other: Additive) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both sets of curves have equal values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, :2], others[:, :2])
 
     @property
     def _rows(self) -> FloatArray:
-        """All segments, each with its channel."""
+        """Rows of all Bezier segments of all additive curves: the segment, then channel number, hash of the event id,
+        and bounds of the value."""
         found = [np.zeros((0, COLUMNS + 4))]
         for event, table in zip(self.events, self.tables, strict=True):
             whose = (_NUMBERS[event.channel], float(zlib.crc32(event.id.encode())), event.low, event.high)
@@ -93,7 +94,8 @@ NOTHING: Final = Additive.of(())
 
 
 def with_held(held: Mapping[PoseTarget, PoseAngles], added: Mapping[str, Added]) -> dict[PoseTarget, PoseAngles]:
-    """Add the curves to the held angles of the same targets, within their limits."""
+    """Add the additive curves of each channel to the angles that poses hold for the same target, within the limits of
+    the target."""
     result = dict(held)
     for channel, more in added.items():
         if channel not in POSED:

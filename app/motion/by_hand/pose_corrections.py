@@ -49,7 +49,7 @@ class PoseCorrectionTable:
 
     @classmethod
     def of(cls, events: Sequence[PoseEvent]) -> PoseCorrectionTable:
-        """The pose corrections of a plan's events."""
+        """Collect the pose corrections of a plan's events, so that they can be sampled."""
         times_s = [
             (event.start_s - event.fade_in_s, event.start_s, event.end_s, event.end_s + event.fade_out_s)
             for event in events
@@ -62,7 +62,7 @@ class PoseCorrectionTable:
         )
 
     def sample(self, times_s: FloatArray) -> dict[PoseTarget, PoseAngles]:
-        """Offsets at ascending times for targets with corrections."""
+        """Return the summed corrections of the pose at ascending times (N,), by target: angles (N,) in radians."""
         sums: dict[PoseTarget, FloatArray] = {}
         for target, span_s, angle_rad in zip(self.targets, self.times_s, self.angles_rad, strict=True):
             total = sums.setdefault(_COLUMNS[int(target)], np.zeros((3, len(times_s))))
@@ -70,7 +70,7 @@ class PoseCorrectionTable:
         return {target: PoseAngles(*total) for target, total in sums.items()}
 
     def changed_s(self, other: PoseCorrectionTable) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both tables have equal values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [1, 4]], others[:, [1, 4]])
 
@@ -80,7 +80,7 @@ class PoseCorrectionTable:
 
 
 def within(offset: FloatArray, room_above: FloatArray | float, room_below: FloatArray | float) -> FloatArray:
-    """Limit an offset softly to its room; up to half of the room it is almost unchanged."""
+    """Limit an offset (radians) softly to the room above and below; up to half of the room it is almost unchanged."""
     room = np.maximum(np.where(offset >= 0.0, room_above, room_below), LEAST_ROOM_RAD)
     held: FloatArray = offset / np.power(1.0 + np.power(offset / room, 4), 0.25)
     return held

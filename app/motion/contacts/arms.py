@@ -46,7 +46,8 @@ class Shoulder:
 
 
 def shoulder(skeleton: Skeleton, side: Side, body: Trunk, motion: BodyMotion) -> Shoulder:
-    """Return the pose of a shoulder."""
+    """Return position and rotation of a shoulder joint as the trunk moves and the clavicle is lifted or brought
+    forward."""
     sign = 1.0 if side == "left" else -1.0
     joint, reaches_m = clavicle_of(skeleton, side)
     moved = quaternion.multiply(

@@ -32,7 +32,8 @@ HALVINGS = 24
 
 @dataclass(frozen=True)
 class _Seen:
-    """One hand on a control, in frames where its arm is almost stretched or too short."""
+    """A hand on a control that moves with it (such as a slide), in the frames in which its arm is almost stretched or
+    too short."""
 
     hand: HandHold
     shoulder_m: FloatArray
@@ -49,7 +50,8 @@ class _Seen:
         return distance_m
 
     def value_at(self, distance_m: FloatArray, asked: FloatArray) -> FloatArray:
-        """The largest value up to ``asked`` at which the wrist has this distance; 0 if it is always farther."""
+        """Return the largest value (F,) of the control, at most ``asked``, at which the wrist is no farther than
+        ``distance_m``; 0 if it is always farther."""
         low, high = np.zeros(len(asked)), asked.copy()
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
@@ -59,7 +61,8 @@ class _Seen:
 
 
 def controls_within_reach(player: StillPlayer, curves: ContactCurves, upper: UpperBody) -> dict[str, FloatArray]:
-    """The controls, limited to the reach of the hands that move along with them.
+    """Return the control values (F,) by name, limited to the reach of the hands that move along with them, such as on a
+    slide.
 
     Arrays are returned unchanged if the hands reach everywhere.
     """

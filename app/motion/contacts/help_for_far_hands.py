@@ -128,13 +128,14 @@ class _Swing:
     phase_rad: FloatArray
 
     def distance_m(self, turned_rad: FloatArray | float) -> FloatArray:
-        """Distance in metres from the shoulder to the target after a rotation."""
+        """Return the distance (F,) in metres from the shoulder to the target after a rotation in radians."""
         cosine = np.cos(np.maximum(self.phase_rad - turned_rad, 0.0))
         distance: FloatArray = np.sqrt(np.maximum(self.square_m2 - 2.0 * self.reach_m2 * cosine, 1e-9))
         return distance
 
     def turn_for(self, distance_m: FloatArray) -> FloatArray:
-        """The rotation that brings the shoulder to a distance from the target, or as near to it as possible."""
+        """Return the angle (F,) in radians that brings the shoulder to a distance (metres) from the target, or as near
+        to it as possible."""
         cosine = np.clip(
             (self.square_m2 - distance_m * distance_m) / np.maximum(2.0 * self.reach_m2, LEAST_M**2), -1.0, 1.0
         )
@@ -142,7 +143,8 @@ class _Swing:
 
 
 def _girdle(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) -> _Swing:
-    """Forward rotation of the clavicle about an axis of the chest."""
+    """Return the rotation of the clavicle that brings a shoulder forward, as an axis in the chest and its effect on the
+    distance to the target."""
     shoulder, clavicle = clavicle_of(skeleton, side)
     joint_m = body.chest_m + quaternion.rotate(body.chest, skeleton.offsets_m[shoulder])
     there = np.ascontiguousarray(quaternion.rotate(quaternion.conjugate(body.chest), target_m - joint_m))
@@ -170,13 +172,13 @@ def _waist(skeleton: Skeleton, side: Side, body: Trunk, target_m: FloatArray) ->
 
 @lru_cache(maxsize=64)
 def clavicle_of(skeleton: Skeleton, side: Side) -> tuple[int, FloatArray]:
-    """Index of a clavicle, and the position of the shoulder joint in its frame."""
+    """Return the joint index of a clavicle, and the position (3,) of the shoulder joint in its frame, in metres."""
     return skeleton.index(f"{side}Shoulder"), skeleton.offsets_m[skeleton.index(f"{side}UpperArm")]
 
 
 @lru_cache(maxsize=64)
 def forwards_axis(skeleton: Skeleton, side: Side) -> FloatArray:
-    """Axis in the chest's frame for forward rotation of a clavicle."""
+    """Return the unit axis (3,), in the chest's frame, about which a positive turn brings the shoulder forward."""
     _, clavicle = clavicle_of(skeleton, side)
     axis = np.cross(clavicle, Z_AXIS)
     length = float(np.linalg.norm(axis))

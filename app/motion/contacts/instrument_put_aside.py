@@ -123,7 +123,8 @@ class AsidePlace:
     def let_go(
         self, skeleton: Skeleton, grip: GripPose, arms: dict[int, FloatArray], stowed: FloatArray
     ) -> dict[int, FloatArray]:
-        """Arm rotations in which the arm that does not hold the instrument moves to hanging down."""
+        """Return rotations (F, 4), by joint index, in which the arm that does not carry the put-aside instrument hangs
+        down; ``stowed`` (F,) is 0 (plays) to 1 (put aside)."""
         result: dict[int, FloatArray] = {}
         for hand in grip.hands:
             if hand.side == self.aside.side:

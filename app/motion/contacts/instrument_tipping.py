@@ -50,9 +50,8 @@ def with_bell_room(player: PlayerBody) -> PlayerBody:
 def _wrists_and_elbows(
     player: PlayerBody, tipped_rad: FloatArray, placed: dict[str, StationBlend]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return for a still body with the bell tilted down by angles (F,): the larger excess of a wrist over its range,
-    and the elevation of the higher elbow from its shoulder, each (F,).
-    """
+    """Return for a still body with the bell tilted down by F angles the larger excess of a wrist over its range, and
+    the elevation of the higher elbow from its shoulder, each (F,) in radians."""
     still = replace(player.still.for_frames(len(tipped_rad)), bell_down_rad=tipped_rad)
     curves = ContactCurves(still, {}, {}, np.zeros(len(tipped_rad)), placed)
     curves = replace(curves, body=body_with_help(player, still, needs(player, curves)))

@@ -41,7 +41,8 @@ def put_aside_transform(
     body: Body,
     number: int,
 ) -> InstrumentTransform:
-    """Return the resting place of an instrument while its player uses another, one frame; ``number`` as in `Aside`."""
+    """Return the place of an instrument while its player uses another, as one frame; ``number`` as in `Aside` counts
+    the instruments put aside."""
     still = player_body(parameters, instrument_map, character, grip, body)
     place = replace(still, aside=Aside(instrument_map.hold.support_hand, number)).put_aside
     assert place is not None

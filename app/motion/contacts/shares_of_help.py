@@ -78,18 +78,21 @@ def leaned_to_far_hand(motion: BodyMotion, draw: FloatArray, right: FloatArray) 
 
 
 def with_room(help_rad: FloatArray, most_rad: FloatArray) -> FloatArray:
-    """Limit help to the available room. Zero help stays zero, so results do not depend on the span of frames."""
+    """Limit help (F,) of other joints for an arm, in radians, softly to the available room. Zero help stays zero, so
+    results do not depend on the span of frames."""
     given = softly_capped(help_rad, most_rad, np.clip(most_rad, 1e-9, HELP_EASE_RAD))
     return np.where(help_rad == 0.0, 0.0, given)
 
 
 def _held_back(parts: list[FloatArray], half: int) -> FloatArray:
-    """Smooth upper limit: the minimum within ``half`` frames, then a smoothing as wide."""
+    """Return a smooth upper limit (F,) below all parts: the minimum within ``half`` frames, then a smoothing as
+    wide."""
     return np.pi - _eased(np.pi - np.concatenate(parts), half)
 
 
 def _eased(needed: FloatArray, half: int) -> FloatArray:
-    """Smooth curve that is never below the needed values: the maximum within ``half`` frames, then a smoothing as wide.
+    """Return a smooth curve (F,) that is never below ``needed`` (F,): the maximum within ``half`` frames, then a
+    smoothing as wide.
 
     The outer ``2 * half`` frames are not valid.
     """
@@ -115,7 +118,7 @@ def greatest_within(values: FloatArray, half: int) -> FloatArray:
 
 
 def _symmetric(values: FloatArray, half: int) -> FloatArray:
-    """Values extended by ``half`` mirrored ones at each end."""
+    """Return values (F + 2 half,) extended by ``half`` mirrored ones at each end."""
     if half > len(values):
         return np.pad(values, half, mode="symmetric")
     return np.concatenate((values[:half][::-1], values, values[len(values) - half :][::-1]))

@@ -91,7 +91,7 @@ class PlayerBody(StillPlayer):
 
     @cached_property
     def eyes_m(self) -> dict[EyeSide, FloatArray]:
-        """Positions of the eyes in the head's frame."""
+        """Position (3,) of each eye in the head's frame, metres, by side."""
         return eyes_from_head_m(self.skeleton)
 
     @cached_property
@@ -225,7 +225,7 @@ def _pose(
 
 
 def _look(player: PlayerBody, curves: ContactCurves, head: FloatArray, head_m: FloatArray) -> dict[str, FloatArray]:
-    """Weights of the morphs that turn the eyes to their target, combined with other eye motion."""
+    """Return the weights (F,), by morph name, that turn the eyes to their target, combined with eye motion by hand."""
     motion, eyes_m = curves.body, player.eyes_m
     left_rad, down_rad = motion.eyes_yaw_rad, motion.eyes_pitch_rad
     if motion.looks:

@@ -22,7 +22,7 @@ from instrument_maps.wind import Stopped, Water
 
 @dataclass(frozen=True)
 class StillPlayer:
-    """Time-independent data of a player, before contacts are solved.
+    """All data of a player that do not change over time, from which contacts are solved.
 
     ``still`` is the posture and ``base`` its trunk, one frame; ``grip_of_lips_m`` (3,) is the displacement of the
     mouthpiece between one lip and both playing lips, in the head's frame. ``stand`` is set for an instrument on the

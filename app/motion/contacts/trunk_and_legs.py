@@ -100,7 +100,8 @@ def stance(skeleton: Skeleton, posture: Posture) -> Stance:
 
 @dataclass(frozen=True)
 class Footing:
-    """Placement of one foot: ankle (F, 3), rotation (F, 4), and rotation of the toes (F, 4; None: at rest)."""
+    """Pose of one foot in F frames: ankle (F, 3) in metres, rotation (F, 4), and rotation of the toes (F, 4; None: at
+    rest)."""
 
     ankle_m: FloatArray
     foot: FloatArray
@@ -108,7 +109,8 @@ class Footing:
 
 
 def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> Footing:
-    """A foot standing, or ``moved`` (`app.motion.gestures.feet.feet_moved`).
+    """Return ankle and rotation of a foot that stands, or moves as in ``moved`` (see
+    `app.motion.gestures.feet.feet_moved`).
 
     A raised heel rotates about the toes, raised toes about the heel; a step moves the whole foot.
     """
@@ -130,7 +132,8 @@ def footing(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: 
 
 
 def _ankle_m(place: Stance, side: Side, moved: Mapping[str, FloatArray], frames: int) -> FloatArray:
-    """Ankle position (F, 3) of such a foot."""
+    """Return the ankle position (F, 3) in metres of a standing foot, moved by those parts of ``moved`` (F,) that
+    concern this side."""
     parts = _moved_parts(side, moved)
     ankle_m, here = quaternion.repeated(place.ankles_m[side], frames), _where_moved(parts)
     if len(here):
@@ -143,14 +146,15 @@ def _moved_parts(side: Side, moved: Mapping[str, FloatArray]) -> dict[str, Float
 
 
 def _where_moved(parts: Mapping[str, FloatArray]) -> IndexArray:
-    """Frames in which a foot moves; in all others it stands exactly still."""
+    """Return the frames (K,) in which any of a foot's motions is not zero; in all others it stands exactly still."""
     if not parts:
         return np.zeros(0, np.intp)
     return np.flatnonzero(np.logical_or.reduce([values != 0.0 for values in parts.values()]))
 
 
 def _lifted(place: Stance, side: Side, parts: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Ankle and foot rotation in frames of motion, before push-off."""
+    """Return ankle position (F, 3) and foot rotation (F, 4) while a foot moves: roll over heel and ball, then the lift.
+    ``parts`` are the values of `FOOT_PARTS` by name."""
     ankle_m, foot = place.ankles_m[side], place.feet[side]
     heel, toes, ahead_m, up_m, aside_m, _ = (parts.get(name) for name in FOOT_PARTS)
     for angle, pivot_m in ((heel, place.balls_m[side]), (None if toes is None else -toes, place.heels_m[side])):
@@ -206,8 +210,8 @@ def hips_path(place: Stance, skeleton: Skeleton, motion: BodyMotion) -> tuple[Fl
 
 
 def exact_target(limb: Limb, root_m: FloatArray, target_m: FloatArray) -> FloatArray:
-    """Target for `solve_limb` that makes the limb end exactly at ``target_m``, although it approaches full extension
-    softly.
+    """Return the target (F, 3) for `solve_limb` that makes the limb end exactly at ``target_m``, although it approaches
+    full extension softly.
 
     Exact up to `STRAIGHTEST` of the limb's length, approximate beyond.
     """

@@ -49,7 +49,7 @@ class UpperBody:
 
 
 def joined(parts: Sequence[UpperBody]) -> UpperBody:
-    """Concatenate stretches of frames."""
+    """Concatenate poses of the upper body that belong to consecutive ranges of frames."""
     if len(parts) == 1:
         return parts[0]
 
@@ -108,7 +108,8 @@ def _at_lips(player: StillPlayer, curves: ContactCurves, body: Trunk) -> FloatAr
 
 
 def _played(player: StillPlayer, curves: ContactCurves, body: Trunk) -> InstrumentTransform:
-    """Placement of the instrument at the lips."""
+    """Return position and rotation of the instrument while it is played, as carried by head, chest and motion of the
+    bell."""
     carriage, base, motion = player.carriage, player.base, curves.body
     pitch, yaw, roll = held_angles(carriage, motion)
     with_head = quaternion.multiply(body.head, quaternion.conjugate(base.head))

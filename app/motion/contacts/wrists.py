@@ -111,7 +111,7 @@ def _capped(turn_rad: FloatArray) -> FloatArray:
 
 
 def wrists_of(body: Body, profile: SkeletonProfile) -> dict[Side, Wrist]:
-    """Both wrists of a body."""
+    """Return axes and limits of the left and the right wrist of a body, limits in radians."""
     found: dict[Side, Wrist] = {}
     for side in SIDES:
         axes, joint = profile.joint_axes(f"{side}Hand"), profile.joint(f"{side}Hand")
@@ -130,9 +130,8 @@ class BellRoom:
 
     @classmethod
     def within(cls, down_rad: FloatArray, fits: BoolArray) -> BellRoom:
-        """Range around the middle of ascending angles (T,), the playing position, within which the wrists can
-        follow.
-        """
+        """Return the range around the middle of T ascending angles (T,), the playing position, within which the wrists
+        can follow (``fits``)."""
         usual, misses = len(down_rad) // 2, np.flatnonzero(~fits)
         low, high = misses[misses < usual], misses[misses > usual]
         return cls(

@@ -20,7 +20,7 @@ ROUNDING_S = 1e-9
 
 
 def frame_times(first_frame_s: float, fps: Fraction, first_frame: int, frames: int) -> FloatArray:
-    """Times in seconds of ``frames`` frames from ``first_frame`` on, each rounded once."""
+    """Return the times (frames,) in seconds of ``frames`` frames from ``first_frame`` on, each rounded once."""
     index = np.arange(first_frame, first_frame + frames, dtype=np.float64)
     return first_frame_s + index * float(fps.denominator) / float(fps.numerator)
 
@@ -40,9 +40,8 @@ EVERYWHERE: FloatArray = np.array([[-np.inf, np.inf]])
 
 
 def rows_changed_s(mine: FloatArray, others: FloatArray, mine_s: FloatArray, others_s: FloatArray) -> FloatArray:
-    """Spans (K, 2) of rows found in only one of two tables (N, C); ``mine_s`` and ``others_s`` (N, 2) are the spans of
-    the rows.
-    """
+    """Return the K spans (K, 2) of rows found in only one of two tables (N, C) with C columns; ``mine_s`` and
+    ``others_s`` (N, 2) are the spans of the rows."""
     shorter = min(len(mine), len(others))
     same = np.all(mine[:shorter] == others[:shorter], axis=1)
     head = shorter if same.all() else int(np.argmin(same))
@@ -77,7 +76,7 @@ class Curve:
     initial: float = 0.0
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values at ascending times, (F,) float64."""
+        """Return the values (F,) of the curve at ascending times (F,)."""
         if len(self.start_s) == 0:
             return np.full(len(times_s), self.initial)
         if len(times_s) < len(self.start_s):  # a short span of a long curve: look at its own segments only
@@ -113,7 +112,7 @@ class Curve:
         return len(self.start_s) == 0
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both curves have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both curves have equal values."""
         if isinstance(other, Trace):
             return EVERYWHERE
         mine = (self.start_s, self.end_s, self.before, self.after)
@@ -160,7 +159,7 @@ class Trace:
     values: FloatArray
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values at any times, (F,) float64."""
+        """Return the values (F,) of the sampled curve at any times (F,)."""
         last = len(self.values) - 1
         place = np.clip((times_s - self.start_s) / self.step_s, 0.0, float(last))
         before = np.minimum(place.astype(np.int64), last - 1)
@@ -169,7 +168,7 @@ class Trace:
         return result
 
     def changed_s(self, other: Curve | Trace) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both curves have equal values."""
         if isinstance(other, Curve) or other.step_s != self.step_s:
             return EVERYWHERE
         mine, others = (round(trace.start_s / self.step_s) for trace in (self, other))
@@ -197,7 +196,11 @@ def moves(segments: Sequence[tuple[float, float, float]], initial: float = 0.0) 
 
 
 def moves_to(start_s: FloatArray, end_s: FloatArray, values: FloatArray, initial: float = 0.0) -> Curve:
-    """A curve of moves given as arrays (S,)."""
+    """Return a curve that moves to each value (S,) from ``start_s`` to ``end_s`` and holds it until the next move;
+    before the first one it is ``initial``. Moves to the value already held are dropped.
+
+    Raises ValueError if moves overlap.
+    """
     before = np.concatenate(([initial], values[:-1]))[: len(values)]
     kept = values != before
     start_s, end_s, before, after = start_s[kept], end_s[kept], before[kept], values[kept]
@@ -234,7 +237,7 @@ class Envelopes:
     height: FloatArray
 
     def changed_s(self, other: Envelopes) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both envelopes have equal values."""
         mine, others = self._rows, other._rows
         return rows_changed_s(mine, others, mine[:, [0, 3]], others[:, [0, 3]])
 
@@ -309,7 +312,7 @@ class Noise:
         return cls(frequency_hz, random.uniform(0.0, 2.0 * np.pi, terms), weight)
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values at any times, (F,) float64."""
+        """Return the values (F,) of the noise at any times (F,)."""
         result = np.zeros(len(times_s))
         for frequency_hz, phase_rad, weight in zip(self.frequency_hz, self.phase_rad, self.weight, strict=True):
             result += weight * np.sin(2.0 * np.pi * frequency_hz * times_s + phase_rad)

@@ -33,7 +33,7 @@ class Reach:
 
     @classmethod
     def at_rest(cls, value: float) -> Reach:
-        """A value at rest."""
+        """Return a motion that rests at a value."""
         return cls(0.0, LEAST_MOVE_S, value, 0.0, 0.0, value)
 
     def at(self, now_s: float) -> float:
@@ -50,7 +50,7 @@ class Reach:
         return Reach(now_s, now_s + max(length_s, LEAST_MOVE_S), value, speed, push, target)
 
     def ended(self, now_s: float) -> bool:
-        """Return whether the value has come to rest."""
+        """Return whether the move has reached its target at a time."""
         return now_s >= self.end_s
 
     def _state(self, now_s: float) -> tuple[float, float, float]:
@@ -105,7 +105,8 @@ class Journey:
         self._length_s = LEAST_MOVE_S
 
     def go(self, now_s: float, goal: int, length_s: float) -> None:
-        """Start moving to a place; the way takes ``length_s``."""
+        """Start moving to the place ``goal`` (an index), arriving after ``length_s``; no effect if that is the goal
+        already."""
         self._arrive(now_s)
         if goal == self.goal:
             return
@@ -121,7 +122,8 @@ class Journey:
             self._share = self._share.toward(now_s, end, length_s)
 
     def at(self, now_s: float) -> tuple[int, int, float]:
-        """The place before, the place after, and the share of the way between them, 0..1."""
+        """Return the index of the place before, the index of the place after, and the share of the way between them,
+        0..1."""
         self._arrive(now_s)
         if self.before == self.after:
             return self.after, self.after, 1.0

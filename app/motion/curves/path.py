@@ -61,7 +61,7 @@ class Path:
         return cls(times_s, values, slopes)
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values at any times, (F,) float64."""
+        """Return the values (F,) of the path at any times (F,)."""
         if len(self.times_s) < 2:
             return np.full(len(times_s), self.values[0] if len(self.values) else 0.0)
         here = np.clip(np.searchsorted(self.times_s, times_s, side="right") - 1, 0, len(self.times_s) - 2)
@@ -77,7 +77,7 @@ class Path:
         return moved
 
     def changed_s(self, other: Path) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both paths have equal values."""
         spans = rows_changed_s(self._rows, other._rows, self._rows[:, :2], other._rows[:, :2])
         ends = [
             span

@@ -14,5 +14,5 @@ def softly_over(x: FloatArray, ease: FloatArray | float) -> FloatArray:
 
 
 def softly_capped(x: FloatArray, most: FloatArray | float, ease: FloatArray | float) -> FloatArray:
-    """``min(x, most)`` with a rounded corner."""
+    """Return ``min(x, most)`` with a corner that is rounded over a width of ``ease``."""
     return most - softly_over(most - x, ease)

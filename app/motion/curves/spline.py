@@ -39,7 +39,7 @@ class Spline:
     one: float = 1.0
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values (C, F) at any times."""
+        """Return the values (C, F) of the C channels of the spline at F times."""
         place = times_s / self.step_s
         before = np.floor(place)
         share = place - before
@@ -65,7 +65,7 @@ class Spline:
         return result
 
     def changed_s(self, other: Spline) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both splines have equal values."""
         if (other.step_s, other.one, len(other.values)) != (self.step_s, self.one, len(self.values)):
             return EVERYWHERE
         first = min(self.first, other.first)

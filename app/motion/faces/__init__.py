@@ -1,1 +1,1 @@
-"""Curves of faces and gaze."""
+"""Curves that move the players' faces and eyes."""

@@ -37,7 +37,8 @@ HALF = (0.15, 0.55)
 
 
 def blinks_of(plan: PlayerPlan, silences: Silences, seed: int, amount: float) -> tuple[Envelopes, Envelopes]:
-    """Closure of the left and right lids over a performance; ``amount`` is the frequency, 1 is usual."""
+    """Return the closure of the left and of the right lids over a performance; ``amount`` is the frequency of blinks, 1
+    is usual."""
     random = generator(plan.player_id, seed, "blink")
     lag_s, shut = float(random.uniform(*LAG_S)), float(random.uniform(*LEAST_SHUT))
     left_late = bool(random.random() < 0.5)
@@ -55,7 +56,7 @@ def _closing(starts_s: FloatArray, heights: FloatArray) -> Envelopes:
 def _starts(
     plan: PlayerPlan, silences: Silences, table: FloatArray, amount: float, random: np.random.Generator
 ) -> tuple[FloatArray, FloatArray]:
-    """Start times of blinks, and the closure of each."""
+    """Return the times (K,) at which the eyelids begin to blink, and the closure (K,) of each blink 0..1."""
     frame = plan.time_frame
     breaths_s = silences.breaths_s
     # By the place in the score: another breath has another chance.

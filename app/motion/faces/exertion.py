@@ -52,7 +52,8 @@ AFTER_S: Final = 8.0
 
 
 class Exertion(NamedTuple):
-    """Quantities at some times, each (F,), 0..1, but ``contour`` and ``swell`` -1..1; see `FaceMotion`."""
+    """Exertion visible in the face at F times, each (F,), 0..1, but ``contour`` and ``swell`` -1..1; see
+    `FaceMotion`."""
 
     working: FloatArray
     strain: FloatArray
@@ -72,7 +73,7 @@ class Lungs:
 
     @classmethod
     def of(cls, parameters: PlayerParameters, air: Air | None) -> Lungs:
-        """Lungs of a player with an instrument."""
+        """Return the lungs of a player with an instrument that uses air as given."""
         return cls(lungful_s(parameters, air), air)
 
 
@@ -109,7 +110,8 @@ def exertion_of(plan: PlayerPlan, face: FaceMotion, lungs: Lungs) -> Spline:
 
 
 def _load(face: FaceMotion, tension: FloatArray, air: FloatArray, effort: FloatArray, sounds: BoolArray) -> Whole:
-    """Load of the notes on the grid."""
+    """Return the effort of the notes, 0..1 on the grid of the face's steps, from embouchure tension, air and effort
+    (N,); 0 where nothing sounds."""
     share = face.load
     cost = share.tension * tension + share.air * air + share.effort * effort - share.easy
     return _whole(np.clip(np.where(sounds, cost, 0.0), 0.0, 1.0))
@@ -203,7 +205,8 @@ def _emptying(plan: PlayerPlan, lungs: Lungs, loudness: FloatArray, sounds: Bool
 
 
 def _arch(plan: PlayerPlan, starts_s: FloatArray, ends_s: FloatArray, at_s: FloatArray) -> FloatArray:
-    """Rise to a phrase's peak and fall to its end, 0..1."""
+    """Return the position (N,) in the arch of the phrase at each time: 0 at its ends, 1 at its peak. ``starts_s`` and
+    ``ends_s`` are those of the notes."""
     breaths_s = np.array([event.end_s for event in plan.breaths if event.draws_air])
     rested = np.append(True, starts_s[1:] - ends_s[:-1] >= PHRASE_REST_S)
     rested[np.minimum(np.searchsorted(starts_s, breaths_s - 1e-6), len(starts_s) - 1)] = True

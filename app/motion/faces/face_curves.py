@@ -36,9 +36,8 @@ SHALLOWEST = 0.5
 
 
 def _tracked(spans_s: FloatArray, targets: FloatArray, shift_s: float, rest_value: float | None) -> Curve:
-    """A curve that reaches a value (N,) at each onset, holds it, and returns to ``rest_value`` in rests longer than
-    `HOLD_S`; notes are (N, 2) starts and ends.
-    """
+    """Return a curve that reaches a target (N,) at the onset of each note, holds it, and returns to ``rest_value`` in
+    rests longer than `HOLD_S`; ``spans_s`` (N, 2) are starts and ends of notes."""
     initial = rest_value or 0.0
     if not len(spans_s):
         return moves((), initial)
@@ -71,7 +70,7 @@ class Column:
     values: FloatArray
 
     def __eq__(self, other: object) -> bool:
-        """Return whether the values are equal."""
+        """Return whether the other column has equal values."""
         return isinstance(other, Column) and np.array_equal(self.values, other.values)
 
     def __hash__(self) -> int:
@@ -134,7 +133,8 @@ def _shown(plan: PlayerPlan) -> dict[str, Envelopes]:
 
 @dataclass(frozen=True)
 class Drivers:
-    """Inputs of the face at some frames: fields as in `FaceCurves`, each (F,)."""
+    """Inputs of the face's motion at F frames, such as lip tension, effort and air; fields as in `FaceCurves`, each
+    (F,)."""
 
     at_lips: FloatArray
     tension: FloatArray

@@ -65,7 +65,7 @@ is."""
 
 @dataclass(frozen=True)
 class GazeFrames:
-    """Eyes and lids at some frames: fields as in `Gaze`, each (F,)."""
+    """Direction of the eyes and position of the lids at F frames; fields as in `Gaze`, each (F,)."""
 
     yaw_rad: FloatArray
     pitch_rad: FloatArray
@@ -120,7 +120,7 @@ class Gaze:
     right_lid: Envelopes
 
     def sample(self, times_s: FloatArray) -> GazeFrames:
-        """Sample the gaze at ascending times."""
+        """Return the direction of eyes and lids at ascending times (F,)."""
         head_yaw_rad, head_pitch_rad = self.head.sample(times_s)
         turned_rad = HEAD_TURNS * head_yaw_rad
         return GazeFrames(
@@ -170,7 +170,8 @@ def plan_gaze(plan: PlayerPlan, watching: Watching, silences: Silences) -> Gaze:
 
 
 class _Fixed(NamedTuple):
-    """Fixations of the eyes, fields as in `Gaze`, and the share that the head follows; (K,) each."""
+    """The K targets on which the eyes rest in turn: directions and nearness as in `Gaze`, and the share that the head
+    follows; each (K,)."""
 
     yaw: FloatArray
     pitch: FloatArray
@@ -180,7 +181,7 @@ class _Fixed(NamedTuple):
 
 
 class _Looks(NamedTuple):
-    """Looks away from the music: spans (K, 2) in order, and their directions."""
+    """The K looks away from the music: spans (K, 2) in seconds in order, and their directions."""
 
     spans_s: FloatArray
     at: _Fixed
@@ -198,7 +199,7 @@ def _looks(
 
 
 def _fixations(plan: PlayerPlan, silences: Silences, watching: Watching) -> tuple[FloatArray, _Fixed]:
-    """Times (K,) of fixations, and their targets."""
+    """Return the times (K,) at which the gaze moves to a new target, and those targets."""
     random, frame = _random(plan, watching, "reads"), plan.time_frame
     line_s, side = float(random.uniform(*LINE_S)), 1.0 if random.random() < 0.5 else -1.0
     layers = [

@@ -44,7 +44,7 @@ _BANDS: Final = {
 
 @dataclass(frozen=True, eq=False)
 class Wandering:
-    """Slow variation of a face at some frames, each (F,) about 1; ``sides`` is -1..1."""
+    """Slow variation of the parts of a face at F frames, each (F,), factors about 1; ``sides`` is -1..1."""
 
     lips: FloatArray
     corners: FloatArray
@@ -88,7 +88,7 @@ class OwnFace:
         return Wandering(**sampled)
 
     def vibrato(self, times_s: FloatArray, wandering: Wandering) -> FloatArray:
-        """Oscillation of a full vibrato, -1 to 1."""
+        """Return the oscillation (N,) of the vibrato at given times, -1..1; its rate varies with ``wandering``."""
         turns: FloatArray = 2.0 * np.pi * self.vibrato_hz * times_s + self.vibrato_rad
         swing: FloatArray = np.sin(turns + RATE_VARIES_RAD * wandering.rate)
         return swing

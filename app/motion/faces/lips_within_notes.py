@@ -38,7 +38,7 @@ VIBRATO_AFTER_S, VIBRATO_IN_S, VIBRATO_OUT_S = 0.28, 0.75, 0.12
 
 
 def _notes(plan: PlayerPlan) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Onsets, ends and loudness of the notes with a length, in order."""
+    """Return onsets, ends (seconds) and loudness 0..1 (N,) of the notes with a length, in order."""
     events = plan.embouchures
     starts_s = np.array([event.start_s for event in events])
     ends_s = np.minimum(np.array([event.end_s for event in events]), np.append(starts_s[1:], np.inf))

@@ -53,7 +53,7 @@ class FaceSizes:
     vibrato: FloatArray | float
 
     def shared(self, upper: FloatArray | float, lips: FloatArray | float) -> FaceSizes:
-        """Sizes scaled at frames where they vary."""
+        """Return the sizes scaled by shares 0..1 of the upper face and of the lips, which may vary by frame (F,)."""
         if isinstance(upper, float) and isinstance(lips, float):
             return self
         return replace(self, upper=upper * self.upper, lips=lips * self.lips, vibrato=lips * self.vibrato)
@@ -144,7 +144,7 @@ def _lips(
     wandering: Wandering,
     times_s: FloatArray,
 ) -> list[Driver]:
-    """Contributions of the embouchure and of lip motion within notes."""
+    """Return the contributions to the morphs of the embouchure and of lip motion within notes."""
     embouchure = sizes.embouchure
     # In a breath the upper lip stays where the mouthpiece is.
     alive = sizes.lips * formed * np.square(1.0 - face.mouth_open)
@@ -170,7 +170,8 @@ def _lips(
 
 
 def usual_morphs(embouchure: EmbouchureWeights, lips: Lips) -> dict[str, float]:
-    """The face at medium tension, with the jaw closing the lips around what is between them."""
+    """Return the morph weights of a face that plays at medium tension, with the jaw closing the lips around the
+    mouthpiece."""
     morphs = {name: np.array([weight]) for name, weight in embouchure.usual.items()}
     one = np.ones(1)
     if lips.jaw:

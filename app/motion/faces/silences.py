@@ -18,7 +18,7 @@ CARRIED_S = 1.3
 
 @dataclass(frozen=True, eq=False)
 class Silences:
-    """Times of one player's notes.
+    """Notes and silences of one player, by which blinks and glances are timed.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Silences:
 
     @classmethod
     def of(cls, plan: PlayerPlan) -> Silences:
-        """Collect the times of a plan."""
+        """Collect the times of notes, rests and breaths from a player's plan."""
         events, frame = plan.fingerings, plan.time_frame
         starts_s = np.array([event.start_s for event in events])
         ends_s = np.array([event.end_s for event in events])
@@ -72,7 +72,7 @@ class Silences:
 
     @property
     def entries_s(self) -> FloatArray:
-        """Onsets of the first notes after rests."""
+        """Onset (K,) in seconds of the first note after each rest."""
         return self.rests_s[:-1, 1]
 
 
@@ -90,7 +90,7 @@ def _lowered_s(plan: PlayerPlan) -> list[tuple[float, float]]:
 
 
 def holds(spans_s: FloatArray, times_s: FloatArray) -> BoolArray:
-    """Mask (F,) of times within one of the spans (K, 2), which are ordered by start."""
+    """Return a mask (F,) of the times within one of K spans (K, 2), which are ordered by start."""
     return overlaps(spans_s, times_s, times_s)
 
 

@@ -1,1 +1,1 @@
-"""Curves of controls and fingers."""
+"""Curves that move the instruments' controls (keys, valves, slides) and the players' fingers."""

@@ -156,7 +156,7 @@ class _Notes:
 
 
 def _curve(notes: _Notes, control: Control, farthest: float) -> Curve:
-    """Curve of one control."""
+    """Return the curve of one control (key, slide, valve) over all notes; values are limited to ``farthest``."""
     if not notes.fingerings:
         return moves((), control.rest_value)
     name, rest = control.name, control.rest_value
@@ -189,7 +189,8 @@ def _curve(notes: _Notes, control: Control, farthest: float) -> Curve:
 
 
 def _at_once(notes: _Notes, control: Control, targets: FloatArray, changes: IndexArray) -> FloatArray:
-    """Moves (M, 3) from note to note without a rest, to the notes at these indices."""
+    """Return M moves (M, 3) of a control, start, end and value, from note to note without a rest, to the notes with the
+    indices ``changes``."""
     before_s, onset_s = notes.start_s[changes - 1], notes.start_s[changes]
     end_s = np.minimum(notes.end_s[changes - 1], onset_s)
     distances = targets[changes] - targets[changes - 1]

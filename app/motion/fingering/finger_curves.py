@@ -44,7 +44,7 @@ Span: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True)
 class _Visit:
-    """A finger working at one station.
+    """A span of notes in which a finger works at one station.
 
     ``down`` and ``up`` are the spans in which its controls go down and come up; None if the finger already worked all
     of them at the previous station, or continues at the next. ``start_s`` and ``end_s`` span the notes from ``first``

@@ -33,7 +33,7 @@ class Accents:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Accents:
-        """The motion of a player's accents."""
+        """Return the motion of the accents among a player's gesture events."""
         rows = [
             (event.start_s, event.end_s - event.start_s, event.amount)
             for event in events
@@ -59,14 +59,14 @@ class Accents:
         return total
 
     def changed_s(self, other: Accents) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both sets of accents have equal values."""
         mine, others = (np.stack((one.start_s, one.length_s, one.amount), axis=1) for one in (self, other))
         spans = [np.stack((row[:, 0], row[:, 0] + row[:, 1]), axis=1) for row in (mine, others)]
         return rows_changed_s(mine, others, *spans)
 
 
 def _bump(phase: FloatArray, centre: float, half: float) -> FloatArray:
-    """Evaluate `app.motion.curves.curve.bump` at phases."""
+    """Return a smooth bump (N,) of height 1 at the phase ``centre`` that reaches 0 at a distance of ``half``."""
     inside = 1.0 - np.square(np.clip((phase - centre) / half, -1.0, 1.0))
     bump: FloatArray = np.square(np.square(inside))
     return bump

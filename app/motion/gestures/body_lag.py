@@ -11,7 +11,7 @@ from metadata.model import Overlap
 
 
 class Overlapped(NamedTuple):
-    """A value delayed for each part of the body, at some frames; (F,) each."""
+    """Motion that reaches each part of the body with its own delay, at F frames; (F,) each."""
 
     hips: FloatArray
     chest: FloatArray
@@ -20,7 +20,7 @@ class Overlapped(NamedTuple):
 
     @classmethod
     def nothing(cls, frames: int) -> Overlapped:
-        """Zero values, for a body at rest."""
+        """Return zero for every part of a body at rest."""
         return cls(*(np.zeros(frames) for _ in cls._fields))
 
 
@@ -31,7 +31,7 @@ class Sampled(Protocol):
 
 
 class Leads(NamedTuple):
-    """Lead of each part over the head in seconds. The head is on time; the others prepare."""
+    """Seconds by which each part of the body moves before the head (0) in the same gesture, so that motions overlap."""
 
     hips_s: float
     chest_s: float
@@ -48,10 +48,11 @@ class Leads(NamedTuple):
         return Overlapped(*(times_s + lead_s for lead_s in self))
 
     def sample(self, curve: Sampled, times_s: FloatArray) -> Overlapped:
-        """Sample a curve for each part."""
+        """Sample a curve at ascending times with the delay of each part of the body."""
         return Overlapped(*map(curve.sample, self.at(times_s)))
 
     def widened(self, spans_s: FloatArray) -> FloatArray:
-        """Spans (K, 2) of changes in the body, from the spans in which curves change."""
+        """Return the K spans (K, 2) in which the body changes, from the spans in which curves change: widened by the
+        leads of its parts."""
         widened: FloatArray = spans_s + np.array([-max(self), -min(self)])
         return widened

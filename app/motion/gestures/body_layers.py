@@ -115,12 +115,14 @@ def body_motion(
 
 
 def _wandering_rad(name: str, sizes: Sizes, times_s: FloatArray, share: FloatArray | float) -> FloatArray:
-    """Return the slow random turn of the head in radians."""
+    """Return the slow random turn (N,) of the head in radians at given times; ``name`` selects the random sequence,
+    ``share`` scales it."""
     return np.deg2rad(sizes.wander(name, sizes.body.sway.head_deg, times_s, share))
 
 
 def _breathe(total: Sum, levels: LayerSamples, sizes: Sizes) -> tuple[FloatArray, FloatArray]:
-    """Add the breath to trunk and neck, and return the lift of the shoulders and the outward turn of the elbows."""
+    """Add the breath to trunk and neck in ``total``, and return the lift of the shoulders and the outward turn of the
+    elbows in radians (F,)."""
     breath, deg = sizes.body.breath, np.deg2rad
     shown, (with_trunk, with_shoulders) = sizes.acting.breath * sizes.of(breath.shown), sizes.breathing
     inhaled = shown * (levels.full + QUIET * levels.quiet)
@@ -133,7 +135,7 @@ def _breathe(total: Sum, levels: LayerSamples, sizes: Sizes) -> tuple[FloatArray
 
 
 def _give_cue(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
-    """Add cues to trunk and neck, and return the rise of the bell."""
+    """Add the nods of cues to trunk and neck in ``total``, and return the rise of the bell in radians (F,)."""
     cue = sizes.body.cue
     dip, lift = sizes.acting.cue * levels.dip, sizes.acting.cue * levels.lift
     total.forward(TRUNK_SHARES, sizes.rad(cue.trunk_deg) * (dip - LIFT_SHARE * lift))
@@ -143,7 +145,7 @@ def _give_cue(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
 
 
 def _raise_bell(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
-    """Return the rise of the bell with the melody, and add it to the head, and less to the trunk."""
+    """Add the rise of the bell with the melody to head and trunk in ``total``, and return it in radians (F,)."""
     bell, height = sizes.body.bell, sizes.acting.bell_height * levels.height
     raised, sunk = np.maximum(height, 0.0), np.minimum(height, 0.0)
     up_rad: FloatArray = raised * sizes.rad(bell.up_deg) + sunk * sizes.rad(bell.down_deg)
@@ -153,7 +155,8 @@ def _raise_bell(total: Sum, levels: LayerSamples, sizes: Sizes) -> FloatArray:
 
 
 def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArray:
-    """Return the bend of the knees in radians on accents, in nods, and with weight shifts."""
+    """Return the bend of the knees in radians (F,) on accents, in nods, and with weight shifts; ``down`` (F,) is the
+    depth of the accents."""
     body, acting = sizes.body, sizes.acting
     dipped = acting.cue * levels.dip * sizes.rad(body.cue.knee_deg)
     giving = acting.weight_shift * levels.giving * sizes.rad(body.weight_shift.knee_deg)
@@ -162,7 +165,8 @@ def _bent_rad(levels: LayerSamples, sizes: Sizes, down: FloatArray) -> FloatArra
 
 
 def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
-    """The animator's angles for the bell."""
+    """Return the bell's turn set by the animator in radians (N,), by ``"pitch"``, ``"yaw"`` and ``"roll"``; empty if
+    there is none."""
     if "bell" not in held:
         return {}
     bell = held["bell"]
@@ -170,7 +174,8 @@ def _turned_bell(held: dict[PoseTarget, PoseAngles]) -> dict[str, FloatArray]:
 
 
 def _hold_posture(total: Sum, posture: Posture, lowered: FloatArray) -> FloatArray:
-    """Add a posture, and return the turn of the head towards the instrument."""
+    """Add the bends of a posture to ``total``, and return the turn (F,) of the head towards the instrument in radians;
+    ``lowered`` is how far it is off the lips, 0..1."""
     still = np.ones(len(lowered))
     for joint, angle_deg in posture.spine_deg.items():
         total.forward({joint: 1.0}, np.deg2rad(angle_deg) * still)
@@ -205,9 +210,8 @@ def _ahead_m(
     times_s: FloatArray,
     uneasy: FloatArray | float,
 ) -> FloatArray:
-    """Forward motion of the hips: back as the trunk leans forward, diagonally with the weight, and half as far as a
-    foot that steps ahead.
-    """
+    """Return the forward motion of the hips in metres (F,): back as the trunk leans forward, diagonally with the
+    weight, and half as far as a foot that steps ahead."""
     phrase, shift, acting = sizes.body.phrase, sizes.body.weight_shift, sizes.acting
     back = acting.phrase * (levels.lean.hips + 0.5 * levels.accent.hips) * sizes.of(phrase.ahead_m)
     aslant = sizes.aslant * acting.weight_shift * levels.weight.hips * sizes.of(shift.ahead_m)

@@ -72,7 +72,7 @@ GROWTH: Final = 0.45
 
 
 class _Moves(NamedTuple):
-    """Columns of one foot's moves, in order."""
+    """Moves of one foot of a dancer in order of time, as parallel arrays: kind, start, landing, size and so on."""
 
     kinds: IntArray
     start_s: FloatArray
@@ -111,7 +111,7 @@ class DancedFeet:
 
     @classmethod
     def none(cls) -> DancedFeet:
-        """Feet that stand throughout."""
+        """Return feet that stand throughout, without any dance step."""
         whole, real = np.zeros(0, np.int64), np.zeros(0)
         return cls(whole, whole, whole, real, real, real, np.zeros((0, 2)))
 
@@ -161,12 +161,12 @@ class DancedFeet:
         return [(start_s - PEELS_S, lands_s + PEELS_S) for start_s, lands_s in zip(*own[1:3], strict=True)] + eased
 
     def steps_before(self, side: Literal["left", "right"], times_s: FloatArray) -> IntArray:
-        """Number of steps of a foot before each time."""
+        """Number of steps (N,) that a foot has completed before each time."""
         steps = (self.sides == ("left", "right").index(side)) & (self.kinds == MOVE_KINDS.index("step"))
         return np.searchsorted(self.lands_s[steps], times_s, side="right")
 
     def changed_s(self, other: DancedFeet) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both dances have equal feet."""
         if self is other:
             return np.zeros((0, 2))
         (mine, mine_s), (theirs, theirs_s) = self._rows(), other._rows()
@@ -194,9 +194,8 @@ class DancedFeet:
         return _Moves(own.kinds, own.start_s, own.lands_s, own.size, own.seated, places_m[before], places_m[after])
 
     def _rows(self) -> tuple[FloatArray, FloatArray]:
-        """Rows (N, C) of all moves with their places, and the spans (N, 2) of their effect: a place lasts until the
-        foot lands elsewhere.
-        """
+        """Return rows (N, C) that describe N moves with their places in C numbers, and the spans (N, 2) of their
+        effect: a place lasts until the foot lands elsewhere."""
         rows, spans_s = list[FloatArray](), list[FloatArray]()
         for side in range(2):
             own = self._of(side)
@@ -216,7 +215,8 @@ class DancedFeet:
 def with_danced(
     moved: Mapping[str, FloatArray], danced: Mapping[str, FloatArray], amount: float
 ) -> dict[str, FloatArray]:
-    """Combine generated foot moves (`app.motion.gestures.feet.feet_moved`) with danced ones."""
+    """Return the moves of feet by component, generated ones (`app.motion.gestures.feet.feet_moved`) combined with
+    danced ones scaled by ``amount``."""
     feet, size = dict(moved), amount**GROWTH
     for name, values in danced.items():
         if name not in IN_HIPS:
@@ -275,7 +275,8 @@ def within_range(angle_rad: FloatArray, further_rad: FloatArray, range_deg: tupl
 
 
 def _put(found: dict[str, FloatArray], name: str, moves: _Moves, times_s: FloatArray) -> None:
-    """Add the place of a foot: where it landed last, or on the way to the next place."""
+    """Add to ``found`` the position of a foot at ascending times: where it landed last, or on the way to the next
+    landing."""
     if not len(moves.kinds):
         return
     begun = np.searchsorted(moves.start_s, times_s, side="right")
@@ -296,40 +297,42 @@ def _add(found: dict[str, FloatArray], name: str, values: FloatArray) -> None:
 
 
 def _air(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
-    """Height profile of a step: 0 on the ground, 1 half way."""
+    """Return the height (N,), 0..1, of a stepping foot: 0 on the ground, 1 half way."""
     phase = np.clip((times_s - span_s[0]) / (span_s[1] - span_s[0]), 0.0, 1.0)
     height: FloatArray = np.where((phase > 0.0) & (phase < 1.0), np.sin(np.pi * phase) ** 2, 0.0)
     return height
 
 
 def _peeled(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
-    """Height profile of a step's heel above its ball: up before the ball leaves, down after it has landed."""
+    """Return the height (N,), 0..1, of a stepping foot's heel above its ball: it rises before the ball leaves the
+    floor, and sinks after it has landed."""
     part_s = PEELED * (span_s[1] - span_s[0])
     return _bump(times_s, span_s[0] - PEELS_S, span_s[0] + part_s, span_s[1] - part_s, PEELS_S + part_s)
 
 
 def _lifted(times_s: FloatArray, span_s: tuple[float, float]) -> FloatArray:
-    """Height profile of a lifted heel or toes: slow rise, faster fall to the landing."""
+    """Return the lift (N,), 0..1, of heel or toes in a tap: slow rise, faster fall to the landing."""
     start_s, lands_s = span_s
     falls_s = 0.42 * (lands_s - start_s)
     return _bump(times_s, start_s, lands_s - falls_s, lands_s - falls_s, falls_s)
 
 
 def _bump(times_s: FloatArray, rises_s: float, up_s: float, falls_s: float, lasts_s: float) -> FloatArray:
-    """Rise from 0 to 1 between the first two times, fall to 0 from the third on within ``lasts_s``."""
+    """Return a bump (N,) at given times: it rises from 0 at ``rises_s`` to 1 at ``up_s``, stays, and falls from
+    ``falls_s`` on within ``lasts_s``."""
     up = minimum_jerk(np.clip((times_s - rises_s) / (up_s - rises_s), 0.0, 1.0))
     down = minimum_jerk(np.clip((times_s - falls_s) / lasts_s, 0.0, 1.0))
     return np.asarray(up * (1.0 - down))
 
 
 def _sunk(times_s: FloatArray, lands_s: float) -> FloatArray:
-    """Bend of the knees around a landing, 0..1."""
+    """Return the bend of the knees (N,), 0..1, at given times around a landing."""
     before_s, after_s = SINK_S
     low_s = lands_s + after_s / 3.0
     return _bump(times_s, lands_s - before_s, low_s, low_s, after_s - after_s / 3.0)
 
 
 def _eased(times_s: FloatArray, lands_s: float) -> FloatArray:
-    """Lift of the rear foot's heel around the landing of the other foot, 0..1."""
+    """Return the lift (N,), 0..1, of the rear foot's heel at given times around the landing of the other foot."""
     before_s, up_s, after_s = EASED_S
     return _bump(times_s, lands_s - before_s, lands_s + up_s, lands_s + up_s, after_s)

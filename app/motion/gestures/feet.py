@@ -88,7 +88,7 @@ class Feet:
         return result
 
     def changed_s(self, other: Feet) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both have equal feet."""
         return rows_changed_s(self._rows, other._rows, self._spans_s, other._spans_s)
 
     @property
@@ -102,7 +102,8 @@ class Feet:
 
 
 def _step(times_s: FloatArray, span_s: tuple[float, float], step_s: float) -> dict[str, FloatArray]:
-    """A step: out at the start of a span, back at its end."""
+    """Return the motion (N,), by component, of a foot that steps out at the start of a span and back at its end; each
+    step lasts ``step_s``."""
     ahead, up, push, unloaded = (np.zeros(len(times_s)) for _ in range(4))
     for (begin_s, end_s), way in zip(moves_s(span_s, step_s), (1.0, -1.0), strict=True):
         phase = np.clip((times_s - begin_s) / (end_s - begin_s), 0.0, 1.0)
@@ -117,7 +118,8 @@ def _step(times_s: FloatArray, span_s: tuple[float, float], step_s: float) -> di
 
 
 def _lifted(times_s: FloatArray, span_s: tuple[float, float], kind: str) -> dict[str, FloatArray]:
-    """Toes or heel lifted: toes come down on the beat at the end of a tap; a heel is raised, held and lowered."""
+    """Return the lift (N,), 0..1, of toes or heel during a span, by the name of the part: toes come down on the beat at
+    the end of a tap; a heel is raised, held and lowered."""
     start_s, end_s = span_s
     length_s = end_s - start_s
     falls_s = STRIKE_SHARE * length_s if kind == "tap" else min(HEEL_S, 0.5 * length_s)
@@ -130,9 +132,8 @@ def _lifted(times_s: FloatArray, span_s: tuple[float, float], kind: str) -> dict
 def feet_moved(
     levels: Mapping[str, FloatArray], body: Body, amplitude: float, amount: float, *, steps: bool
 ) -> dict[str, FloatArray]:
-    """Scale samples of `Feet.sample` to a body, in metres and radians; without ``steps`` feet may not leave their
-    place.
-    """
+    """Scale samples (N,) of `Feet.sample` to the body, in metres and radians, by name; without ``steps`` feet may not
+    leave their place. ``amplitude`` is the size of all motion, ``amount`` that of feet."""
     footwork = body.footwork
     ahead_m, up_m, heel, toes = (
         amount * at_amplitude(scale, amplitude)

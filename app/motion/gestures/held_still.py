@@ -61,7 +61,8 @@ def _held(values: Any, stays: Any, share: FloatArray) -> Any:
 
 
 def with_holds(spans_s: FloatArray, *holds: Envelopes) -> FloatArray:
-    """Spans (K, 2) of changes, plus every overlapping hold, since held values come from earlier times."""
+    """Return the K spans (K, 2) of changes, widened by every overlapping hold, since held values come from earlier
+    times."""
     held = np.concatenate([one.spans_s for one in holds])
     if not len(held) or not len(spans_s):
         return spans_s

@@ -26,7 +26,8 @@ MOST_BOW_RAD = float(np.deg2rad(36.0))
 
 @dataclass(frozen=True)
 class ConcertSamples:
-    """Strength of each gesture at some frames, 0..1, each (F,)."""
+    """Strength of each gesture made while not playing (bow, getting up, settling, counting) at F frames, 0..1, each
+    (F,)."""
 
     bow: FloatArray | float = 0.0
     up: FloatArray | float = 0.0
@@ -39,9 +40,8 @@ NOTHING_BESIDE: Final = ConcertSamples()
 
 @dataclass(frozen=True)
 class Beside:
-    """Offsets of the body, each (F,): hips, trunk and neck forward, hips back, shoulders up, elbows out, and the share
-    by which the lowered instrument is raised.
-    """
+    """Offsets of the body from gestures while not playing, each (F,): hips, trunk and neck forward, hips back,
+    shoulders up, elbows out, and the share by which the lowered instrument is raised."""
 
     hips_rad: FloatArray | float
     back_m: FloatArray | float
@@ -105,7 +105,7 @@ class Counting:
         return cls(table[:, 0], table[:, 1], beats, table[:, 4])
 
     def sample(self, times_s: FloatArray) -> FloatArray:
-        """Values at ascending times, (F,) float64."""
+        """Return the strength (F,) of the counting gesture at ascending times (F,)."""
         result = np.zeros(len(times_s))
         first = np.searchsorted(times_s, self.start_s)
         last = np.searchsorted(times_s, self.start_s + self.length_s)
@@ -118,7 +118,7 @@ class Counting:
         return result
 
     def changed_s(self, other: Counting) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both have equal values."""
         mine, others = (np.stack((one.start_s, one.length_s, one.beats, one.amount), axis=1) for one in (self, other))
         spans = [np.stack((rows[:, 0], rows[:, 0] + rows[:, 1]), axis=1) for rows in (mine, others)]
         return rows_changed_s(mine, others, *spans)
@@ -126,7 +126,7 @@ class Counting:
 
 @dataclass(frozen=True, eq=False)
 class Concert:
-    """A player's gestures while not playing, as curves."""
+    """A player's gestures while not playing (bow, getting up, settling, counting) as curves over time."""
 
     bow: Envelopes
     up: Envelopes
@@ -148,7 +148,7 @@ class Concert:
         return ConcertSamples(**{member.name: getattr(self, member.name).sample(times_s) for member in fields(self)})
 
     def changed_s(self, other: Concert) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both have equal gestures."""
         return np.concatenate(
             [getattr(self, member.name).changed_s(getattr(other, member.name)) for member in fields(self)]
         )

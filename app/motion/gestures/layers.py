@@ -35,7 +35,8 @@ BELL_S: Final = 0.5
 
 @dataclass(frozen=True)
 class LayerSamples:
-    """The layers at some frames, before the player's sizes; fields as in `Layers`, each (F,).
+    """Values of all layers of a player's motion at F frames, before they are scaled to the player; fields as in
+    `Layers`, each (F,).
 
     ``dip`` and ``lift``: nods; ``giving``: 1 half way between two weight positions; ``held``: the animator's poses;
     ``gestured``: keyed gestures; ``feet``: as in `Feet.sample`; ``concert``: gestures while not playing; ``reached``:
@@ -103,11 +104,12 @@ class Layers:
     leads: Leads
 
     def sample(self, times_s: FloatArray) -> LayerSamples:
-        """The layers at ascending times."""
+        """Return the values of all layers of motion at ascending times, held still where the plan demands it."""
         return held_still(self._moving(times_s), self.still, times_s, self._moving)
 
     def _moving(self, times_s: FloatArray) -> LayerSamples:
-        """The layers without holding still."""
+        """Return the values of all layers of motion at ascending times, regardless of spans in which the body holds
+        still."""
         dip, lift = self.nods.sample(times_s)
         before, after, share = self.weight.between(self.leads.at(times_s).hips)
         values: dict[str, Any] = {name: getattr(self, name).sample(times_s) for name in ALIKE}
@@ -115,7 +117,7 @@ class Layers:
         return LayerSamples(dip=dip, lift=lift, giving=2.0 * share * (1.0 - share) * np.abs(after - before), **values)
 
     def changed_s(self, other: Layers) -> list[FloatArray]:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return for each layer the K spans (K, 2) in seconds outside of which both have equal values."""
         names = [member.name for member in fields(self) if member.name != "leads"]
         return [self.leads.widened(getattr(self, name).changed_s(getattr(other, name))) for name in names]
 

@@ -27,9 +27,8 @@ _TURNS = ("up", "left", "roll")
 
 
 def slopes_of(track: AngleTrack) -> FloatArray:
-    """Tangent of every key, in degrees per whole length: as given, otherwise level at a turning point and towards the
-    neighbours elsewhere, without overshoot.
-    """
+    """Return the slope of every key of a gesture's track, in degrees per whole length: as given, otherwise level at a
+    turning point and towards the neighbours elsewhere, without overshoot."""
     slopes = _monotone(np.array([key.at for key in track.keys]), np.array([key.deg for key in track.keys]))
     given = np.array([np.nan if key.slope is None else key.slope for key in track.keys])
     return np.where(np.isnan(given), slopes, given)
@@ -52,7 +51,8 @@ def angles_deg(track: AngleTrack, phase: FloatArray) -> FloatArray:
 
 
 def keyed(at: FloatArray, values: FloatArray, phase: FloatArray) -> FloatArray:
-    """Interpolate values at phases without overshoot; 0 outside 0..1."""
+    """Interpolate key values at phases (N,) with monotone cubics, without overshoot; 0 outside 0..1. ``at`` are the
+    keys' phases."""
     return _between(at, values, _monotone(at, values), phase)
 
 
@@ -87,7 +87,7 @@ class KeyedGestures:
 
     @classmethod
     def of(cls, events: Sequence[GestureEvent]) -> Self:
-        """The named gestures of a plan."""
+        """Return the named gestures among a plan's gesture events."""
         gestures: list[Gesture] = []
         rows = []
         for event in events:
@@ -104,9 +104,8 @@ class KeyedGestures:
         return True
 
     def done(self, times_s: FloatArray) -> Iterator[tuple[Gesture, float, FloatArray, slice]]:
-        """Yield every gesture active at some of the ascending times, with its amount, its phases, and the slice of
-        times.
-        """
+        """Yield every gesture active at any of the ascending times, with its amount, its phases 0..1 (K,), and the
+        slice of the times."""
         first = np.searchsorted(times_s, self.rows[:, 0])
         last = np.searchsorted(times_s, self.rows[:, 1])
         for index in np.flatnonzero(last > first).tolist():
@@ -115,7 +114,7 @@ class KeyedGestures:
             yield self.gestures[int(number)], amount, (times_s[here] - start_s) / (end_s - start_s), here
 
     def changed_s(self, other: Self) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both have equal gestures."""
         if self.gestures != other.gestures:
             return np.concatenate((self.rows[:, :2], other.rows[:, :2]))
         return rows_changed_s(self.rows, other.rows, self.rows[:, :2], other.rows[:, :2])

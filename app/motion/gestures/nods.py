@@ -70,7 +70,7 @@ class Nods:
         return dip, lift
 
     def changed_s(self, other: Nods) -> FloatArray:
-        """Spans (K, 2) in seconds outside of which both have equal values."""
+        """Return the K spans (K, 2) in seconds outside of which both have equal nods."""
         mine, others = (
             np.stack((nods.beat_s, nods.half_s, nods.lift_s, nods.amount), axis=1) for nods in (self, other)
         )
@@ -84,7 +84,8 @@ class Nods:
 
 
 def _dip(times_s: FloatArray, beat_s: float, half_s: float) -> FloatArray:
-    """A bump with a prolonged return; at the beat both halves have equal acceleration."""
+    """Return the dip (N,), 0..1, of a nod around a beat, with a prolonged return; at the beat both halves have equal
+    acceleration."""
     after = np.maximum(times_s - beat_s, 0.0) / half_s
     stretched = after / (1.0 + after * (AFTER - 1.0) / AFTER)
     return bump(np.minimum(times_s, beat_s) + half_s * stretched, beat_s, half_s)

@@ -42,7 +42,8 @@ SEATED_ROLL = 0.5
 
 @dataclass(frozen=True)
 class Sizes:
-    """Sizes of a body's motion at one player's amplitude, the shown share of its layers, and the player's noise."""
+    """Factors that scale a body's motion for one player: amplitude, visible share of each layer, and the player's own
+    noise."""
 
     body: Body
     parameters: PlayerParameters
@@ -56,7 +57,7 @@ class Sizes:
         return self.posture.seat_height_shank > 0.0
 
     def of(self, scale: AmplitudeScale) -> float:
-        """Size at the player's amplitude."""
+        """Return the size of a motion at the player's amplitude, in the unit of ``scale``."""
         return at_amplitude(scale, self.parameters.amplitude)
 
     def rad(self, scale: AmplitudeScale) -> float:
@@ -76,9 +77,8 @@ class Sizes:
         return share, 1.0 + SHOULDERS_INSTEAD * (0.5 * (low + high) - share)
 
     def wander(self, layer: str, scale: AmplitudeScale, times_s: FloatArray, shown: FloatArray | float) -> FloatArray:
-        """Noise for one of the player's layers: the residual motion, plus a share of the planned motion as far as it is
-        shown.
-        """
+        """Slow noise (N,) in degrees for one layer of a player's motion: the rest that always remains, plus a part in
+        proportion to ``shown``."""
         noise = _noise(self.player_id, self.parameters.seed, layer, self.body.sway.residual_hz)
         size = NOISE_SHARE * (self.of(scale) - scale[0])
         wandering: FloatArray = noise.sample(times_s) * (RESIDUE_SHARE * scale[0] + shown * size)
@@ -105,19 +105,20 @@ class Sum:
     )
 
     def forward(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Add flexion, distributed over joints."""
+        """Add a forward bend in radians (F,) to joints, divided by their ``shares``."""
         self._add(0, shares, values)
 
     def left(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Add lean to the left, distributed over joints."""
+        """Add a lean to the left in radians (F,) to joints, divided by their ``shares``."""
         self._add(1, shares, values)
 
     def turn(self, shares: Mapping[str, float], values: FloatArray | float) -> None:
-        """Add turn to the left, distributed over joints."""
+        """Add a turn to the left in radians (F,) to joints, divided by their ``shares``."""
         self._add(2, shares, values)
 
     def all(self) -> tuple[dict[str, FloatArray], dict[str, FloatArray], dict[str, FloatArray]]:
-        """Return the angles of all joints: forward, lean, turn."""
+        """Return the angles (F,) of all joints of the trunk in radians, by joint: bend forward, lean to the left, turn
+        to the left."""
         nothing = np.zeros(self.frames)
         forward, left, turn = ({joint: one.get(joint, nothing) for joint in TRUNK} for one in self.angles)
         return forward, left, turn
@@ -189,14 +190,14 @@ class Angles:
 
     @property
     def hips_roll_rad(self) -> FloatArray:
-        """Roll of the hips to the left in radians."""
+        """Roll (F,) of the hips to the left in radians, including their part in the sway; less when seated."""
         share = SEATED_ROLL if self.seated else 1.0
         rolled: FloatArray = share * (self.roll.hips + HIPS_SWAY * self.side.hips)
         return rolled
 
     @property
     def hips_turn_rad(self) -> FloatArray:
-        """Turn of the hips to the left in radians."""
+        """Turn (F,) of the hips to the left in radians; 0 when seated."""
         turned: FloatArray = (0.0 if self.seated else HIPS_TURN) * self.twist.hips
         return turned
 

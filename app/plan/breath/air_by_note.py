@@ -55,9 +55,8 @@ class AirStock(NamedTuple):
 
 
 def air_stock(breather: Breather, score: BreathScore, given: GivenBreaths, spare: dict[int, BreathEvent]) -> AirStock:
-    """Air used by each note, and air that a breath before each note can add, as input of the search for catch
-    breaths.
-    """
+    """Return the air used by each note, and the air that a breath before each note can add, as input of the search for
+    catch breaths."""
     times, lung_s = breather.times, score.lung_s
     used, steady_used, refill = air_taken(breather, score, given, spare)
     length_s = catch_lengths_s(score.steady, times, score.rests.sounding_tick)
@@ -101,7 +100,7 @@ def air_taken(
 
 
 class _Within(NamedTuple):
-    """A breath within a note: its start, and the share of the lungs it fills."""
+    """A breath taken while a note is held: its start and end, and the share of the lungs it fills."""
 
     start_s: float
     end_s: float
@@ -116,9 +115,9 @@ def _breathe_within(
     refill: FloatArray,
     lung_s: float,
 ) -> None:
-    """Account for breaths within a note. Lungs are counted from note to note, so the air used before the first such
-    breath is added to the previous note, as if the breaths came before this note.
-    """
+    """Account for the breaths taken within note ``index`` in ``spent`` and ``refill``. Lungs are counted from note to
+    note, so the air used before the first breath is added to the previous note, as if the breaths came before this
+    note."""
     onset_s, end_s = float(breather.times.onset_s[index]), float(breather.times.played_end_s[index])
     first_s, last_s = max(breaths[0].start_s - onset_s, 0.0), max(end_s - breaths[-1].end_s, 0.0)
     held_s = end_s - breaths[0].start_s - sum(breath.end_s - breath.start_s for breath in breaths)

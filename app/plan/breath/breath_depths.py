@@ -21,9 +21,8 @@ LEAST_DEPTH = 0.3
 def with_depths(
     events: tuple[BreathEvent, ...], used: FloatArray, lung_s: float, refill: FloatArray, index_of: dict[str, int]
 ) -> tuple[BreathEvent, ...]:
-    """Set the depth of each breath to what the next phrase needs, limited by the available time. Depths set by hand
-    stay.
-    """
+    """Return the breaths, each as deep as the next phrase needs, limited by the available time; depths set by hand
+    stay."""
     breaths, used_s = [*np.flatnonzero(refill > 0.0).tolist(), len(refill)], used.tolist()
     result = []
     for event in events:

@@ -201,7 +201,7 @@ def _rests_used(breather: Breather, score: BreathScore, given: GivenBreaths) -> 
 def _in_rests(
     breather: Breather, score: BreathScore, given: GivenBreaths, rests: _RestsUsed, catches: list[int]
 ) -> list[BreathEvent]:
-    """Breaths taken in rests, each with its preparation and reason, including catch breaths in rests."""
+    """Return the breaths taken in rests, each with its preparation and reason, including catch breaths in rests."""
     unused = rests.spare.keys() - set(catches)
     result = []
     for event in given.kept:

@@ -35,7 +35,7 @@ def rest_breaths(
     frame: TimeFrame,
     rests: Rests,
 ) -> tuple[BreathEvent, ...]:
-    """Breaths in rests, shaped by the thresholds; `because` adds the reason for each."""
+    """Return the breaths taken in rests, shaped by the player's thresholds; `because` adds the reason for each."""
     silence, written = rests.sounding_tick.astype(np.float64), rests.written_tick.astype(np.float64)
     silence[0] = written[0] = _before_first(times, piece, frame)
     beats = piece.beat_ticks_at(times.onset_tick)
@@ -123,7 +123,7 @@ class _Report(NamedTuple):
 
 
 def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
-    """Ticks of silence before the first note."""
+    """Ticks of silence between the beginning of the performance and the first note."""
     frame_tick = round(piece.clock.ticks(frame.first_frame_s), 3)
     return max(float(times.onset_tick[0]) - frame_tick, 0.0)
 
@@ -131,7 +131,7 @@ def _before_first(times: LineTimes, piece: Piece, frame: TimeFrame) -> float:
 def _in_silences(
     notes: tuple[Note, ...], silences: _Silences, piece: Piece, parameters: PlayerParameters, reported: _Report
 ) -> tuple[BreathEvent, ...]:
-    """Breaths in the given silences, shaped by the thresholds."""
+    """Return the breaths in the given silences, shaped by the player's parameters."""
     serving, silence, room, end_tick, end_s = silences
     beats = piece.beat_ticks_at(end_tick)
     rests, beat = silence / beats, beats[serving]
@@ -158,7 +158,7 @@ def _in_silences(
 
 
 def _event(id: str, start: tuple[int, float], end: tuple[int, float], reason: Message) -> BreathEvent:
-    """A breath event between two places, each given in ticks and seconds."""
+    """Return a breath event between two moments, each given in ticks and seconds."""
     kind = BREATH_KINDS[EventId.parse(id).kind].event_kind
     return BreathEvent(
         id=id, kind=kind, start_tick=start[0], end_tick=end[0], start_s=start[1], end_s=end[1], depth=1.0, reason=reason
@@ -166,7 +166,7 @@ def _event(id: str, start: tuple[int, float], end: tuple[int, float], reason: Me
 
 
 def breath_at(id: str, piece: Piece, start_s: float, end_s: float, reason: Message) -> BreathEvent:
-    """A breath between two times in seconds."""
+    """A planned breath from ``start_s`` to ``end_s``; ``reason`` explains it to the user."""
     start, end = ((round(piece.clock.ticks(at_s)), at_s) for at_s in (start_s, end_s))
     return _event(id, start, end, reason)
 

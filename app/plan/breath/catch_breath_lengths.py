@@ -74,7 +74,7 @@ class Room:
         return Room(length_s, np.where(free, self.drop_s, 0.0), self.dropped)
 
     def left_out(self, catches: Sequence[int]) -> tuple[int, ...]:
-        """Indices of the notes left out for the given catch breaths."""
+        """Return the indices of the notes that are dropped to make room for the given catch breaths."""
         dropping = [index for index in catches if self.length_s[index] == 0.0]
         return tuple(note for index in dropping for note in range(index - int(self.dropped[index]), index))
 

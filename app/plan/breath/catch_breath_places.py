@@ -119,9 +119,8 @@ def catch_places(line: ComparedLine, lungs: AirSupply, may: BoolArray, missing: 
 
 
 def _stretches(lungs: AirSupply, level: FloatArray) -> list[tuple[int, int, bool]]:
-    """Stretches of notes between given breaths in which a catch breath is possible, and whether each is short of
-    air.
-    """
+    """Return the stretches of notes between given breaths in which a catch breath is possible: first note, index after
+    the last note, and True if the air does not suffice."""
     used, lung_s, refill, free_s = lungs
     starts = np.unique(np.concatenate(([0], np.flatnonzero(refill > 0.0))))
     ends = np.append(starts[1:], len(refill))
@@ -132,9 +131,8 @@ def _stretches(lungs: AirSupply, level: FloatArray) -> list[tuple[int, int, bool
 
 
 def _dropping_costs(line: ComparedLine, at: IntArray, dropped: IntArray, missing: IntArray) -> FloatArray:
-    """Costs (K,) of breaths that replace notes: the cost of a breath before the replaced notes plus that of leaving
-    them out.
-    """
+    """Return the cost (K,) of K breaths that replace notes: that of a breath before the replaced notes plus that of
+    leaving them out."""
     cost = place_costs(line, at - dropped, dropped)
     cost += DROPPED_COST * dropped + slur_costs(line, at)
     before = np.concatenate(([0], np.cumsum(missing)))

@@ -60,7 +60,7 @@ def air_used_s(times: LineTimes, air: Air | None = None, envelope: BreathEnvelop
 
 
 def air_rate(loudness: FloatArray, air: Air | None = None) -> FloatArray:
-    """Return the air use at a loudness relative to mezzoforte."""
+    """Return the rate (N,) at which air is used at a loudness 0..1, relative to mezzoforte."""
     if air is None:
         low, high = LOUDNESS_RANGE
         return np.interp(loudness, [0.0, MEZZOFORTE, 1.0], [low, 1.0, high])

@@ -185,7 +185,7 @@ def _places(line: ComparedLine, at: IntArray, dropped: IntArray | int) -> _Place
 
 
 def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray) -> FloatArray:
-    """Log odds (K,) of a phrase end before each of the notes ``at``, without the constant term."""
+    """Return the log odds (K,) of a phrase end before each of the K notes ``at``, without the constant term."""
     steps, runs, falls = places.steps, places.runs, places.falls
     shorter = np.clip(np.log2(steps[at - 1] / steps[at]), -2.0, 2.0)
     moves = np.diff(times.pitch)[at - 1]
@@ -203,7 +203,8 @@ def _phrase_end(times: LineTimes, places: _Places, rests: IntArray, at: IntArray
 
 
 def _against(line: ComparedLine, places: _Places, at: IntArray) -> FloatArray:
-    """Costs (K,) of breaths among running, dotted and staccato notes; mostly positive."""
+    """Return the cost (K,) of a breath before each of the K notes ``at`` among running, dotted and staccato notes;
+    mostly positive."""
     onsets, steps, strength, runs, falls = places.onsets, places.steps, places.strength, places.runs, places.falls
     times, rest = line.times, line.rests[at] > 0
     # Slurs that are known say where a short note before a bar line is an upbeat.
@@ -230,13 +231,13 @@ def _in_a_row(short: BoolArray) -> BoolArray:
 
 
 def _are_dotted(long: IntArray, short: IntArray) -> BoolArray:
-    """Mask (K,) of pairs of lengths that form a dotted or double-dotted figure."""
+    """Return a mask (K,) of the pairs of lengths that form a dotted or double-dotted figure."""
     doubly: BoolArray = np.abs(long - 7 * short) < short // 2
     return (long > 2 * short) & (long < 4 * short) | doubly
 
 
 def slur_costs(line: ComparedLine, at: IntArray) -> FloatArray:
-    """Cost (K,) of a breath before each of the notes ``at`` due to a slur that leads to the note."""
+    """Return the cost (K,) of a breath before each of the K notes ``at`` due to a slur that leads to the note."""
     heard = -SLURRED * (1.0 - _legato(line)) * line.times.slurs_next[at - 1]
     written = np.where(line.rests[at] > 0, -SLURRED, -WRITTEN_SLUR)
     return np.asarray(np.where(line.written.joined[at - 1], written, heard), dtype=np.float64)
@@ -260,7 +261,8 @@ BAR_STRENGTH: Final = 3
 
 
 def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray:
-    """Metrical strength (K,): 3 at a bar line, 2 in mid-bar, 1 on another felt beat, 0 elsewhere."""
+    """Return the metrical strength (K,) of K ticks: 3 at a bar line, 2 in mid-bar, 1 on another felt beat, 0
+    elsewhere."""
     place = np.maximum(np.searchsorted(bars, ticks, side="right") - 1, 0)
     since = ticks - bars[place]
     length = np.append(np.diff(bars), 0)
@@ -271,7 +273,7 @@ def _strength(ticks: IntArray, bars: IntArray, beat_ticks: IntArray) -> IntArray
 
 
 def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
-    """Share (K,) of the entries after rests that have the same position in the bar as each place."""
+    """Return the share (K,) of the entries after rests that have the same position in the bar as each of K places."""
     place = np.maximum(np.searchsorted(bars, onsets, side="right") - 1, 0)
     bar = _usual_bar(bars)
     phase = (onsets - bars[place]) % max(bar // 2 if bar % 2 == 0 else bar, 1)
@@ -282,7 +284,8 @@ def _like_entries(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArra
 
 
 def _squareness(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray) -> FloatArray:
-    """(K,): 2 a multiple of four bars after the entry before each place, 1 an odd multiple of two bars, 0 elsewhere."""
+    """Return for K places (K,) 2 a multiple of four bars after the entry before the place, 1 an odd multiple of two
+    bars, 0 elsewhere."""
     entries = np.flatnonzero(rests > 0)
     entry = onsets[entries[np.maximum(np.searchsorted(entries, at, side="right") - 1, 0)]]
     bar = _usual_bar(bars)
@@ -291,7 +294,7 @@ def _squareness(rests: IntArray, onsets: IntArray, at: IntArray, bars: IntArray)
 
 
 def _usual_bar(bars: IntArray) -> int:
-    """Ticks of most bars."""
+    """Return the length in ticks that most bars have."""
     return int(median(np.diff(bars).tolist())) if len(bars) > 1 else 1
 
 
@@ -311,7 +314,7 @@ def _begins_again(steps: IntArray, pitch: IntArray, rests: IntArray) -> BoolArra
 
 
 def _rest_follows(rests: IntArray, onsets: IntArray, at: IntArray, beat_ticks: IntArray) -> BoolArray:
-    """(K,): whether a rest begins within a beat after each place."""
+    """Return a mask (K,) of the places after which a rest begins within a beat."""
     following = np.flatnonzero(rests > 0)
     begins = np.append(onsets[following] - rests[following], np.iinfo(np.int64).max)
     result: BoolArray = begins[np.searchsorted(following, at, side="right")] - onsets[at] <= beat_ticks

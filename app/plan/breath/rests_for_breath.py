@@ -141,7 +141,8 @@ def breathed_in(used: FloatArray, played_s: FloatArray, lung_s: float, refill: F
 
 
 def why(index: int, rest_s: FloatArray, needs: RestNeeds, decided: Decided) -> dict[str, Argument]:
-    """Arguments of a message for why the rest before a note is breathed in; ``why`` is the id of a text."""
+    """Return the arguments of the message that explains the breath in the rest before a note; ``why`` is the id of its
+    text."""
     least_s, enough_s, share = (float(column[index]) for column in needs)
     since_s, spent = float(decided.played_s[index]), float(decided.spent[index])
     if rest_s[index] >= ALWAYS_S - EPSILON:

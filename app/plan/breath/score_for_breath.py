@@ -23,7 +23,8 @@ from instrument_maps.wind import Air
 
 
 class Breather(NamedTuple):
-    """A player with the notes of one part for breath planning; ``index_of`` maps note ids to indices."""
+    """A player with the notes of one part, as input of the planning of breaths; ``index_of`` maps note ids to
+    indices."""
 
     notes: tuple[Note, ...]
     times: LineTimes

@@ -83,7 +83,7 @@ class SharedLine(NamedTuple):
     held_s: tuple[tuple[int, float], ...]
 
     def notes_at(self, place: Place) -> tuple[int, ...]:
-        """The notes at a place."""
+        """Return the indices of the line's notes at a place of the score."""
         first = bisect_left(self.ordered, place, key=self.places.__getitem__)
         return self.ordered[first : bisect_right(self.ordered, place, first, key=self.places.__getitem__)]
 
@@ -99,9 +99,8 @@ class SharedLine(NamedTuple):
 
 
 class Breathed(NamedTuple):
-    """Breaths of a player: places of notes after catch breaths, onsets of notes left out for them, and breaths within
-    held notes.
-    """
+    """Breaths of one player, compared with those of players in unison: places of notes after catch breaths, onsets of
+    notes left out for them, and breaths within held notes."""
 
     line: SharedLine
     caught: frozenset[Place]
@@ -134,7 +133,7 @@ ALONE = BreathConstraints()
 
 
 def shared_line(times: LineTimes, piece: Piece) -> SharedLine:
-    """Summarise a part by the notated places of its notes."""
+    """Summarise a part by the notated places of its notes, for comparison with other parts."""
     if not len(times.onset_tick):
         return SharedLine((), frozenset(), (), frozenset(), (), ())
     quarter = piece.clock.ticks_per_quarter

@@ -98,7 +98,8 @@ def plan_additive(
 
 
 def channel_limits(channel: str, instrument: InstrumentMap, parameters: PlayerParameters, body: Body) -> Limits:
-    """Lowest and highest value of a channel, in its unit; both 0 if it cannot move in this posture."""
+    """Lowest and highest value of an animation channel, in its unit; both 0 if it cannot move in the player's
+    posture."""
     if channel in POSED:
         target, angle = POSED[channel]
         return pose_limits(target, instrument, parameters, body)[angle]
@@ -199,7 +200,8 @@ def handle(key: CurveKey, clock: TempoMap, third_s: float, slope: float, *, leav
 
 
 def _within(handle_: tuple[float, float], length_s: float) -> tuple[float, float]:
-    """Shorten a handle to the distance between two keys at equal slope, so that no time has two values."""
+    """Shorten a curve's handle (seconds, value) to the distance between two keys at equal slope, so that no time has
+    two values."""
     seconds, value = handle_
     share = min(1.0, length_s / abs(seconds)) if seconds else 1.0
     return share * seconds, share * value

@@ -21,7 +21,7 @@ COLUMNS: Final = 9
 
 
 def rows(segments: Sequence[CurveSegment]) -> FloatArray:
-    """Segments as a table (S, `COLUMNS`)."""
+    """Return S segments as a table (S, `COLUMNS`), a row of numbers for each."""
     table = [
         (
             one.start_s, one.end_s, one.before, one.after,

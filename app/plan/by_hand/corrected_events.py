@@ -66,7 +66,7 @@ def without_removed(events: tuple[E, ...], removed: frozenset[str]) -> tuple[E, 
 def correct_embouchures(
     events: tuple[EmbouchureEvent, ...], corrections: tuple[Correction, ...]
 ) -> tuple[EmbouchureEvent, ...]:
-    """Embouchures with the values set by hand applied."""
+    """Return the embouchures of notes with the values that the user set by hand."""
     by_note = {item.note_id: item for item in corrections if isinstance(item, SetEmbouchure)}
     if not by_note:
         return events

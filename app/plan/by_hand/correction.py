@@ -26,7 +26,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def tag(self) -> str:
-        """The kind of correction, as in files."""
+        """Name of the kind of correction, as stored in project files."""
         return str(self.__struct_config__.tag)
 
     @property
@@ -41,12 +41,12 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
     @property
     def place(self) -> tuple[str, ...]:
-        """Key of the correction: of two corrections with one key in a player only one can exist."""
+        """Key of the correction: a player has at most one correction with a key."""
         return self.tag, self.anchor
 
     @property
     def about(self) -> str:
-        """The id of the event."""
+        """Id of the planned event that the correction changes or adds."""
         return str(EventId(self.event_kind, self.anchor))
 
     @property
@@ -81,7 +81,7 @@ class Correcting(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_fi
 
 
 class OfNote(Correcting, frozen=True):
-    """A correction anchored to a note."""
+    """A correction that belongs to a note and moves with it."""
 
     note_id: str
 
@@ -102,13 +102,13 @@ class OfNote(Correcting, frozen=True):
 
 
 class OfEvent(Correcting, frozen=True):
-    """A correction of a generated event."""
+    """A correction that changes an event which the generator plans, by its id."""
 
     event_id: str
 
     @property
     def about(self) -> str:
-        """The id of the event."""
+        """Id of the planned event that the correction changes."""
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:

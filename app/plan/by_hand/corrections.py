@@ -30,7 +30,7 @@ class PinFingering(OfNote, frozen=True, tag="pin_fingering"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind of name and label of the fingering."""
+        """Kind ``"fingering"`` and label of the fingering, to name the correction in lists."""
         return "fingering", self.label
 
 
@@ -43,7 +43,7 @@ class RemoveEvent(OfEvent, frozen=True, tag="remove"):
 
     @property
     def left_out(self) -> str:
-        """The id of the event."""
+        """Id of the planned event that is removed."""
         return self.event_id
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
@@ -77,7 +77,7 @@ class SetBreath(OfNote, frozen=True, tag="set_breath"):
 
     @property
     def about(self) -> str:
-        """The id of the breath."""
+        """Id of the breath event that the correction adds or changes."""
         return str(EventId(self.kind, self.note_id, self.number if BREATH_KINDS[self.kind].within else 1))
 
     @property
@@ -116,7 +116,7 @@ class SetCue(OfNote, frozen=True, tag="set_cue"):
 
 
 class SetEmbouchure(OfNote, frozen=True, tag="set_embouchure"):
-    """Set values of a note's embouchure; None keeps the generated one."""
+    """Correction that sets values of a note's embouchure; None keeps the generated one."""
 
     event_kind: ClassVar[str] = "embouchure"
     tension: float | None = None
@@ -125,7 +125,7 @@ class SetEmbouchure(OfNote, frozen=True, tag="set_embouchure"):
 
 
 class ChangeGesture(OfEvent, frozen=True, tag="change_gesture"):
-    """Move a generated gesture or change its amount; None keeps the generated value."""
+    """Correction that moves a generated gesture or changes its amount; None keeps the generated value."""
 
     start_tick: int | None = None
     end_tick: int | None = None
@@ -145,11 +145,11 @@ class AddGesture(Own, frozen=True, tag="add_gesture"):
 
     @property
     def about(self) -> str:
-        """The id of the gesture."""
+        """Id of the gesture event that the correction adds."""
         return str(EventId(self.kind, self.name))
 
     def event(self, clock: TempoMap) -> GestureEvent:
-        """The gesture as an event."""
+        """Convert the correction to the gesture event that it adds; ``clock`` converts its ticks to seconds."""
         start, end = self.start_tick, self.end_tick
         start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
         return GestureEvent(self.about, self.kind, start, end, start_s, end_s, self.amount, BY_HAND, True, self.gesture)
@@ -167,7 +167,8 @@ class ChangeExpression(OfEvent, frozen=True, tag="change_expression"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind and id of the expression that replaces the generated one, if one does."""
+        """Kind ``"expression"`` and id of the expression that replaces the generated one, if one does, to name the
+        correction in lists."""
         return super().named if self.expression is None else ("expression", self.expression)
 
 
@@ -184,11 +185,11 @@ class AddExpression(Own, frozen=True, tag="add_expression"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind of name and id of the expression."""
+        """Kind ``"expression"`` and id of the facial expression, to name the correction in lists."""
         return "expression", self.expression
 
     def event(self, clock: TempoMap) -> ExpressionEvent:
-        """The expression as an event."""
+        """Convert the correction to the expression event that it adds; ``clock`` converts its ticks to seconds."""
         start, end = self.start_tick, self.end_tick
         start_s, end_s = clock.seconds(float(start)), clock.seconds(float(end))
         shown = self.strength, self.fade_in_s, self.fade_out_s
@@ -225,7 +226,7 @@ class PoseCorrection(Own, frozen=True, tag="pose"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind of name and name of the posed part."""
+        """Kind ``"pose"`` and name of the posed part, to name the correction in lists."""
         return "pose", self.target
 
 
@@ -255,7 +256,7 @@ class PlayStyle(Own, frozen=True, tag="play_style"):
 
     @property
     def named(self) -> tuple[str, str]:
-        """Kind of name and id of the style."""
+        """Kind ``"style"`` and id of the style of playing, to name the correction in lists."""
         return "style", self.style
 
 
@@ -283,5 +284,5 @@ REMOVABLE = (*BREATH_KINDS, "cue", *GESTURE_KINDS, "expression")
 
 
 def of_kinds(corrections: tuple[Correction, ...], kinds: tuple[type[Correction], ...]) -> tuple[Correction, ...]:
-    """Return the corrections of some kinds."""
+    """Return only the corrections of the given classes, in the same order."""
     return tuple(item for item in corrections if isinstance(item, kinds))

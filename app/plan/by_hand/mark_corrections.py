@@ -31,17 +31,17 @@ class OfMark(Correcting, frozen=True):
 
     @property
     def anchor(self) -> str:
-        """Id of the mark."""
+        """Id of the mark, made of kind, notes, tick and text."""
         return mark_id(self.kind, self.note_id or "", self.last_note_id or "", self.start_tick or 0, self.text)
 
     @property
     def subject(self) -> str:
-        """The note, or the place."""
+        """Id of the note that the mark belongs to, or ``"@"`` and the tick."""
         return self.note_id or f"@{self.start_tick}"
 
     @property
     def about(self) -> str:
-        """Id of the mark."""
+        """Id of the mark that is written or removed."""
         return self.anchor
 
     @property
@@ -51,7 +51,7 @@ class OfMark(Correcting, frozen=True):
 
     @property
     def named(self) -> tuple[str, str]:
-        """The kind of mark."""
+        """Kind ``"mark"`` and the mark's own kind, to name the correction in lists."""
         return "mark", self.kind
 
     def is_lost(self, note_ids: Collection[str], event_ids: Collection[str]) -> bool:
@@ -78,7 +78,7 @@ class SetMark(OfMark, frozen=True, tag="set_mark"):
 
     @property
     def mark(self) -> Mark:
-        """The mark that is written."""
+        """The musical mark that the correction writes."""
         notes = self.note_id or "", self.last_note_id or ""
         return Mark(self.kind, *notes, self.start_tick or 0, self.end_tick or 0, self.text)
 
@@ -102,7 +102,7 @@ def remove_mark(mark: Mark) -> RemoveMark:
 
 
 def mark_corrections(corrections: Iterable[Correcting]) -> tuple[SetMark | RemoveMark, ...]:
-    """Return the corrections of marks."""
+    """Return only the corrections that set or remove musical marks."""
     return tuple(item for item in corrections if isinstance(item, SetMark | RemoveMark))
 
 

@@ -180,7 +180,8 @@ def _takers(leader: int, players: tuple[tuple[int, int], ...], parts: tuple[Mono
 
 
 def _chosen(takers: tuple[str, ...], parts: tuple[MonophonicPart, ...]) -> tuple[tuple[int, int], ...]:
-    """Players selected by hand, in the form of `_takers`; players that no longer exist are left out."""
+    """Return the players chosen by hand to receive a cue, in the same form as `_takers`; players that no longer exist
+    are left out."""
     return tuple((index, 0) for index, part in enumerate(parts) if part.player_id in takers)
 
 

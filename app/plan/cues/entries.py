@@ -263,7 +263,7 @@ def _new_tempo(lasts_s: FloatArray, place: int) -> bool:
 def _joining(
     sounding: list[tuple[int, NoteTimes]], lines: _Spans, shared: list[Entry], piece: Piece, musicians: tuple[str, ...]
 ) -> list[Entry]:
-    """Return entries of players after long rests of their own while others play; those within a bar are merged."""
+    """Return the entries of players who join others after a long rest of their own; entries within a bar are merged."""
     first = int(lines.starts[0])
     rows: list[tuple[int, float, int, int]] = []
     for line, times in sounding:

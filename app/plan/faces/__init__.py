@@ -1,1 +1,1 @@
-"""Facial expressions and glances."""
+"""Plans the players' facial expressions and glances."""

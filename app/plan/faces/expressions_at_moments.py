@@ -28,7 +28,8 @@ SMILE_ID = "expression:smile"
 
 
 class _Found(NamedTuple):
-    """A moment: its span, the index of the note that begins there, the end of its event id, and the reason."""
+    """A moment at which a player shows an expression: its span, the index of the note that begins there, the end of its
+    event id, and the reason."""
 
     span_s: tuple[float, float]
     note: int | None
@@ -97,7 +98,7 @@ def _matching(rule: Rule, moment: Moment, found: Sequence[_Found], facts: Facts)
 
 
 def _given(notes: tuple[Note, ...], times: LineTimes, cues: tuple[CueEvent, ...]) -> list[_Found]:
-    """Moments in which the player gives a cue."""
+    """Return the moments in which the player gives a cue, for expressions shown with it."""
     onsets = {tick: index for index, tick in enumerate(times.onset_tick.tolist())} if notes else {}
     why = Message("expression.gives_entry")
     return [_Found((cue.start_s, cue.end_s), onsets.get(cue.end_tick), cue.id, why) for cue in cues]
@@ -147,5 +148,6 @@ def neutral_face(clock: TempoMap, frame: TimeFrame, face: Expression) -> Express
 def all_shown(
     neutral: ExpressionEvent, at_moments: tuple[ExpressionEvent, ...], at_notes: tuple[ExpressionEvent, ...]
 ) -> tuple[ExpressionEvent, ...]:
-    """All expressions of one player, ordered by start."""
+    """All facial expressions of one player ordered by start: the neutral one, those at moments of the piece, and those
+    at notes."""
     return tuple(sorted((neutral, *at_moments, *at_notes), key=in_order))

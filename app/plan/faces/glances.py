@@ -47,8 +47,8 @@ SIDE_RAD: Final = (0.5, 1.0)
 
 
 class StagePlace(msgspec.Struct, frozen=True):
-    """Place of a player: metres, the audience towards +Z, and the turn from +Z towards +X in radians; ``eyes_m`` above
-    the floor."""
+    """Position of a player on stage in metres, the audience towards +Z; the turn is from +Z towards +X in radians,
+    ``eyes_m`` the height of the eyes above the floor."""
 
     x_m: float
     z_m: float
@@ -126,7 +126,7 @@ def _to_takers(cue: CueEvent, places: Mapping[str, StagePlace], seeds: Seeds) ->
 
 
 def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
-    """Two looks: to one side, then less far to the other."""
+    """Plan two glances for a gesture of looking around: to one side, then less far to the other."""
     side = 1.0 if seeds.chance_at("look side", event.start_tick) < 0.5 else -1.0
     turn_s = event.start_s + (0.5 + 0.2 * seeds.chance_at("look turn", event.start_tick)) * (
         event.end_s - event.start_s
@@ -140,7 +140,7 @@ def _about(event: GestureEvent, seeds: Seeds) -> list[GlanceEvent]:
 
 
 def _at_own_hands(event: GestureEvent, gaze: GazeTrack) -> GlanceEvent:
-    """Return the look that belongs to a gesture."""
+    """Return the glance at the own hands that belongs to a gesture."""
     length_s = event.end_s - event.start_s
     return GlanceEvent(
         f"glance:{event.id}",
@@ -168,7 +168,7 @@ def pitch_rad(own: StagePlace, other: StagePlace) -> float:
 
 
 def glance_at(name: str, at: str, span_s: tuple[float, float], own: StagePlace, other: StagePlace) -> GlanceEvent:
-    """A glance at another's eyes."""
+    """Plan a glance during ``span_s`` from a player's place on stage at the eyes of someone at ``other``."""
     pitch = pitch_rad(own, other)
     away_m = round(_apart_m(own, other) / math.cos(pitch), 3)
     return GlanceEvent(name, at, *span_s, bearing_rad(own, other), pitch, PLAYING_HEAD, away_m)

@@ -32,7 +32,7 @@ def live_rules(rules: tuple[Rule, ...], expressions: Collection[str]) -> tuple[R
 def faces_now(
     rules: tuple[Rule, ...], pitch: FloatArray, loudness: FloatArray, effort: FloatArray, instrument: InstrumentMap
 ) -> dict[str, float]:
-    """Strength of each expression for the current note; arrays are (1,)."""
+    """Return the strength of each expression for the note played live at present; arrays have shape (1,)."""
     nothing = np.zeros(1)
     facts = Facts(
         loudness=loudness,

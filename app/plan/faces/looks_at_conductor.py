@@ -82,9 +82,8 @@ def looks_up(
 
 
 def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float, float]]:
-    """Spans of looks that always happen: tempo changes and the last note. Close ones are merged, up to a largest
-    length.
-    """
+    """Spans (start, end) in seconds of looks at the conductor that always happen: at tempo changes and the last note.
+    Close ones are merged, up to a largest length."""
     asked: list[tuple[float, float]] = []
     beats = piece.metre_map.felt_between(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     if len(beats) > 2:
@@ -108,7 +107,8 @@ def _certain(times: LineTimes, piece: Piece, last_s: float) -> list[tuple[float,
 
 
 def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> list[tuple[float, float]]:
-    """Looks at beginnings of phrases, and now and then before a bar."""
+    """Return the spans in seconds of looks at the conductor drawn by chance: at beginnings of phrases, and now and then
+    before a bar."""
     rests_s = times.onset_s[1:] - times.played_end_s[:-1]
     starts = np.flatnonzero(np.concatenate(([False], rests_s >= PHRASE_REST_S)))
     starts = starts[seeds.chances_at("up at phrase", times.onset_tick[starts]) < PHRASE_CHANCE * amount]
@@ -127,7 +127,7 @@ def _by_chance(times: NoteTimes, piece: Piece, amount: float, seeds: Seeds) -> l
 
 
 def _bars(times: NoteTimes, piece: Piece) -> tuple[IntArray, FloatArray]:
-    """Ticks and seconds of the bars near played notes; of bars close together only one."""
+    """Ticks and seconds (N,) of the bar lines near played notes; of bar lines close together only one."""
     bars = piece.bars(int(times.onset_tick[0]), int(times.onset_tick[-1]) + 1)
     bars_s: FloatArray = piece.clock.seconds(bars.astype(np.float64))
     following = np.minimum(np.searchsorted(times.onset_s, bars_s), len(times.onset_s) - 1)

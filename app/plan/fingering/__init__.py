@@ -1,1 +1,1 @@
-"""Fingerings and mutes."""
+"""Plans the fingering of every note, and the use of mutes."""

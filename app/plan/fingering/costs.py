@@ -151,7 +151,8 @@ class FingeringProblem:
 
     @cached_property
     def local_cost(self) -> FloatArray:
-        """Cost (N, K) of each fingering by itself; inf where there is none or a correction excludes it."""
+        """Cost (N, K) of each of K fingerings of N notes by itself, such as poor intonation; inf where there is none or
+        a correction excludes it."""
         table, index, times = self.table, self.pitch_index, self.times
         out_of_tune = np.maximum(np.abs(table.cents) - np.abs(table.cents[:, :1]), 0.0) / CENTS_PER_UNIT
         audible = np.minimum(times.duration_s / FULLY_AUDIBLE_S, 1.0)[:, None]
@@ -173,9 +174,8 @@ class FingeringProblem:
 
     @property
     def _beside(self) -> BoolArray:
-        """Mask (N, K) of fingerings that keep a lever turned which the first choice of a neighbour at another pitch
-        turns.
-        """
+        """Mask (N, K) of those of K fingerings of N notes that keep a lever turned which the first choice of a
+        neighbour at another pitch turns."""
         table, times, index = self.table, self.times, self.pitch_index
         near = (times.onset_s[1:] - times.played_end_s[:-1] < BESIDE_S) & (index[1:] != index[:-1])
         first = table.levers[index, 0]
@@ -205,7 +205,7 @@ class FingeringProblem:
 
     @cached_property
     def motions(self) -> Motions:
-        """Motions of every step."""
+        """Motions of fingers and slides, and their costs, from each fingering of a note to each of the next."""
         table, times, index, count = self.table, self.times, self.pitch_index, len(self.table.choices)
         gap = np.maximum(times.onset_s[1:] - times.played_end_s[:-1], 0.0)
         step = np.maximum(times.onset_s[1:] - times.onset_s[:-1], 1e-3)
@@ -270,13 +270,15 @@ class FingeringProblem:
         return np.asarray(np.clip((EASY_STEP_S - step) / (EASY_STEP_S - HURRIED_STEP_S), 0.0, 1.0))
 
     def _slide_change(self) -> FloatArray:
-        """Change (N-1, K, K) of slide extension, as a share of its travel."""
+        """Change (N - 1, K, K) of the slide's extension, as a share of its travel, from each of K fingerings of a note
+        to each of the next of N notes."""
         places = [place for place, control in enumerate(self.controls) if control.kind == "slide"]
         values = self.table.values[self.pitch_index][:, :, places].sum(axis=2)
         return np.asarray(values[1:, None, :] - values[:-1, :, None], dtype=np.float64)
 
     def _slides(self, gap: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Travel, time, share of the available time and cost of the slides' ways, each (N-1, K, K)."""
+        """Travel (metres), time (seconds), share of the available time and cost of a slide's way from each of K
+        fingerings to each of the next note, each (N - 1, K, K)."""
         values, played = self.table.values[self.pitch_index], self.times.duration_s[:-1]
         shape = (len(gap), values.shape[1], values.shape[1])
         slide_m, needed_s, share, cost = (np.zeros(shape) for _ in range(4))
@@ -378,7 +380,8 @@ def fingering_problem(
 def _in_score(
     written: Sequence[str], choices: Sequence[tuple[Fingering, ...]], pitch_index: IntArray, instrument: InstrumentMap
 ) -> dict[int, int]:
-    """Column of the score's fingering for each note that has one known to the map."""
+    """Return for each note with a fingering in the score the column of that fingering among its choices, by index of
+    the note; fingerings that the map lacks are omitted."""
     found = {}
     for index, text in enumerate(written):
         column = written_choice(text, choices[pitch_index[index]], instrument.controls) if text else None

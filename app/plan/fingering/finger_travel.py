@@ -86,9 +86,8 @@ class FingerPlaces:
     key_to_key: FloatArray
 
     def between(self, before: IntArray, after: IntArray) -> Ways:
-        """Count the movements from each fingering of the pitches ``before`` to each fingering of ``after``, both
-        (U,).
-        """
+        """Return the movements of fingers from each fingering of the pitches ``before`` to each fingering of ``after``,
+        for U steps, both (U,)."""
         a, b = self.holds[:, before, :, None], self.holds[:, after, None, :]
         whole = self.holds | self.half
         whole_a, whole_b = whole[:, before, :, None], whole[:, after, None, :]
@@ -124,7 +123,8 @@ class FingerPlaces:
 
 
 def _count(fingers: BoolArray) -> FloatArray:
-    """Sum over the fingers, (F, U, K, K); as small numbers, several times as fast."""
+    """Return the sum (U, K, K) of a mask over its first axis, the fingers; computed with small integers, which is
+    several times as fast."""
     return np.asarray(fingers.view(np.int8).sum(axis=0, dtype=np.int8), np.float64)
 
 
@@ -134,9 +134,8 @@ def finger_places(
     controls: Sequence[Control],
     contacts: Sequence[Contact],
 ) -> FingerPlaces:
-    """Find the controls that each finger holds in the fingerings of every pitch, padded to ``shape`` (P, K); slides are
-    ignored.
-    """
+    """Find the controls that each finger holds in the fingerings of every pitch, padded to ``shape`` (P pitches, K
+    fingerings); slides are ignored."""
     names = sorted(
         {control.finger for control in controls}
         | {finger for ranked in choices for fingering in ranked for finger in fingering.fingers.values()}

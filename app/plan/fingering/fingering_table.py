@@ -1,4 +1,4 @@
-"""Ranked fingerings of some pitches as arrays."""
+"""The ranked fingerings of all pitches of a part, as arrays for the search."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class FingeringTable:
 
 
 def pitch_controls(instrument: InstrumentMap) -> tuple[Control, ...]:
-    """The controls that occur in fingerings."""
+    """The controls that determine the pitch (valves, keys, slide), by which a fingering is described."""
     return tuple(control for control in instrument.controls if control.role == "pitch")
 
 

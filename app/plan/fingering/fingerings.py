@@ -189,7 +189,8 @@ def _vented(event: FingeringEvent, ranked: Sequence[Fingering], instrument: Inst
 
 
 def _shortest_steps(problem: FingeringProblem) -> tuple[list[float], list[bool]]:
-    """For every note, the shorter of the steps to it and from it, in seconds, and whether one of them is in a trill."""
+    """Return for every note the shorter of the times to the notes before and after it, in seconds, and whether it is
+    part of a trill."""
     steps = np.diff(problem.times.onset_s)
     if not len(steps):
         return [0.0], [False]

@@ -22,7 +22,7 @@ REMEMBERED = TRILL_NOTES
 
 @dataclass(frozen=True)
 class Fingered:
-    """A played note: it sounds from ``onset_s`` to ``end_s`` with one of its pitch's fingerings."""
+    """A note played live: it sounds from ``onset_s`` to ``end_s`` with one of its pitch's fingerings."""
 
     pitch: int
     onset_s: float

@@ -16,7 +16,7 @@ Spans = tuple[tuple[int, int], ...]
 
 
 def stopped_notes(notes: tuple[Note, ...], stopped: Spans, instrument: InstrumentMap) -> BoolArray:
-    """(N,): whether the hand stops each note."""
+    """Return a mask (N,) of the notes for which the hand stops the bell; ``stopped`` are spans of ticks."""
     if instrument.stopped is None or not stopped:
         return np.zeros(len(notes), dtype=bool)
     return np.array([is_muted(stopped, note.onset_tick) for note in notes], dtype=bool)
@@ -30,7 +30,7 @@ def plan_mutes(
     instrument: InstrumentMap,
     clock: TempoMap,
 ) -> tuple[MuteEvent, ...]:
-    """Muted passages that contain notes, in order; a passage ends where the kind of mute changes."""
+    """Return the muted passages that contain notes, in order; a passage ends where the kind of mute changes."""
     if not muted:
         return ()
     rows: list[tuple[MuteKind, int, int, Message]] = []

@@ -67,9 +67,8 @@ def _windows(problem: FingeringProblem, path: IntArray) -> list[tuple[int, int]]
 
 
 def _search(problem: FingeringProblem, path: IntArray, first: int, last: int) -> IntArray:
-    """Viterbi over notes first..last inclusive; the end notes keep their fingering in ``path`` unless they are the ends
-    of the part.
-    """
+    """Return the cheapest fingerings of notes ``first`` to ``last`` as columns (N,), by the Viterbi algorithm; the end
+    notes keep their fingering in ``path`` unless they are the ends of the part."""
     local, cost = problem.local_cost[first : last + 1].copy(), problem.motions.cost[first:last]
     for end, is_lines in ((0, first == 0), (last - first, last == len(path) - 1)):
         if not is_lines:
@@ -114,7 +113,8 @@ def _chain(local: FloatArray, cost: FloatArray) -> IntArray:
 
 
 def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -> IntArray:
-    """Return the cheapest path with costs that involve three notes, as a chain of pairs of neighbouring choices."""
+    """Return the cheapest path, as columns (N,), with costs that involve three notes in a row, found as a chain of
+    pairs of neighbouring choices."""
     total = local[0][:, None] + cost[0] + local[1][None, :]
     back: list[IntArray] = []
     for note in range(2, len(local)):
@@ -129,9 +129,8 @@ def _chain_of_pairs(local: FloatArray, cost: FloatArray, reversal: FloatArray) -
 
 
 def even_trills(problem: FingeringProblem, path: IntArray) -> IntArray:
-    """Give the first and the last two notes of every trill the fingerings used within it, since no player changes them
-    while trilling.
-    """
+    """Return ``path`` (the fingering's column of each note) with the first and last two notes of every trill fingered
+    as within it, since no player changes fingerings while trilling."""
     steps = np.concatenate(([False], problem.in_trill, [False]))
     if not steps.any():
         return path

@@ -1,1 +1,1 @@
-"""Gestures of body, feet and instrument."""
+"""Plans the gestures of body, feet and instrument."""

@@ -48,7 +48,7 @@ Span = tuple[float, float]
 
 
 def foot_of(event: GestureEvent) -> Foot:
-    """Return the foot of a gesture."""
+    """Return the foot that makes a gesture, given by the sign of its amount."""
     return "left" if event.amount > 0.0 else "right"
 
 
@@ -139,7 +139,7 @@ def _taps(
     tap: FloatArray | float,
     steps: Sequence[GestureEvent],
 ) -> list[GestureEvent]:
-    """Toe taps on the beats of some phrases, always with the same foot."""
+    """Plan taps of the toes on the beats of some phrases drawn at random, always with the same foot."""
     side = 1.0 if seeds.chance("tap foot") < 0.35 else -1.0
     reason = Message("gesture.tap", {"side": "left" if side > 0.0 else "right"})
     ticks = times.onset_tick[np.array([phrase.first for phrase in found])]

@@ -98,7 +98,8 @@ def weight_shifts(
 
 
 def _in_silence(times: NoteTimes, seeds: Seeds, clock: TempoMap) -> IntArray:
-    """Ticks of weight shifts within long silences; a few at most."""
+    """Return the ticks at which a silent player shifts the weight, at most `MOST_IN_SILENCE` within each long
+    silence."""
     found = []
     quiet = times.onset_s[1:] - times.played_end_s[:-1] > 2.0 * STIR_S + SHIFT_LEAST_S
     for index in np.flatnonzero(quiet).tolist():

@@ -118,7 +118,7 @@ def _counted(first_s: float, last_s: float, piece: Piece, later: float) -> tuple
 def _looks(
     place: int, free: tuple[float, float], piece: Piece, seeds: Seeds, said: Mapping[str, float]
 ) -> list[GestureEvent]:
-    """Looks around during a rest, at times that differ between players."""
+    """Plan looks around during a rest, at times that differ between players; ``free`` is the rest in seconds."""
     events: list[GestureEvent] = []
     free_s, last_s = free
     for number in range(MOST_LOOKS):

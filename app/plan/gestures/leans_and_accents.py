@@ -65,7 +65,7 @@ class Phrase(NamedTuple):
 
 
 def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, ...]:
-    """The phrases of a part in order; every note belongs to one."""
+    """Divide a part into its phrases at breaths and rests, in order; every note belongs to exactly one."""
     count = len(times.onset_s)
     if not count:
         return ()
@@ -87,7 +87,7 @@ def phrases(times: NoteTimes, breaths: Sequence[BreathEvent]) -> tuple[Phrase, .
 
 
 def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray:
-    """Index of the note after each breath; the number of notes if there is none."""
+    """Index (N,) of the first note after each breath; the number of notes if none follows."""
     drawn_s = [breath.end_s for breath in breaths if breath.draws_air]
     return np.asarray(np.searchsorted(times.onset_s, np.array(drawn_s) - ON_BEAT_S))
 
@@ -95,7 +95,8 @@ def _after_breaths(times: NoteTimes, breaths: Sequence[BreathEvent]) -> IntArray
 def leans(
     found: tuple[Phrase, ...], times: LineTimes, clock: TempoMap, seeds: Seeds, dynamics: Dynamics
 ) -> list[GestureEvent]:
-    """Leans towards each phrase's climax (its highest, loudest, longest notes) and back at its end."""
+    """Plan the leans of the body towards each phrase's climax (its highest, loudest, longest notes) and back at its
+    end."""
     events: list[GestureEvent] = []
     if not found:
         return events
@@ -147,10 +148,9 @@ def accents(
     seeds: Seeds,
     dynamics: Dynamics,
 ) -> list[GestureEvent]:
-    """Dips on strong notes, with preparation and follow-through: on some notes that are on a beat and on all notes
-    louder than their neighbours, with bars without accents in between. ``pulse`` has the beats of the piece; ``swings``
-    gives the spans where the body is still.
-    """
+    """Plan dips of the body on strong notes, with preparation and follow-through: on some notes that are on a beat and
+    on all notes louder than their neighbours, with bars without accents in between. ``pulse`` has the beats of the
+    piece; ``swings`` gives the spans where the body is still."""
     if not len(times.onset_tick):
         return []
     clock = piece.clock
@@ -199,7 +199,7 @@ def accents(
 
 
 def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, FloatArray]:
-    """Return a mask of the notes that begin on a felt beat, and the length of a beat there."""
+    """Return a mask (N,) of the notes that begin on a felt beat, and the length of the beat there in seconds."""
     lengths = piece.beat_ticks_at(times.onset_tick)
     nearest, before = (_nearest(pulse.beat_ticks, times.onset_tick, back) for back in (0, 1))
     off = np.minimum(np.abs(nearest - times.onset_tick), np.abs(before - times.onset_tick))
@@ -208,13 +208,14 @@ def _on_beat(times: NoteTimes, pulse: Pulse, piece: Piece) -> tuple[BoolArray, F
 
 
 def _nearest(places: IntArray, ticks: IntArray, back: int = 0) -> IntArray:
-    """Return the first of the sorted ``places`` at or after each tick, or ``back`` places earlier."""
+    """Return for each tick (N,) the first of the sorted ``places`` (ticks) at or after it, or the one ``back`` places
+    earlier."""
     found: IntArray = places[np.clip(np.searchsorted(places, ticks) - back, 0, len(places) - 1)]
     return found
 
 
 def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
-    """Return a mask of the times close to a cue."""
+    """Return a mask (N,) of the times close to a cue, at which the head nods already."""
     cued_s = np.sort([-np.inf, *(cue.end_s for cue in cues), np.inf])
     following = np.searchsorted(cued_s, at_s).clip(1)
     near: BoolArray = np.minimum(at_s - cued_s[following - 1], cued_s[following] - at_s) < CUED_S
@@ -222,7 +223,7 @@ def _nodded(at_s: FloatArray, cues: Sequence[CueEvent]) -> BoolArray:
 
 
 def _apart(at_s: FloatArray, scores: FloatArray, loud: BoolArray, beat_s: FloatArray) -> list[int]:
-    """Indices of the strongest notes, chosen with a least distance."""
+    """Return the indices of the strongest notes, chosen so that they keep a least distance in time."""
     order = np.argsort(-scores, kind="stable")
     order = order[scores[order] >= STRONG]
     needed_s = np.where(loud, APART_BEATS / 3.0, APART_BEATS) * beat_s

@@ -43,7 +43,7 @@ class LoweredSpans:
 
 
 def may_start(gesture: Gesture, start_s: float, end_s: float, times: LineTimes, lowered: LoweredSpans) -> bool:
-    """Return whether a gesture is possible from one time to another."""
+    """Return whether a gesture may be made from ``start_s`` to ``end_s``, such as only while the player rests."""
     if gesture.may_start == "resting":
         first = int(np.searchsorted(times.played_end_s, start_s, side="right"))
         return first == len(times.onset_s) or float(times.onset_s[first]) >= end_s

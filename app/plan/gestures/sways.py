@@ -97,7 +97,7 @@ class Swings:
     lasts: IntArray
 
     def still_at(self, ticks: IntArray) -> BoolArray:
-        """Return whether the body keeps still at some ticks."""
+        """Return a mask (N,) of the ticks at which the body does not sway."""
         if not len(self.ticks):
             return np.ones(len(ticks), np.bool_)
         here = np.maximum(np.searchsorted(self.ticks, ticks, side="right") - 1, 0)
@@ -152,8 +152,8 @@ def swings_of(
 def _shaped(
     units: IntArray, ticks: IntArray, ends: IntArray, vigours: FloatArray, seeds: Seeds, stillness: FloatArray
 ) -> tuple[FloatArray, IntArray]:
-    """Return the position of the trunk at the end of each unit, and the number of units of the swing it belongs to (0:
-    still).
+    """Return the position (N,) of the trunk, -1..1, at the end of each unit, and the number of units of the swing the
+    unit belongs to (0: still).
 
     Side and size at the end of a block depend on that block alone, so blocks can be changed independently.
     """
@@ -166,9 +166,8 @@ def _shaped(
     flip = 1.0 if seeds.chance("side") < 0.5 else -1.0
 
     def ended(number: IntArray, begun: IntArray, reach: IntArray) -> FloatArray:
-        """Return the positions at the ends of blocks, mostly on the other side than the previous block. ``reach`` is
-        the end of the next block, which starts at this position.
-        """
+        """Return the positions (N,) of the trunk, -1..1, at the ends of blocks of units, mostly on the other side than
+        the previous one. ``reach`` is the tick at which the next block ends, which starts at this position."""
         size = 0.35 + 0.65 * seeds.chances_at("sway", begun, number, reach)
         stays = seeds.chances_at("sway held", begun, number, reach) < 0.2
         side = np.where((number % 2 == 0) ^ stays, flip, -flip)
@@ -195,8 +194,8 @@ def _shaped(
 
 @cache
 def _turns() -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
-    """For each form and unit: weights of the previous position, the end and the turning point, and the number of
-    units."""
+    """Return tables (forms, units) of the shapes of swaying: weights of the previous position, the end and the turning
+    point, and the number of units of a swing."""
     shape = (len(FORMS), BLOCK)
     before, after, between, parts = np.zeros(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape, np.int64)
     for row, form in enumerate(FORMS):
@@ -236,7 +235,7 @@ def sways(swings: Swings, pulse: Pulse) -> list[GestureEvent]:
 
 
 def _sounding_share(times: NoteTimes, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-    """Share of each span in which the part sounds."""
+    """Return the share (N,), 0..1, of each span during which the player's notes sound."""
     if len(times.onset_s) == 0:
         return np.zeros(len(starts_s))
     sounded = np.concatenate(([0.0], np.cumsum(times.duration_s)))

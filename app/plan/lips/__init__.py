@@ -1,1 +1,1 @@
-"""Lips and tongue."""
+"""Plans the embouchure (lips) and the tonguing of every note."""

@@ -90,7 +90,7 @@ def plan_traces(
 def _spans(
     by_hand: list[SetEmbouchure], notes: tuple[Note, ...], times: LineTimes, at_s: FloatArray
 ) -> list[tuple[SetEmbouchure, slice]]:
-    """Return the range of samples to which each correction applies."""
+    """Return each embouchure set by hand with the range of samples ``at_s`` during its note."""
     if not by_hand:
         return []
     index_of = {note.id: index for index, note in enumerate(notes)}
@@ -104,7 +104,8 @@ def _spans(
 
 
 def _pressed(controller: ControllerInput, clock: TempoMap, at_s: FloatArray, sounds: BoolArray) -> FloatArray:
-    """Tension added by bite and pitch bend; the bite counts from its usual value."""
+    """Return the lip tension (N,) added by a wind controller's bite and pitch bend at the times ``at_s``; the bite
+    counts from its usual value."""
     bite = bend = np.zeros(len(at_s))
     if controller.bite is not None:
         bite = _sampled(controller.bite, clock, at_s)

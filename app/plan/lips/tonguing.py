@@ -175,7 +175,8 @@ def _slurred(
 
 
 def _articulations(notes: tuple[Note, ...], times: LineTimes, slurred: BoolArray, piece: Piece) -> list[Articulation]:
-    """Return the articulation of each note, by its sounding length and its loudness among its neighbours."""
+    """Return the articulation (such as staccato) of each note, by its sounding length and its loudness among its
+    neighbours."""
     onset = times.onset_tick
     end = onset + np.array([note.duration_tick for note in notes], np.int64)
     quarter = piece.clock.ticks_per_quarter

@@ -31,7 +31,7 @@ LEAST_PLAYED_S = 0.03
 
 @dataclass(frozen=True, eq=False)
 class BreathEnvelope:
-    """A breath curve over time.
+    """A recorded breath curve over time, in seconds.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class BreathEnvelope:
     __hash__ = None  # type: ignore[assignment]
 
     def mean(self, starts_s: FloatArray, ends_s: FloatArray) -> FloatArray:
-        """Mean value over each span."""
+        """Return the mean value (N,) of the breath controller over each span of seconds."""
         return step_means(self.at_s, self.values, starts_s, ends_s)
 
     def plays(self, times: LineTimes) -> BoolArray:
@@ -64,7 +64,7 @@ class BreathEnvelope:
         return np.asarray(self.mean(times.onset_s, ends_s) > STOPS_AT)
 
     def has_breath_gaps(self, times: LineTimes) -> bool:
-        """Return whether the gaps of the curve are breaths."""
+        """Return whether the gaps of the recorded breath curve are breaths."""
         gaps_s = self.gaps_s[np.isfinite(self.gaps_s).all(axis=1)]
         gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= GASP_S]
         played = self.plays(times)
@@ -101,13 +101,13 @@ class BreathGaps:
 
 
 def blown(steps: ControllerSteps, clock: TempoMap) -> BreathEnvelope:
-    """The breath curve in seconds, with its gaps."""
+    """Return the recorded breath of a controller in seconds, with the gaps in which nothing is blown."""
     at_s = clock.seconds(steps.ticks)
     return BreathEnvelope(at_s, steps.values, find_gaps(at_s, steps.values))
 
 
 def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
-    """Spans (G, 2) in seconds without breath, however short; also before the first value."""
+    """Return the G spans (G, 2) in seconds without breath, however short; also before the first value."""
     reported = np.where(values >= BLOWS_FROM, 1, np.where(values <= STOPS_AT, 0, -1))
     last: IntArray = np.maximum.accumulate(np.where(reported >= 0, np.arange(len(reported)), -1))
     blows = np.where(last >= 0, reported[last], 0)
@@ -118,7 +118,8 @@ def find_gaps(at_s: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def gaps_within(envelope: BreathEnvelope, times: LineTimes) -> list[tuple[int, float, float]]:
-    """Return the longest gap within each note that has one: note index, start and end in seconds."""
+    """Return the longest gap in the recorded breath within each note that has one: index of the note, start and end in
+    seconds."""
     gaps_s = envelope.gaps_s[np.isfinite(envelope.gaps_s).all(axis=1)]
     gaps_s = gaps_s[gaps_s[:, 1] - gaps_s[:, 0] >= BREATH_S]
     notes = np.searchsorted(times.onset_s + LEAST_PLAYED_S, gaps_s[:, 0]) - 1
@@ -156,7 +157,8 @@ def silences(envelope: BreathEnvelope, times: LineTimes) -> BreathGaps:
 
 
 def step_means(at: FloatArray, values: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-    """Mean of a step function over spans; before its first step the function has its first value."""
+    """Return the mean (N,) of a step function over spans from ``starts`` to ``ends``; before its first step at ``at``
+    the function has its first value."""
     area = np.concatenate([[0.0], np.cumsum(values[:-1] * np.diff(at))])
 
     def integral(places: FloatArray) -> FloatArray:

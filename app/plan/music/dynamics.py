@@ -42,7 +42,8 @@ class Dynamics:
     accents: FloatArray
 
     def at(self, times_s: FloatArray) -> FloatArray:
-        """Size of motion at some times; 1 if nothing is played."""
+        """Factor (N,) by which motions are larger or smaller at given seconds because of loudness; 1 if nothing is
+        played."""
         if len(self.at_s) == 0:
             return np.ones(len(times_s))
         return np.asarray(np.interp(times_s, self.at_s, self.vigour))
@@ -75,7 +76,7 @@ def dynamics_of(times: LineTimes, envelope: BreathEnvelope | None) -> Dynamics:
 
 
 def vigour_of(loudness: FloatArray) -> FloatArray:
-    """Size of motion at a loudness 0..1, relative to mezzoforte."""
+    """Return the factor (N,) by which motions are larger or smaller at a loudness 0..1, relative to mezzoforte."""
     return np.asarray(np.interp(np.round(loudness, 6), LOUDNESSES, VIGOURS))
 
 
@@ -120,7 +121,8 @@ def louder_by(times: LineTimes) -> FloatArray:
 
 
 def _accents(times: LineTimes) -> FloatArray:
-    """Return the excess loudness of each accented note; of consecutive accents only the first counts."""
+    """Return by how much each accented note (N,) is louder than its surroundings, else 0; of consecutive accents only
+    the first counts."""
     more = louder_by(times)
     louder = np.append(-np.inf, times.loudness[:-1]) + ACCENT / 2.0 <= times.loudness
     return np.where((more >= ACCENT) & louder, more, 0.0)

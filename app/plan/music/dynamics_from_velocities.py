@@ -152,7 +152,7 @@ def is_level(velocity: FloatArray) -> bool:
 
 
 def _smoothed(velocity: IntArray | FloatArray) -> FloatArray:
-    """(M,): medians of several notes, or the velocities of a short line."""
+    """Return the medians (M,) of several neighbouring velocities, or the M velocities of a short line unchanged."""
     if len(velocity) < 4 * STROKES:
         return velocity.astype(np.float64)
     return running_medians(velocity, STROKES)
@@ -203,7 +203,8 @@ def levels_in_force(part: Velocities, reading: VelocityReading | None = None) ->
 
 
 def _by_distribution(velocity: IntArray, reading: VelocityReading) -> tuple[FloatArray, IntArray]:
-    """Loudness and dynamics of played music, or of music written with unknown levels."""
+    """Return loudness (N,) 0..1 and dynamic level (N,) of notes from their velocities, for played music, or music
+    written with unknown levels."""
     unmeant = (1.0 - reading.meant) * UNMEANT_SPREAD / 2.0
     level = MEZZOFORTE + reading.meant * ((reading.usual + reading.shift) / 127.0 - MEZZOFORTE)
     stroke = velocity - reading.usual

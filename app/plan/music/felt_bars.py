@@ -37,7 +37,7 @@ OFF_BEAT_SHARE = 0.8
 
 
 def lowest(lines: Sequence[LineTimes]) -> tuple[bool, ...]:
-    """Return whether each line is the lowest on average."""
+    """Return for each part of an ensemble whether it is the lowest on average; several parts may be."""
     heights = [float(times.pitch.mean()) if len(times.pitch) else np.inf for times in lines]
     return tuple(height == min(heights) for height in heights)
 

@@ -127,9 +127,8 @@ class _Gaps(msgspec.Struct, frozen=True):
 
 
 def _rows(gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[list[tuple[int, Fermata]]]:
-    """Fermatas on successive chords, with their places: two to `MOST_IN_A_ROW` gaps, much slower than the music before
-    and after all of them.
-    """
+    """Return rows of fermatas on successive chords, each with the index of its gap: two to `MOST_IN_A_ROW` gaps, much
+    slower than the music before and after all of them."""
     rows: list[list[tuple[int, Fermata]]] = []
     slowness: list[float] = gaps.slowness.tolist()
     done = -1
@@ -160,7 +159,8 @@ def _uneven(slowness: FloatArray) -> list[int]:
 
 
 def _row(first: int, last: int, gaps: _Gaps, sounding: list[NoteTimes], piece: Piece) -> list[tuple[int, Fermata]]:
-    """Fermatas of consecutive gaps; empty unless each gap is one."""
+    """Return the fermatas of consecutive gaps ``first`` to ``last`` with the index of each gap; empty unless every gap
+    is slow enough to be one."""
     slowest = float(gaps.slowness[first : last + 1].min())
     after = _beats(int(gaps.ends[last]), AFTER_BEATS, piece)
     before = _beats(int(gaps.starts[first]), -BEFORE_BEATS, piece) if first else after
@@ -214,13 +214,14 @@ def _moves(place: int, gaps: _Gaps) -> bool:
 
 
 def _is_live(beats: FloatArray) -> bool:
-    """Decide whether beats were played, or are changing."""
+    """Return whether the lengths of beats (seconds per tick) vary as if they had been played, or change as in a
+    ritardando."""
     quick, slow = np.quantile(beats, (0.25, 0.75))
     return bool(slow > LIVE_SPREAD * quick * (1.0 + ROUNDING))
 
 
 def _beats(tick: int, count: int, piece: Piece) -> FloatArray:
-    """Seconds per tick in each of ``count`` beats after a tick, or before it if ``count`` is negative."""
+    """Seconds per tick (N,) in each of ``count`` beats after a tick, or before it if ``count`` is negative."""
     beat = int(piece.beat_ticks_at(np.array([tick]))[0])
     edges = tick + beat * np.arange(min(count, 0), max(count, 0) + 1, dtype=np.float64)
     lasts: FloatArray = np.diff(piece.clock.seconds(edges)) / beat

@@ -187,7 +187,8 @@ _MARK_COST = _CHANGE_COST
 
 @lru_cache(maxsize=64)
 def _costs(name: str, program: int | None) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """(128, S) each: cost and accent of every velocity on every step of a ladder; (S, S): cost of a change."""
+    """Return cost and accent (128, S) of every velocity on each of the S steps of a ladder, and the cost (S, S) of a
+    change of step."""
     ladder = ladder_of(name, program)
     values = np.array([velocity for _, velocity in ladder.steps])
     loud = np.array([LEVELS[MARKS.get("fff" if mark == "sf" else mark, MF)] for mark, _ in ladder.steps])

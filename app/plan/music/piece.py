@@ -139,11 +139,11 @@ class Piece(msgspec.Struct, frozen=True):
     accompaniment: tuple[tuple[int, int], ...] = ()
 
     def beat_ticks_at(self, ticks: IntArray) -> IntArray:
-        """Length in ticks of the felt beat at each of some ticks."""
+        """Length (N,) in ticks of the felt beat at each tick."""
         return self.metre_map.felt_ticks_at(ticks)
 
     def bars(self, first_tick: int, last_tick: int) -> IntArray:
-        """Ticks at which bars begin; see `MetreMap.bars`."""
+        """Return the ticks (N,) of the bar lines from ``first_tick`` to before ``last_tick``."""
         return self.metre_map.bars(first_tick, last_tick)
 
 
@@ -159,7 +159,7 @@ class NoteTimes:
 
     @property
     def duration_s(self) -> FloatArray:
-        """Sounding time of each note."""
+        """Sounding time (N,) of each note in seconds."""
         return self.played_end_s - self.onset_s
 
     def __eq__(self, other: object) -> bool:
@@ -301,14 +301,14 @@ def note_times(
 
 
 def _swelled(loudness: FloatArray, rows: FloatArray) -> FloatArray:
-    """Loudness raised by a number of dynamic levels."""
+    """Return loudness (N,) 0..1 raised by a number of dynamic levels (N,), such as by 1 from p to mp."""
     if not rows.any():
         return loudness
     return np.where(rows == 0.0, loudness, loudness_of_rows(rows_of_loudness(loudness) + rows))
 
 
 def without_sound(notes: tuple[Note, ...]) -> tuple[Note, ...]:
-    """The notes without pitch and velocity: their times alone."""
+    """Return the notes with pitch and velocity 0, so that only their times matter."""
     return tuple(Note(note.id, note.onset_tick, note.duration_tick, 0, 0) for note in notes)
 
 

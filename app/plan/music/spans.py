@@ -1,4 +1,4 @@
-"""Spans of time that can be queried quickly."""
+"""Sets of time spans that can be queried quickly."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Spans:
         self._latest_ends_s = list(itertools.accumulate((end_s for _, end_s in ordered), max))
 
     def hold(self, start_s: float, end_s: float) -> bool:
-        """Return whether one of the spans contains the given one."""
+        """Return whether any of the spans contains all of the span from ``start_s`` to ``end_s``."""
         begun = bisect_right(self._starts_s, start_s)
         return begun > 0 and self._latest_ends_s[begun - 1] >= end_s
 

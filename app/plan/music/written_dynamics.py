@@ -53,7 +53,8 @@ class WrittenDynamics(NamedTuple):
     struck: tuple[int, ...]
 
     def rows_at(self, ticks: FloatArray) -> FloatArray:
-        """Dynamic in force at some ticks; NaN where there is none."""
+        """Written dynamic in force at given ticks as a row of `DYNAMICS`, fractional within a hairpin; NaN where there
+        is none."""
         found = np.full(len(ticks), np.nan)
         if len(self.ticks):
             known = ticks >= self.ticks[0]
@@ -102,9 +103,8 @@ def written_dynamics(marks: Iterable[Mark], source: Source, quarter: int) -> Wri
 
 
 def note_dynamics(onsets: IntArray, written: WrittenDynamics, quarter: int) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Loudness of each note at its onset (NaN without a dynamic in force), change in rows by hairpins, and whether the
-    loudness applies to this note alone.
-    """
+    """Return loudness (N,) 0..1 of each note at its onset (NaN without a dynamic in force), its change in rows of
+    `DYNAMICS` by hairpins, and a mask of those whose loudness applies to that note alone."""
     at = onsets.astype(np.float64)
     rows = written.rows_at(at)
     struck = np.zeros(len(onsets), dtype=bool)
@@ -116,12 +116,12 @@ def note_dynamics(onsets: IntArray, written: WrittenDynamics, quarter: int) -> t
 
 
 def loudness_of_rows(rows: FloatArray) -> FloatArray:
-    """Loudness 0..1 of rows of `DYNAMICS`."""
+    """Loudness (N,), 0..1, of dynamics given as rows of `DYNAMICS`, such as 0 for the softest."""
     return np.asarray(np.interp(rows, np.arange(len(LEVELS)), LEVELS))
 
 
 def rows_of_loudness(loudness: FloatArray) -> FloatArray:
-    """Rows of `DYNAMICS` for a loudness 0..1."""
+    """Rows (N,) of `DYNAMICS`, fractional, for a loudness 0..1."""
     return np.asarray(np.interp(loudness, LEVELS, np.arange(len(LEVELS), dtype=np.float64)))
 
 

@@ -22,7 +22,7 @@ OF_STROKE: Final = ("staccatissimo", "staccato", "tenuto", "accent", "marcato")
 
 
 class WrittenFingerings(NamedTuple):
-    """Fingerings in a score, by note; empty: none."""
+    """The fingerings written in a score, one entry per note; empty text: none."""
 
     label: tuple[str, ...] = ()
     by_hand: tuple[bool, ...] = ()
