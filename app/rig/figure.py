@@ -87,7 +87,7 @@ class Figure:
 
 @dataclass(frozen=True, eq=False)
 class OwnSkeleton:
-    """Origin of a character's joints.
+    """The user's figure from which a character was made, and how its bones relate to the joints.
 
     Attributes
     ----------

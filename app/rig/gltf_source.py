@@ -42,7 +42,7 @@ class GltfSource:
 
     @cached_property
     def materials(self) -> tuple[Material, ...]:
-        """Return the file's materials with their readable textures."""
+        """Materials of the glTF file, with those textures that could be read."""
         return scene_materials(self.gltf, own=self.gltf.generator == OURS)
 
 
@@ -58,7 +58,7 @@ def invalid(path: Path | str, detail: str) -> FileError:
 
 
 def build_mesh(source: GltfSource, index: int, name: str) -> tuple[Mesh, bool]:
-    """Build a mesh of a file from its primitives; the second result is whether it is skinned.
+    """Return a mesh of a glTF file, joined from its primitives, and whether it is skinned.
 
     Shared vertices of primitives stay shared, so that vertex indices of the file remain valid.
     """
@@ -151,7 +151,7 @@ def _morph(name: str, parts: list[tuple[int, GltfPrimitive, int]]) -> Morph:
 
 
 def _world(nodes: tuple[GltfNode, ...]) -> FloatArray:
-    """Rest transforms of all nodes; the reader has refused circles."""
+    """Return the transforms (N, 4, 4) of all glTF nodes in the world at rest."""
     world = np.tile(np.eye(4), (len(nodes), 1, 1))
     done = [False] * len(nodes)
     for index in range(len(nodes)):

@@ -61,7 +61,7 @@ class Limb:
 
     @property
     def length_m(self) -> float:
-        """Upper plus lower bone."""
+        """Length in metres of upper and lower bone together."""
         return self.upper_m + self.lower_m
 
     @cached_property
@@ -190,7 +190,8 @@ def _soft_limit(distance: FloatArray, longest: float, shortest: float) -> FloatA
 
 
 def _rest_frame(rest: FloatArray, hinge: FloatArray) -> FloatArray:
-    """Return the rotation (4,) from a bone's direction at rest, and the orthogonal part of its hinge, to the axes."""
+    """Return the rotation (4,) that takes a bone's direction at rest, and the part of its hinge orthogonal to that, to
+    the coordinate axes."""
     hinge = hinge - rest * float(rest @ hinge)
     return quaternion.conjugate(quaternion.from_frames(rest, hinge / np.linalg.norm(hinge)))
 

@@ -14,7 +14,7 @@ from app.formats.texture_colors import plain_material
 
 @dataclass(frozen=True, eq=False)
 class Morph:
-    """A morph target, sparse: displacement of some vertices in the mesh's bind space, metres."""
+    """A morph target with entries only for the vertices it moves: displacement in the mesh's bind space, metres."""
 
     name: str
     vertices: npt.NDArray[np.int32]
@@ -51,7 +51,7 @@ class Mesh:
 
 
 def plain_materials(mesh: Mesh) -> tuple[Material, ...]:
-    """A mesh's materials without textures, in their mean colours."""
+    """Return a mesh's materials with each texture replaced by its mean colour."""
     made = []
     for number, material in enumerate(mesh.materials):
         corners = mesh.uvs[mesh.triangles[mesh.triangle_materials == number]]

@@ -41,7 +41,7 @@ VRM_ANIMATION: Final = "VRMC_vrm_animation"
 
 @dataclass(frozen=True, eq=False)
 class _Nodes:
-    """An animated hierarchy in metres, Y up.
+    """An animated hierarchy of N nodes in metres, Y up.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class _Nodes:
     rest : (N, 4, 4) float64
         World transforms.
     translations_m, rotations, scales : (F, N, 3), (F, N, 4), (F, N, 3) float64
-        On the parent.
+        Relative to the parent; F frames.
     """
 
     names: Sequence[str]
@@ -127,7 +127,7 @@ def _members(value: object) -> dict[str, Any]:
 
 
 def _node(gltf: GltfModel, owner: object) -> tuple[int, ...]:
-    """Return the node that an object of the extension refers to, if it exists."""
+    """Return the index of the node that an object of a glTF extension refers to; empty if it does not exist."""
     node = field(owner, "node")
     return (node,) if isinstance(node, int) and 0 <= node < len(gltf.nodes) else ()
 
@@ -148,9 +148,8 @@ def _usual_fps(animation: GltfAnimation) -> Fraction:
 
 
 def _sampled(gltf: GltfModel, animation: GltfAnimation, times_s: FloatArray) -> list[FloatArray]:
-    """Return translations, rotations and scales (F, N, W) of all nodes, with the file's values for those without
-    animation.
-    """
+    """Return translations, rotations and scales (F, N, W) of N nodes at F times, with the file's values for those
+    without animation; W is 3 or 4 numbers."""
     kept: dict[str, tuple[str, int]] = {
         "translation": ("translation", 3),
         "rotation": ("rotation_xyzw", 4),

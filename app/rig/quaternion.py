@@ -357,7 +357,8 @@ MANY = 64
 
 
 def interpolated(values: FloatArray, rotations: FloatArray, value: FloatArray) -> FloatArray:
-    """Interpolate rotations (S, n, 4), given at ascending values (S,), at ``value`` (F,): (F, n, 4)."""
+    """Interpolate rotations (S, n, 4) of n joints, given at S ascending values (S,), at ``value`` (F,); returns (F, n,
+    4)."""
     if len(values) == 1:
         return np.broadcast_to(rotations[0], (len(value), *rotations.shape[1:]))
     starts = np.flatnonzero(np.concatenate(([True], value[1:] != value[:-1]))) if len(value) > MANY else value

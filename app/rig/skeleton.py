@@ -45,7 +45,7 @@ class JointTransforms:
 
 
 def ancestors(skeleton: Skeleton, joint: int) -> tuple[int, ...]:
-    """Return the chain from the root to a joint, both included."""
+    """Return the indices of the joints from the root to a joint, both included."""
     chain = []
     while joint >= 0:
         chain.append(joint)
@@ -54,12 +54,12 @@ def ancestors(skeleton: Skeleton, joint: int) -> tuple[int, ...]:
 
 
 def closure(skeleton: Skeleton, joints: Iterable[int]) -> tuple[int, ...]:
-    """Return joints and all their ancestors, ascending."""
+    """Return the given joints and all their ancestors as ascending indices, so that a pose of them can be computed."""
     return tuple(sorted({above for joint in joints for above in ancestors(skeleton, joint)}))
 
 
 def rest_positions(skeleton: Skeleton) -> FloatArray:
-    """Return (J, 3) the joints' world positions in the rest pose."""
+    """Return the world positions (J, 3) of the skeleton's J joints in the rest pose, metres."""
     positions = np.array(skeleton.offsets_m, dtype=np.float64)
     for joint, parent in enumerate(skeleton.parents):
         if parent >= 0:

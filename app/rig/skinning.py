@@ -39,13 +39,13 @@ class Skin:
 
     @cached_property
     def _blend(self) -> FloatArray:
-        """Return the matrix (4 * J, V) that skins all vertices of all frames by one product."""
+        """Matrix (4 J, V) that skins V vertices with J joints in all frames by one product."""
         homogeneous = np.concatenate([self.positions_m, np.ones((len(self.positions_m), 1))], axis=1)
         blend: FloatArray = np.einsum("vj,vi->jiv", self.weights, homogeneous).reshape(-1, len(self.positions_m))
         return blend
 
     def part(self, rows: AnyIntArray) -> Skin:
-        """The prepared data of some of the vertices."""
+        """Return the data prepared for skinning, of only the vertices ``rows``."""
         weights = self.weights[rows]
         used = np.flatnonzero(weights.any(axis=0))
         morphs = {name: deltas[rows] for name, deltas in self.morphs.items() if deltas[rows].any()}
@@ -82,7 +82,7 @@ class Skin:
 
 @dataclass(frozen=True, eq=False)
 class Patch(Skin):
-    """Prepared vertices as of `Skin`, with normals (V, 3)."""
+    """Vertices prepared for skinning as `Skin`, with the normals (V, 3) of the V vertices."""
 
     normals: FloatArray
 
@@ -146,7 +146,8 @@ def patch(character: Character, mesh: Mesh, vertices: AnyIntArray) -> Patch:
 
 
 def skin_matrices(joints: IndexArray, joint_from_mesh: FloatArray, transforms: JointTransforms) -> FloatArray:
-    """Return ``world_from_mesh`` of some joints, (F, J, 3, 4), for their inverse bind matrices (J, 3, 4)."""
+    """Return the matrices (F, J, 3, 4) that move the mesh with J joints in F frames, ``world_from_mesh``, for the
+    joints' inverse bind matrices (J, 3, 4)."""
     places = np.searchsorted(np.asarray(transforms.joints), joints)
     turn = quaternion.to_matrix(transforms.rotations[:, places])
     result: FloatArray = turn @ joint_from_mesh
@@ -236,5 +237,5 @@ def landmark_positions(
 
 
 def landmark_joints(character: Character, names: Sequence[str]) -> tuple[int, ...]:
-    """Return the joints that `landmark_positions` needs for landmarks, ascending."""
+    """Return the ascending indices of the joints that must be posed for `landmark_positions` of these landmarks."""
     return tuple(landmark_set(character, tuple(names)).joints.tolist())

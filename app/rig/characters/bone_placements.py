@@ -13,7 +13,7 @@ from app.rig import quaternion
 def world_placements(
     parents: Sequence[int], offsets_m: FloatArray, rotations: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return world positions (B, 3) and rotations (B, 4) of bones from those relative to their parents."""
+    """Return world positions (B, 3) and rotations (B, 4) of B bones from those relative to their parents."""
     positions, turned = np.array(offsets_m, np.float64), np.array(rotations, np.float64)
     for bone, parent in enumerate(parents):
         if parent >= 0:
@@ -25,7 +25,7 @@ def world_placements(
 def local_placements(
     parents: Sequence[int], positions: FloatArray, turned: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return offsets (B, 3) and rotations (B, 4) of bones relative to their parents from those in the world."""
+    """Return offsets (B, 3) and rotations (B, 4) of B bones relative to their parents from those in the world."""
     offsets, rotations = np.array(positions, np.float64), np.array(turned, np.float64)
     for bone, parent in enumerate(parents):
         if parent >= 0:

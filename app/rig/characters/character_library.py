@@ -116,7 +116,7 @@ def bundled_characters() -> Mapping[str, Path]:
 
 @cache
 def our_characters() -> Mapping[str, Path]:
-    """Return all bundled characters: complete bodies, then people made from them."""
+    """Return the paths of all bundled characters by id: complete bodies, then people made from them."""
     return MappingProxyType({**bundled_characters(), **bundled_people()})
 
 
@@ -126,7 +126,7 @@ def _bundled() -> Mapping[str, CharacterSource]:
 
 
 def _own_source(path: Path) -> Read[CharacterSource]:
-    """The source of an entry. Raises FileError."""
+    """Read the source of a user's character by the path of its entry. Raises FileError."""
     if not path.stem.isprintable():  # Bytes that are no UTF-8 are not printable either.
         raise FileError("character.odd_name", file=str(path))
     if path.stem in our_characters():
@@ -235,7 +235,7 @@ def _loaded(id: str, path: Path, stamp: Stamp, entry: bytes) -> Character:
 
 
 def carriage_of(id: str, instrument_id: str) -> tuple[float, float, float] | None:
-    """Return the change of a person's carriage of an instrument (`Person.carriages`); None: the usual one."""
+    """Return the carriage of an instrument by a person, three shares as in `Person.carriages`; None: as usual."""
     entry = character_library().own.get(id)
     person = bundled_person(id) if id in bundled_people() else None if entry is None else entry.person
     return None if person is None else person.carriages.get(instrument_id)

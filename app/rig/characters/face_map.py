@@ -95,7 +95,7 @@ def _check(figure: Figure, shape: str, own: Mapping[str, float]) -> None:
 
 
 def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
-    """Return the mapping of a figure by a table."""
+    """Return the figure's morphs for each ARKit shape, with weights, by one table of morph names."""
     ways = {shape: table.ways(shape) for shape in table.morphs}
     known = {name for own in ways.values() for way in own for name in way}
     if table.of == "expressions":
@@ -118,7 +118,8 @@ def _shapes(figure: Figure, table: FaceNames) -> dict[str, dict[str, float]]:
 
 
 def _named(morphs: Iterable[str], known: set[str]) -> dict[str, list[str]]:
-    """Return the morphs of a figure for each name of a table, without a prefix or suffix that all of them share."""
+    """Return the figure's morphs for each known name (such as those of ARKit), regardless of a prefix or suffix that
+    all morphs share."""
     keys = {morph: morph_key(morph) for morph in morphs}
     affixes: dict[tuple[str, str], set[str]] = defaultdict(set)
     for key in keys.values():

@@ -33,7 +33,8 @@ def lowest_of_face_m(profile: FloatArray, forward: BoolArray, joint_m: float) ->
 
 
 def nose_base_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float | None:
-    """Height of a profile (V, 3) at which its nose ends; None where no nose stands out."""
+    """Return the height, metres, at which the nose of a profile of V points (V, 3) ends; None where no nose stands
+    out."""
     high, deep, long_m = profile[:, 1], profile[:, 2], eyes_m - chin_m
     of_chin_m = chin_m + CHIN_SHARE * long_m
     middle = np.flatnonzero((high > of_chin_m) & (high < eyes_m))
@@ -69,7 +70,8 @@ def at_height(profile: FloatArray, height_m: float, patch_m: float, count: int) 
 
 
 def notch_m(profile: FloatArray, eyes_m: float, chin_m: float) -> float:
-    """Height at which a profile (V, 3) goes in between two lips; where it does not, as on most faces."""
+    """Return the height, metres, at which a profile of V points (V, 3) goes in between two lips; where it does not,
+    that at which most faces do."""
     steps = np.round((eyes_m - profile[:, 1]) / max(eyes_m - chin_m, 1e-6) * STEPS).astype(np.intp)
     low, high = (round((MOUTH_SHARE + sign * MOUTH_SPREAD) * STEPS) for sign in (-1, 1))
     depths_m = np.array([profile[steps == step, 2].max(initial=-np.inf) for step in range(low, high + 1)])

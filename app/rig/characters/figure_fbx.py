@@ -68,7 +68,8 @@ def fbx_images(path: Path) -> dict[str, bytes]:
 
 
 def _bind_pose(content: FbxContent) -> Mapping[int, FloatArray]:
-    """Return the transform of each bone when its skin was bound; empty if skins contradict each other."""
+    """Return the transform (4, 4) of each bone in the world when its skin was bound, by bone; empty if skins contradict
+    each other."""
     bound: dict[int, FloatArray] = {}
     for mesh in content.meshes:
         for skin in mesh.skins:
@@ -127,7 +128,8 @@ def _parts(
 
 
 def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.int32], SingleArray]:
-    """Clusters and weights of every point, the heaviest first, as wide as the busiest point needs."""
+    """Return the clusters (bones) and weights (P, K) of each of P points of an FBX mesh, the heaviest first, as wide as
+    the busiest point needs."""
     points = np.concatenate([cluster.points for cluster in clusters])
     weights = np.concatenate([cluster.weights[: len(cluster.points)] for cluster in clusters])
     owners = np.repeat(np.arange(len(clusters)), [len(cluster.points) for cluster in clusters])
@@ -143,9 +145,8 @@ def _influences(clusters: list[FbxCluster], count: int) -> tuple[npt.NDArray[np.
 
 
 def _triangulated(mesh: FbxMesh, textures: FbxTextures) -> tuple[Mesh, IntArray]:
-    """Return the mesh without its skin, with a vertex for each combination of point, normal and texture coordinate, and
-    the point of each vertex.
-    """
+    """Return a mesh without skin that has a vertex for each combination of point, normal and texture coordinate, and
+    for each vertex (V,) the index of its point."""
     corners = mesh.corners
     normals = np.zeros((len(corners), 3)) if mesh.normals is None else mesh.normals
     uvs = np.zeros((len(corners), 2)) if mesh.uvs is None else mesh.uvs
@@ -173,7 +174,7 @@ def _triangulated(mesh: FbxMesh, textures: FbxTextures) -> tuple[Mesh, IntArray]
 
 
 def _fans(faces: IntArray) -> tuple[IntArray, IntArray]:
-    """Corners of the triangles (T, 3) of polygons, and the polygon of each."""
+    """Return the corners (T, 3) of the T triangles into which polygons are divided, and the polygon (T,) of each."""
     counts = np.maximum(faces[:, 1] - 2, 0)
     owners = np.repeat(np.arange(len(faces)), counts)
     step = np.arange(len(owners)) - np.repeat(np.cumsum(counts) - counts, counts)

@@ -74,7 +74,8 @@ def gltf_figure(path: Path) -> Figure:
 
 
 def bind_pose(source: GltfSource) -> Mapping[int, FloatArray]:
-    """Return the transform of each joint when its skin was bound; empty if skins contradict each other.
+    """Return the transform (4, 4) of each joint in the world when its skin was bound, by node; empty if skins
+    contradict each other.
 
     A skin is bound in a space of its own, whose place in the world follows from the root joint of the skin, or from a
     joint that another skin has bound too.
@@ -224,7 +225,8 @@ def _vrm0(vrm: dict[str, Any], source: GltfSource) -> tuple[dict[str, int], dict
 def _add(
     weights: dict[str, float], source: GltfSource, mesh: int | None, index: object, weight: object, unit: float
 ) -> None:
-    """Add a bind of an expression to its weights; invalid binds are ignored, as in viewers of such files."""
+    """Add a VRM expression's bind (morph ``index`` of a mesh with a weight) to ``weights`` by morph name; invalid binds
+    are ignored, as viewers do. ``unit`` is the weight that means full."""
     share = _number(weight)
     if mesh is None or share is None or not source.gltf.meshes[mesh].primitives:
         return

@@ -143,9 +143,8 @@ def _attributed(
 
 
 def _joints_of_bones(figure: Figure, rest: Rest, fit: Fit, beside: Mapping[int, int]) -> npt.NDArray[np.int32]:
-    """Return the joint that moves each bone's skin: its own, the nearest ancestor, the hips for ancestors of the hips,
-    or the nearest in space.
-    """
+    """Return for each bone of the figure the joint of the character that moves its skin (bones,): its own, the nearest
+    ancestor's, the hips for bones above the hips, or the nearest in space."""
     hips = fit.names.index("hips")
     joint_of = {bone: joint for joint, bone in enumerate(fit.bones) if bone >= 0} | dict(beside)
     carried = np.full(len(figure.parents), -1, dtype=np.int32)
@@ -213,7 +212,8 @@ def _without_turned_balls(mesh: Mesh, eyes: Sequence[int]) -> Mesh:
 
 
 def _merged(joints: npt.NDArray[np.int32], weights: FloatArray) -> tuple[npt.NDArray[np.int32], SingleArray]:
-    """Influences with each joint once per vertex, the heaviest first, as wide as needed."""
+    """Return joints (V, K) and weights (V, K) of vertices with each joint once per vertex, the heaviest first, as wide
+    as needed."""
     joints, weights = joints.copy(), weights.copy()
     for column in range(1, joints.shape[1]):
         for before in range(column):

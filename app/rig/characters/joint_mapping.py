@@ -85,7 +85,7 @@ class JointMapping:
 
 @dataclass(frozen=True)
 class _Found:
-    """Result of one method of mapping."""
+    """Mapping of bones to joints that one method found: by names, by the file's statement or by shape."""
 
     profile: str
     bones: dict[str, int]
@@ -160,9 +160,8 @@ _kept: WeakKeyDictionary[Figure, tuple[Tree, _Found, set[str]]] = WeakKeyDiction
 
 
 def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
-    """Return the mapping without corrections, cached for each figure, since it takes seconds with thousands of
-    bones.
-    """
+    """Return the mapping of bones without the user's corrections, cached for each figure, since it takes seconds with
+    thousands of bones."""
     known = _kept.get(figure)
     if known is None:
         tree = _tree(figure)
@@ -171,7 +170,8 @@ def _without_help(figure: Figure) -> tuple[Tree, _Found, set[str]]:
 
 
 def _automatic(figure: Figure, tree: Tree) -> tuple[_Found, set[str]]:
-    """Return the best automatic mapping, and its guessed joints."""
+    """Return the best mapping of bones to joints found without the user, by names, by the file's own statement or by
+    shape, and the joints that were guessed."""
     named = _by_names(figure, tree)
     if figure.humanoid:
         found = _as_the_file_says(figure, tree, named)
@@ -329,7 +329,7 @@ def _tree(figure: Figure) -> Tree:
 
 
 def _by_names(figure: Figure, tree: Tree) -> _Found:
-    """The best of all tables of names."""
+    """Return the mapping by that table of bone names which suits the figure best."""
     spellings = [[bone_key(name) for name in figure.bone_names]]
     if sum(NUMBERED.search(name) is not None for name in figure.bone_names) >= MOST_NUMBERED * len(figure.bone_names):
         spellings.append([bone_key(NUMBERED.sub("", name)) for name in figure.bone_names])
@@ -434,7 +434,8 @@ def _place_thumbs(tree: Tree, bones: dict[str, int]) -> None:
 
 
 def _corrections(figure: Figure, requested: Mapping[str, str], joints: Sequence[str]) -> dict[str, int | None]:
-    """The user's corrections as bones."""
+    """Return the bone that the user assigned to each joint, by joint name; None where the joint shall have none. Raises
+    FileError for unknown names."""
     found: dict[str, int | None] = {}
     for joint, name in requested.items():
         if joint not in joints:

@@ -43,7 +43,7 @@ EYES_M, HEAD_M = 0.06, 0.217
 
 @dataclass(frozen=True, eq=False)
 class _Skin:
-    """A mesh in the rest pose: positions and normals (V, 3), weights (V, J) on all joints."""
+    """A mesh in the rest pose: positions and normals (V, 3) of V vertices, and their weights (V, J) on all J joints."""
 
     mesh: Mesh
     positions: FloatArray
@@ -52,7 +52,7 @@ class _Skin:
 
 
 def found_landmarks(skeleton: Skeleton, joint_from_mesh: FloatArray, meshes: tuple[Mesh, ...]) -> dict[str, Landmark]:
-    """Return the landmarks of a character.
+    """Return the landmarks on a character's skin by name, such as palms, finger tips and lips.
 
     A landmark that cannot be found (a palm on a hand without skin) is omitted.
     """
@@ -82,16 +82,15 @@ def _rest_skin(skeleton: Skeleton, joint_from_mesh: FloatArray, mesh: Mesh) -> _
 
 
 def _own(skin: _Skin, joints: list[int], least: float) -> IndexArray:
-    """Return the vertices that belong to some joints."""
+    """Return the vertices (K,) whose weights of the given joints add up to more than ``least``."""
     return np.flatnonzero(skin.weights[:, joints].sum(axis=1) > least)
 
 
 def _patch(
     skin: _Skin, own: IndexArray, origin: FloatArray, direction: FloatArray, count: int, within_m: float = PATCH_M
 ) -> IndexArray:
-    """Return the vertices around the point at which a ray from inside a limb leaves its skin, or the nearest if none
-    faces that direction.
-    """
+    """Return the indices (K,) of ``count`` vertices around the point at which a ray from ``origin`` inside a limb
+    leaves its skin; those nearest to it if no skin faces ``direction``."""
     off = skin.positions[own] - origin
     along = off @ direction
     across = np.linalg.norm(off - along[:, None] * direction, axis=1)
@@ -174,7 +173,7 @@ def _of_phalanx(hand: _Skin, skins: list[_Skin], joint: int, least: float) -> tu
 
 
 def _sole(skeleton: Skeleton, skins: list[_Skin], side: Side) -> dict[str, Landmark]:
-    """Return the lowest skin of a foot: of its shoe, or of the leg if nothing moves with the foot."""
+    """Return the landmarks of the lowest skin of a foot: of its shoe, or of the leg if nothing moves with the foot."""
     named = (f"{side}Foot", f"{side}Toes"), (f"{side}LowerLeg",)
     for names in named:
         joints = [skeleton.names.index(name) for name in names if name in skeleton.names]
@@ -232,7 +231,8 @@ def eye_distance(character: Character) -> float:
 
 
 def _eyes(skeleton: Skeleton, meshes: tuple[Mesh, ...]) -> tuple[FloatArray, FloatArray] | None:
-    """Return the positions of the eyes; None if there are none, or only added joints without skin."""
+    """Return the positions (3,) of left and right eye in the rest pose; None if there are none, or only added joints
+    without skin."""
     names = ("leftEye", "rightEye")
     if not set(names) <= set(skeleton.names):
         return None
@@ -273,9 +273,8 @@ def _lips_by_jaw(skin: _Skin, head: _Head) -> dict[str, Landmark]:
 
 
 def _lips_by_shape(skins: list[_Skin], head: _Head) -> dict[str, Landmark]:
-    """Return the landmarks of the lips on a face without morphs: at a share of the way from eyes to chin, in the notch
-    of the profile if there is one.
-    """
+    """Return the landmarks of the lips by name on a face without morphs: at a share of the way from eyes to chin, in
+    the notch of the profile if there is one."""
     profiles = [_profile(skin, head) for skin in skins]
     # Hair, lashes and teeth hang on the head too: the face covers most of its front's lower half.
     place = max(range(len(skins)), key=lambda number: _covered(skins[number], profiles[number], head), default=-1)
@@ -319,7 +318,7 @@ def _covered(skin: _Skin, front: IndexArray, head: _Head) -> int:
 
 
 def _profile(skin: _Skin, head: _Head) -> IndexArray:
-    """The foremost vertices of a head near the middle of the face, looking ahead."""
+    """Return the indices (K,) of the foremost vertices of a head near the middle of the face, which face forwards."""
     own = _own(skin, head.joints, 0.5)
     off = np.abs(skin.positions[own, 0] - head.place[0])
     if not len(own):

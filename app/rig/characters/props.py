@@ -58,7 +58,7 @@ def props_in_hands(figure: Figure, joints: Mapping[str, int]) -> tuple[str, ...]
 
 
 def _below(figure: Figure, bone: int) -> BoolArray:
-    """Return whether each bone (B,) is a given bone or its descendant."""
+    """Return a mask (B,) of the bones that are a given bone or its descendants."""
     below = np.zeros(len(figure.parents), dtype=np.bool_)
     below[bone] = True
     for other, parent in enumerate(figure.parents):
@@ -68,6 +68,6 @@ def _below(figure: Figure, bone: int) -> BoolArray:
 
 
 def _held(mesh: Mesh, bones: BoolArray) -> np.ndarray:
-    """Return the weight of every vertex (V,) for some bones."""
+    """Return the weight (V,) with which the bones in a mask (B,) hold each of V vertices."""
     weights: np.ndarray = np.where(bones[mesh.joints], mesh.weights, 0.0).sum(axis=1)
     return weights

@@ -108,7 +108,8 @@ def _finger_offset(
     meshes: Sequence[Mesh],
     fit: Fit,
 ) -> FloatArray:
-    """Return the offset of a left finger joint from its parent, by the length of the preceding bone or of the hand."""
+    """Return the offset (3,) of a left finger joint from its parent in metres, for figures without finger bones, by the
+    length of the preceding bone or of the hand."""
     chain = next(chain for chain in HAND_M if part in chain)
     order = list(chain).index(part)
     ways = np.diff(np.vstack([np.zeros(3), *chain.values()]), axis=0)
@@ -177,7 +178,7 @@ def on_the_floor(fit: Fit, meshes: Sequence[Mesh]) -> Fit:
 
 
 def inverse_binds(fit: Fit) -> FloatArray:
-    """Return ``joint_from_mesh`` for vertices in the rest pose."""
+    """Return the matrices (J, 4, 4) that take points of the mesh in its rest pose to the frame of each joint."""
     result = np.tile(np.eye(4), (len(fit.names), 1, 1))
     result[:, :3, :3] = quaternion.to_matrix(fit.turns)
     result[:, :3, 3] = -np.einsum("jab,jb->ja", result[:, :3, :3], fit.rest_m)
@@ -185,7 +186,7 @@ def inverse_binds(fit: Fit) -> FloatArray:
 
 
 def _t_posed(fit: Fit, joint_from_mesh: FloatArray, mesh: Mesh) -> FloatArray:
-    """Vertices (V, 3) in the T-pose."""
+    """Return the vertices (V, 3) of a mesh moved to the T-pose, in metres."""
     matrices = joint_from_mesh[:, :3, :].copy()
     matrices[:, :, 3] += fit.places_m
     result = np.zeros((len(mesh.positions_m), 3))
@@ -197,6 +198,6 @@ def _t_posed(fit: Fit, joint_from_mesh: FloatArray, mesh: Mesh) -> FloatArray:
 
 
 def _held(mesh: Mesh, joints: Sequence[int]) -> BoolArray:
-    """Return whether each vertex belongs to some joints."""
+    """Return for each vertex (V,) whether it is mainly moved by the given joints."""
     held: BoolArray = np.where(np.isin(mesh.joints, joints), mesh.weights, 0.0).sum(axis=1) > OWN_VERTEX
     return held

@@ -63,7 +63,7 @@ def rest_of(figure: Figure) -> Rest:
 
 
 def heaviest(figure: Figure) -> tuple[FloatArray, IntArray]:
-    """Return all vertices (V, 3) at rest and the bone (V,) with the greatest weight for each."""
+    """Return the V vertices (V, 3) of all meshes at rest, and the bone (V,) with the greatest weight for each."""
     points, holders = [np.zeros((0, 3))], [np.zeros(0, np.int64)]
     for mesh in figure.meshes:
         points.append(mesh.positions_m.astype(np.float64))
@@ -194,7 +194,7 @@ class _Pose:
         return self._rest.positions_m[self._bones[name]] if name in self._bones else None
 
     def _way(self, start: str, end: str) -> FloatArray | None:
-        """Return the unit direction between joints; None if one is missing or they coincide."""
+        """Return the unit vector (3,) from one joint to another; None if one is missing or they coincide."""
         a, b = self._at(start), self._at(end)
         if a is None or b is None or np.linalg.norm(b - a) < 1e-6:
             return None
@@ -245,7 +245,8 @@ class _Pose:
         return quaternion.from_matrix(rest_frame.T)
 
     def _mitten(self, side: str) -> FloatArray | None:
-        """Return the middle of a hand without fingers and thumb; None if it has no skin."""
+        """Return the middle (3,) of the skin of a hand without finger bones, not counting the thumb; None if it has no
+        skin."""
         own = {self._bones[side + "Hand"]}
         thumbs = {self._bones[side + name] for name in THUMB if side + name in self._bones}
         for bone, parent in enumerate(self._figure.parents):
@@ -256,13 +257,14 @@ class _Pose:
         return points[held].mean(axis=0) if held.any() else None
 
     def _chain(self, joints: Sequence[str]) -> list[tuple[str, FloatArray | None]]:
-        """Return the existing joints of a chain with their directions."""
+        """Return those joints of a chain that the figure has, each with the unit direction (3,) to the next."""
         present = [name for name in joints if name in self._bones]
         ways = [self._way(a, b) for a, b in pairwise(present)]
         return [*zip(present, [*ways, self._tip(present)] if present else [], strict=True)]
 
     def _tip(self, present: Sequence[str]) -> FloatArray | None:
-        """Return the direction of a chain's last bone: to the bone at its end, or along its own axes if all agree."""
+        """Return the unit direction (3,) of a chain's last bone: to the bone at its end, or along its own axes if all
+        bones of the chain point along the same one."""
         last = self._bones[present[-1]]
         ends = [child for child in self._children.get(last, []) if child not in self._joint_of]
         if len(ends) == 1:
@@ -329,7 +331,7 @@ class _Pose:
         return turns
 
     def _heading(self, side: str) -> FloatArray:
-        """Return the horizontal direction of a foot; forward if unknown."""
+        """Return the horizontal direction (3,) in which a foot points; forward if unknown."""
         foot = self._at(side + "Foot")
         assert foot is not None
         ends = [self._at(side + "Toes")]
@@ -348,7 +350,8 @@ def _unit(vector: FloatArray) -> FloatArray:
 
 
 def _swung(way: FloatArray, target: FloatArray, before: FloatArray) -> FloatArray:
-    """Return the shortest rotation from a rest direction to a target, applied after an existing rotation."""
+    """Return the rotation (4,) that swings a bone from its rest direction to a target by the shortest way, applied
+    after an existing rotation."""
     return quaternion.multiply(quaternion.between(quaternion.rotate(before, way), target), before)
 
 

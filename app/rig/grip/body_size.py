@@ -54,7 +54,7 @@ def hand_size(skeleton: Skeleton) -> float:
 
 
 def arm_m(skeleton: Skeleton, side: Side) -> float:
-    """Upper plus lower arm."""
+    """Return the length in metres of upper and lower arm together."""
     below = (skeleton.index(f"{side}{part}") for part in ("LowerArm", "Hand"))
     return sum(float(np.linalg.norm(skeleton.offsets_m[joint])) for joint in below)
 

@@ -56,7 +56,8 @@ def carrying(body: Body, posture: maps.Posture, carriage: Carriage) -> Posture:
 
 
 def joint_rotations(skeleton: Skeleton, posture: Posture) -> FloatArray:
-    """``parent_from_joint`` (1, J, 4) of the posture's spine and neck; arms as in the T-pose."""
+    """Return the rotations ``parent_from_joint`` (1, J, 4) of J joints with spine and neck in a posture; arms as in the
+    T-pose."""
     rotations = np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1))
     bent: dict[str, FloatArray] = {}
     angles = (posture.spine_deg, posture.spine_turn_deg, posture.spine_left_deg)

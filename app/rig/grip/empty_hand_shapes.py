@@ -42,7 +42,7 @@ def finger_joints(skeleton: Skeleton, side: Side, finger: str) -> tuple[int, ...
 
 @lru_cache(maxsize=64)
 def shaped(skeleton: Skeleton, side: Side, shape: HandShape) -> dict[int, FloatArray]:
-    """Rotation (4,) of every joint of the fingers."""
+    """Return the rotation (4,) of every finger joint, by joint index, for a shape of the empty hand."""
     along = np.array([1.0 if side == "left" else -1.0, 0.0, 0.0])
     rotations: dict[int, FloatArray] = {}
     for finger, angles_deg in zip(FINGERS, SHAPES_DEG[shape], strict=True):

@@ -53,7 +53,8 @@ class ReachTarget:
 
 @dataclass(frozen=True)
 class _Rows:
-    """Chains (R, ...), one for each row; angles that a finger lacks are not ``used``."""
+    """Chains of finger joints solved together, one for each of R rows (first axis of all arrays); angles that a finger
+    lacks are not ``used``."""
 
     offsets_m: FloatArray
     axes: FloatArray
@@ -84,7 +85,8 @@ class _Rows:
 
 
 def fingers_at_targets(asked: Sequence[ReachTarget]) -> list[FloatArray]:
-    """Return rotations (K, n, 4) for each target with the point at its place, within the limits of the joints."""
+    """Return for each request the rotations (K, n, 4) of n joints in K frames that put the finger's point at its
+    target, within the limits of the joints."""
     result: list[FloatArray] = [one.rotations for one in asked]
     lengths = [len(one.chain.offsets_m) for one in asked]
     for length in dict.fromkeys(lengths):
@@ -140,7 +142,7 @@ def distinct_rows(columns: Sequence[npt.NDArray[Any]]) -> tuple[IndexArray, Inde
 
 @lru_cache(maxsize=16)
 def _factors(count: int) -> npt.NDArray[np.uint64]:
-    """Return odd numbers for a hash sum with wrap-around."""
+    """Return ``count`` fixed odd factors, by which arrays are hashed with a wrapping sum."""
     return np.random.default_rng(1).integers(0, 2**63, count, dtype=np.uint64) * np.uint64(2) + np.uint64(1)
 
 
@@ -152,7 +154,8 @@ def _brought(
     requested_m: FloatArray,
     stay_m: FloatArray,
 ) -> FloatArray:
-    """Return angles after a few damped Gauss-Newton steps (Wampler 1986)."""
+    """Return finger angles after a few damped Gauss-Newton steps (Wampler 1986) that bring ``tip_m`` of each joint to
+    ``requested_m``, while the angles stay near ``stay_m``."""
     rows = np.arange(len(rotations))
     each, joints, kinds = rows[:, None], chains.joints, chains.kinds
     moves = (chains.used & (joints <= joint[:, None]))[..., None]
@@ -193,7 +196,8 @@ def _brought(
 
 
 def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
-    """Return the axes (R, n, 3, 3) about which each angle turns a joint, in the frame of the joint above."""
+    """Return the axes (R, n, 3, 3) about which each of three angles turns each of n joints in R rows, in the frame of
+    the joint above."""
     axis = chains.axes
     swing = angles[..., 0, None] * axis[:, :, 0] + angles[..., 1, None] * axis[:, :, 1]
     angle = np.maximum(np.sqrt(np.einsum("kni,kni->kn", swing, swing)), 1e-9)[..., None, None]
@@ -206,14 +210,14 @@ def _axes(chains: _Rows, angles: FloatArray) -> FloatArray:
 
 
 def _step(slopes: FloatArray, off_m: FloatArray, stiff: FloatArray) -> FloatArray:
-    """Return the angles (R, D) that move a point by ``off_m`` (R, 3), by damped least squares."""
+    """Return the D angles (R, D) of R rows that move a point by ``off_m`` (R, 3), by damped least squares."""
     normal = np.einsum("kdi,kdj->kij", slopes, slopes) + stiff
     step: FloatArray = np.einsum("kdi,ki->kd", slopes, np.linalg.solve(normal, off_m[..., None])[..., 0])
     return step
 
 
 def _forward(chains: _Rows, rotations: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Places (R, n, 3) and rotations (R, n, 4) of the joints in the wrist's frame."""
+    """Return positions (R, n, 3) and rotations (R, n, 4) of n joints in R rows, in the wrist's frame."""
     places, bases = np.empty((*rotations.shape[:2], 3)), np.empty_like(rotations)
     places[:, 0], bases[:, 0] = chains.offsets_m[:, 0], rotations[:, 0]
     for index in range(1, rotations.shape[1]):
@@ -223,7 +227,7 @@ def _forward(chains: _Rows, rotations: FloatArray) -> tuple[FloatArray, FloatArr
 
 
 def _angles(chains: _Rows, rotations: FloatArray) -> FloatArray:
-    """Flexion, sideways and twist (R, n, 3) of rotations."""
+    """Return flexion, sideways bend and twist (R, n, 3), radians, of the rotations of n joints in R rows."""
     twist = chains.axes[:, :, 2]
     swing, _ = quaternion.swing_twist(rotations, twist)
     bent = quaternion.to_rotation_vector(swing)
@@ -233,7 +237,8 @@ def _angles(chains: _Rows, rotations: FloatArray) -> FloatArray:
 
 
 def _turned(chains: _Rows, angles: FloatArray) -> FloatArray:
-    """Rotations (R, n, 4) of angles: swing after twist, as `app.rig.grip.fitting.hand_model.joint_rotations`."""
+    """Return the rotations (R, n, 4) of n joints in R rows for given angles: swing after twist, as
+    `app.rig.grip.fitting.hand_model.joint_rotations`."""
     axes = chains.axes
     swing = angles[..., 0, None] * axes[:, :, 0] + angles[..., 1, None] * axes[:, :, 1]
     return quaternion.multiply(

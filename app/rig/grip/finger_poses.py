@@ -112,9 +112,8 @@ def _heights(hand: HandHold, controls: Controls, raised: FloatArray) -> dict[str
 
 @dataclass(frozen=True)
 class _Way:
-    """Frames in which a finger moves from one station to another (or stays), with its joints; ``given``: the wrist is
-    offset, or a finger waits for that.
-    """
+    """The frames in which a finger moves from station ``first`` to ``second`` (or stays), with its joints; ``given`` is
+    True if the wrist is offset or another finger waits for that."""
 
     table: FingerTable
     first: int
@@ -136,7 +135,8 @@ def _moved(hand: HandHold, frames: int, placed: Mapping[str, StationBlend] | Non
 
 
 def _ways(table: FingerTable, where: StationBlend | None, frames: IndexArray, joints: slice, given: bool) -> list[_Way]:
-    """The ways between two stations among some frames."""
+    """Return the frames in which a finger moves between two stations, grouped by the pair of stations; ``where`` is
+    None if the finger has one station only."""
     if not len(frames):
         return []
     if where is None:
@@ -188,14 +188,15 @@ def _posed(
 
 
 def _solved(asked: Sequence[FloatArray | ReachTarget]) -> list[FloatArray]:
-    """Return the poses with requested ones solved; equal requests are solved once."""
+    """Return the poses of fingers, where each request to reach a target is replaced by the pose that does; equal
+    requests are solved once."""
     requested = {id(one): one for one in asked if isinstance(one, ReachTarget)}
     found = dict(zip(requested, fingers_at_targets(list(requested.values())), strict=True))
     return [found[id(one)] if isinstance(one, ReachTarget) else one for one in asked]
 
 
 def solved_pose(asked: FloatArray | ReachTarget) -> FloatArray:
-    """Solve a single pose."""
+    """Return a finger's pose: the one that reaches a target, or the given pose unchanged."""
     return _solved([asked])[0]
 
 
@@ -240,7 +241,8 @@ def _on_way(
 def raised_way(
     table: FingerTable, first: int, second: int, rotations: FloatArray, share: FloatArray, away_m: FloatArray
 ) -> FloatArray | ReachTarget:
-    """Return rotations (K, n, 4) of a finger lifted between two stations, most at half way."""
+    """Return the rotations (K, n, 4) of a finger's n joints in K frames, lifted between two stations, most at half
+    way."""
     near, far = table.stations[first], table.stations[second]
     if table.chain is None or min(near.tip_joint, far.tip_joint) < 0 or not np.any(away_m):
         return rotations
@@ -267,7 +269,7 @@ class _Given:
     wrist: tuple[FloatArray, FloatArray]
 
     def waits(self, offset: WristOffset) -> FloatArray:
-        """Return the share (K,) of an offset that is not applied yet, 0..1."""
+        """Return the share (K,), 0..1, of a wrist offset that is not applied yet in each of K frames."""
         weight = next((weight[self.frames] for one, weight in self.leans if one is offset), np.zeros(len(self.frames)))
         return 1.0 - weight
 
@@ -275,7 +277,8 @@ class _Given:
 def _at_place(
     hand: HandHold, table: FingerTable, index: int, rotations: FloatArray, given: _Given
 ) -> FloatArray | ReachTarget:
-    """Return rotations (K, n, 4) at a station for another wrist than that of the solution."""
+    """Return the rotations (K, n, 4) of a finger's n joints in K frames at a station, for another wrist than that of
+    the solution."""
     station = table.stations[index]
     if station.tip_joint < 0:
         return rotations
@@ -310,7 +313,7 @@ def with_wrist(
 
 
 def tip_m(table: FingerTable, station: StationTable, rotations: FloatArray) -> FloatArray:
-    """Return the position (K, 3) of a station's touching point in the wrist's frame."""
+    """Return the position (K, 3) of a station's touching point in the wrist's frame in K frames, metres."""
     return _tip(table, rotations, np.broadcast_to(station.tip_m, (len(rotations), 3)), station.tip_joint)
 
 

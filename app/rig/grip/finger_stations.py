@@ -47,7 +47,8 @@ class Station:
 
 
 def stations(instrument: InstrumentMap) -> Mapping[str, tuple[Station, ...]]:
-    """Return the stations of every finger with contacts, home first."""
+    """Return the stations (groups of keys that a finger reaches from one position) of every finger that touches the
+    instrument, home first."""
     return _stations(instrument.contacts, instrument.controls)
 
 
@@ -148,9 +149,8 @@ def kinds_of_notes(
 
 
 def asked_together(instrument: InstrumentMap) -> tuple[tuple[tuple[str, int], tuple[str, int]], ...]:
-    """Return pairs of stations other than home, of one hand's fingers, that some fingering needs simultaneously;
-    sorted.
-    """
+    """Return the pairs of (finger, station), both away from home, that fingers of one hand need at the same time in any
+    fingering; sorted."""
     working = stations_of_notes(instrument, ((one.controls, one.fingers) for one in instrument.fingerings))
     away = [
         (finger, number) for finger, numbers in working.items() for number in range(1, int(numbers.max(initial=0)) + 1)

@@ -176,7 +176,7 @@ class WristOffset:
 
     @property
     def places(self) -> tuple[tuple[str, int], ...]:
-        """Return the fingers that the offset is for with their stations."""
+        """Pairs of finger and station for which the offset of the wrist is made."""
         return (self.finger, self.station), *self.beside
 
 
@@ -283,7 +283,7 @@ class Lips:
 
 @dataclass(frozen=True)
 class GripPose:
-    """A character's hold of an instrument; see the module."""
+    """A character's hold of an instrument: hands, lips and how well the contacts fit."""
 
     character_id: str
     instrument_id: str

@@ -53,7 +53,7 @@ class Bodies:
         return len(self.nodes)
 
     def taken(self, chosen: BoolArray) -> Bodies:
-        """Only the chosen bodies."""
+        """Return only the bodies chosen by a mask."""
         edges = np.cumsum([0, len(self.tapers), len(self.capsules), len(self.rings), len(self.boxes)])
         keep = [chosen[a:b] for a, b in itertools.pairwise(edges)]
         return Bodies(
@@ -67,7 +67,7 @@ class Bodies:
 
 
 def bodies(proxy: Sequence[Proxy], node_names: Sequence[str]) -> Bodies:
-    """Turn a map's proxies into arrays."""
+    """Return the simple bodies that stand for an instrument as arrays by kind."""
     groups: tuple[list[list[float]], ...] = ([], [], [], [])
     hulls: tuple[list[list[float]], ...] = ([], [], [], [])
     nodes: tuple[list[int], ...] = ([], [], [], [])
@@ -148,7 +148,8 @@ def inside(
 
 
 def distance(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray) -> FloatArray:
-    """Signed distance (P,) of points (P, 3) of the instrument's frame to the union, negative inside."""
+    """Return the signed distance (P,) of P points (P, 3) in the instrument's frame to the union of the bodies, negative
+    inside."""
     count = len(points_m)
     point, body = (index.ravel() for index in np.mgrid[:count, : len(some)])
     found = distances(some, _local(some, nodes, points_m[point], body), body).reshape(count, len(some))
@@ -157,7 +158,8 @@ def distance(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray) -> Floa
 
 
 def gradient(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
-    """Return the gradient (P, 3) of the distance of each point (P, 3) to a body (P,), in the instrument's frame."""
+    """Return the gradient (P, 3) of the distance of each of P points (P, 3) to its body (P,), in the instrument's
+    frame."""
     local = _local(some, nodes, points_m, body)
     steps = _STEP_M * np.concatenate([np.eye(3), -np.eye(3)])
     found = distances(some, (local + steps[:, None]).reshape(-1, 3), np.tile(body, 6)).reshape(6, -1)
@@ -176,12 +178,12 @@ def signed_distance(shape: Proxy, points_m: AnyFloatArray) -> AnyFloatArray:
 
 @lru_cache(maxsize=1024)
 def _alone(shape: Proxy) -> tuple[FloatArray, _Measure]:
-    """Return the row of a single body, and the function that measures such rows."""
+    """Return the row of a single body of an instrument, and the function that measures distances to such rows."""
     return next((rows[0], measure) for rows, measure in _kinds(bodies((shape,), (shape.node,))) if len(rows))
 
 
 def _local(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: IndexArray) -> FloatArray:
-    """Points (K, 3) in the frame of the node of a body (K,) each."""
+    """Return K points (K, 3) in the frame of the node of the body (K,) of each."""
     node = some.nodes[body]
     off = points_m - nodes.place_m[node]
     local: FloatArray = (off[:, None, :] @ nodes.basis[node])[:, 0]
@@ -191,7 +193,8 @@ def _local(some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, body: Ind
 def _candidates(
     some: Bodies, nodes: InstrumentNodes, points_m: FloatArray, radius_m: FloatArray
 ) -> tuple[IndexArray, IndexArray]:
-    """Return pairs of ball and body whose hull the ball reaches: first the bodies near all balls, then near each."""
+    """Return the indices of ball and body (K,) of each pair whose hulls meet: first the bodies near all balls, then
+    those near each ball. A ball is a point with a radius."""
     basis, place_m = nodes.basis[some.nodes], nodes.place_m[some.nodes]
     a = (basis @ some.hulls[:, :3, None])[:, :, 0] + place_m
     span = (basis @ (some.hulls[:, 3:6] - some.hulls[:, :3])[:, :, None])[:, :, 0]
@@ -225,9 +228,8 @@ def _candidates(
 
 
 def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.NDArray[Any]:
-    """Return the signed distance (K,) of points (K, 3), each to a body (K,) in the frame of its node, in the points'
-    precision.
-    """
+    """Return the signed distance (K,) of K points (K, 3), each to a body (K,) in the frame of its node, in the points'
+    precision."""
     result = np.empty(len(body), dtype=local_m.dtype)
     start = 0
     for rows, measure in _kinds(some):
@@ -241,7 +243,8 @@ def distances(some: Bodies, local_m: npt.NDArray[Any], body: IndexArray) -> npt.
 
 
 def _kinds(some: Bodies) -> tuple[tuple[FloatArray, _Measure], ...]:
-    """Return the rows of every kind of body in the order of indices, with the functions that measure them."""
+    """Return for every kind of body (tapers, capsules, rings, boxes) its rows and the function that measures distances
+    to them."""
     return (some.tapers, _taper), (some.capsules, _capsule), (some.rings, _ring), (some.boxes, _box)
 
 
@@ -250,7 +253,7 @@ def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 def _taper(row: FloatArray, point: FloatArray) -> FloatArray:
-    """Distance to a flat-ended cone or cylinder."""
+    """Return the distance from points to a flat-ended cone or cylinder; a row is both end points and both radii."""
     a, span = row[..., :3], row[..., 3:6] - row[..., :3]
     wide, narrow = row[..., 6], row[..., 7]
     length2 = _dot(span, span)

@@ -46,21 +46,21 @@ class _Finger:
     tip_m: FloatArray
 
     def tips_m(self, rotations: FloatArray) -> FloatArray:
-        """Place (S, 3) of the touching point in the wrist's frame."""
+        """Return the position (S, 3) of the touching point in the wrist's frame in S samples."""
         return self.carried_m(rotations, 0, self.beyond_m(rotations))
 
     def beyond_m(self, rotations: FloatArray) -> FloatArray:
-        """Return the points (S, 3) of the finger's end in the frame of its first joint."""
+        """Return the points (S, 3) of the finger's end in the frame of its first joint in S samples."""
         point = np.broadcast_to(self.tip_m, (len(rotations), 3))
         return self.carried_m(rotations, 1, self.carried_m(rotations, 2, point))
 
     def carried_m(self, rotations: FloatArray, joint: int, points_m: FloatArray) -> FloatArray:
-        """Convert points (S, 3) from a joint's frame to the frame of the preceding joint."""
+        """Convert points (S, 3) of S samples from a joint's frame to the frame of the preceding joint."""
         carried: FloatArray = self.offsets_m[joint] + quaternion.rotate(rotations[:, joint], points_m)
         return carried
 
     def flexed(self, rotations: FloatArray, joint: int, angles_rad: FloatArray) -> FloatArray:
-        """Return rotations (S, 3, 4) with a joint bent by an additional angle."""
+        """Return the rotations (S, 3, 4) of three joints in S samples with one joint bent by an additional angle."""
         result = rotations.copy()
         turn = quaternion.from_axis_angle(self.flexion[joint], angles_rad)
         result[:, joint] = quaternion.multiply(turn, rotations[:, joint])
@@ -72,12 +72,12 @@ class _Finger:
         return float(quaternion.to_rotation_vector(swing) @ self.flexion[joint])
 
     def knuckle_rad(self, rotations: FloatArray) -> FloatArray:
-        """Return the bend (S,) of the knuckle with rotations (S, 4) in radians."""
+        """Return the bend (S,) of the knuckle in radians in S samples, from its rotations (S, 4)."""
         swing, _ = quaternion.swing_twist(rotations, self.twist[0])
         return np.asarray(quaternion.to_rotation_vector(swing) @ self.flexion[0])
 
     def spread_rad(self, rotations: FloatArray) -> float:
-        """Return the greatest sideways rotation of the knuckle (S, 4) in radians."""
+        """Return the greatest sideways rotation of the knuckle in radians, over rotations (S, 4) in S samples."""
         swing, _ = quaternion.swing_twist(rotations, self.twist[0])
         sideways = np.cross(self.flexion[0], self.twist[0])
         return float(np.abs(quaternion.to_rotation_vector(swing) @ sideways).max())
@@ -112,7 +112,8 @@ def _curved(table: FingerTable, skeleton: Skeleton, profile: SkeletonProfile) ->
 
 
 def _eased_beyond(station: StationTable, finger: _Finger) -> FloatArray:
-    """Return rotations (S, 3, 4) with the joints beyond the touching one bent at least as in a relaxed hand."""
+    """Return the rotations (S, 3, 4) of three joints in S samples with the joints beyond the touching one bent at least
+    as in a relaxed hand."""
     rotations = station.rotations
     for joint in range(station.tip_joint + 1, 3):
         bent_rad = np.array([finger.bent_rad(one[joint], joint) for one in rotations])
@@ -130,7 +131,8 @@ def _lifted(station: StationTable, finger: _Finger) -> StationTable:
 
 
 def _from_knuckle(station: StationTable, finger: _Finger, amount: float) -> FloatArray | None:
-    """Return rotations (S, 3, 4) at the same heights; None if impossible."""
+    """Return the rotations (S, 3, 4) of three joints in S samples that reach the same heights from the knuckle; None if
+    impossible."""
     tips_m, pressed, waiting = finger.tips_m(station.rotations), station.rotations[-1], station.rotations[0]
     way_m = tips_m[0] - tips_m[-1]
     way = way_m / max(float(np.linalg.norm(way_m)), 1e-9)

@@ -164,7 +164,8 @@ def _of_head(character: Character, mesh: str, vertices: tuple[int, ...]) -> tupl
 
 
 def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Return vertices (V, 3) in the head's frame at rest, and their displacements by the morphs."""
+    """Return the V vertices (V, 3) of a landmark's patch in the head's frame at rest, and their displacements by the
+    morphs."""
     part = patch(character, mesh_named(character, place.mesh), place.vertices)
     skeleton = character.skeleton
     rest = forward(skeleton, np.tile(quaternion.IDENTITY, (1, len(skeleton.names), 1)))
@@ -175,7 +176,8 @@ def _skin(character: Character, place: Landmark) -> tuple[FloatArray, dict[str, 
 
 
 def _mouthpiece_axes(character: Character, instrument_map: InstrumentMap, body: Body) -> tuple[FloatArray, FloatArray]:
-    """The up and air axes of the mouthpiece in the head's frame, as the instrument is usually carried."""
+    """Return the directions (3,) up and along the air of the mouthpiece in the head's frame, as the instrument is
+    usually carried."""
     usual = usual_posture(instrument_map)
     carriage = instrument_map.hold.carriage(usual)
     posed = forward(character.skeleton, joint_rotations(character.skeleton, carrying(body, usual, carriage)))
@@ -221,7 +223,8 @@ class _Mouth:
     def edges(
         self, weights: Mapping[str, float], opening_m: float, up: FloatArray, ahead: FloatArray
     ) -> tuple[IndexArray, IndexArray]:
-        """Return the vertices of upper and lower lip that touch the mouthpiece, with the jaw opened for it."""
+        """Return the vertex indices of upper and lower lip that touch the mouthpiece, with the jaw opened as far as
+        ``opening_m``; ``up`` and ``ahead`` are directions in the head's frame."""
         shape: FloatArray = self.positions_m + sum(
             weight * self.deltas_m[name] for name, weight in weights.items() if name in self.deltas_m
         )
@@ -241,7 +244,8 @@ class _Mouth:
         return upper, lower
 
     def _edge(self, height: FloatArray, depth: FloatArray, own: BoolArray) -> IndexArray:
-        """Return the lowest vertex of each half of a lip, so that their mean is in the middle."""
+        """Return the indices of the lowest vertex in the left and the right half of a lip; their mean lies in the
+        middle."""
         front = float(np.percentile(depth[own], 90.0))
         outside = own & (depth > front - DEPTH_M * self.size)
         off_m = self.positions_m[:, 0] - self.seam_m[0]

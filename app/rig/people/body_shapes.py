@@ -164,7 +164,7 @@ def _between(value: float, anchors: tuple[float, ...]) -> list[float]:
 
 
 def _coefficients(shapes: BodyShapes, phenotype: Phenotype, height: float) -> FloatArray:
-    """Amounts (K,) of the shapes in a body, about the mean; ``height`` from 0 to 1 is linear in them."""
+    """Return the amounts (K,) of K shapes in a body, about the mean; ``height`` from 0 to 1 is linear in them."""
     descents = np.array([phenotype.african, phenotype.asian, phenotype.caucasian])
     whole = float(descents.sum())
     values = [*(descents / whole if whole > 0.0 else np.full(3, 1.0 / 3.0)), 1.0 - phenotype.sex, phenotype.sex]
@@ -198,7 +198,7 @@ def _skin_count(shapes: BodyShapes) -> int:
 
 
 def _of_height(low: FloatArray, high: FloatArray, height_m: float, count: int) -> FloatArray:
-    """The body between a small and a tall one whose height is nearest to the one asked for."""
+    """Return the body (count, 3) of a given height, interpolated between a small one and a tall one."""
     first, step = low[:count, 1], high[:count, 1] - low[:count, 1]
     least, most = 0.0, 1.0
     for _ in range(24):
@@ -222,7 +222,8 @@ def _sum(shapes: BodyShapes, coefficients: FloatArray) -> FloatArray:
 
 
 def _local(shapes: BodyShapes, phenotype: Phenotype) -> FloatArray:
-    """Sum of the changes of one place of a body; names that there are not change nothing."""
+    """Sum of the shifts (V, 3) of all local changes of a phenotype, such as of the nose; unknown names change
+    nothing."""
     moved = np.zeros(shapes.mean_m.shape)
     for place, name in enumerate(shapes.local_names):
         amount = phenotype.local.get(name, 0.0)

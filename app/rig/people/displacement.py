@@ -20,19 +20,20 @@ ANCHORS, REACH_M, BEYOND = 16, 0.025, 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Binding:
-    """N vertices as shares (N, K) of base vertices ``corners`` (N, K)."""
+    """Attachment of N vertices of a mesh to a body: each moves as a mean of K base vertices ``corners`` (N, K) with
+    ``shares`` (N, K)."""
 
     corners: IndexArray
     shares: SingleArray
 
     def carried(self, moved_m: FloatArray) -> FloatArray:
-        """Displacements (N, 3) from those of the base vertices (V, 3)."""
+        """Displacements (N, 3) of a garment's N vertices, from those of the V vertices of the body below (V, 3)."""
         carried: FloatArray = np.einsum("nk,nka->na", self.shares, moved_m[self.corners].astype(np.float32))
         return carried.astype(np.float64)
 
 
 def bound(mesh: Mesh, base_m: FloatArray) -> Binding:
-    """Bind a mesh to base vertices (V, 3) that have its body's shape."""
+    """Attach a mesh to the V base vertices (V, 3) of the body nearest to each of its vertices."""
     from scipy.spatial import cKDTree  # heavy; people are made seldom
 
     far, corners = cKDTree(base_m).query(mesh.positions_m, k=NEIGHBOURS)
@@ -59,7 +60,7 @@ def normals_of(positions_m: AnyFloatArray, mesh: Mesh, places: IndexArray) -> Fl
 
 
 def places_of(mesh: Mesh) -> IndexArray:
-    """By vertex the number of its place (V,)."""
+    """Return for each vertex (V,) the number of its position, the same for vertices at one point."""
     keys = np.round(mesh.positions_m / 1e-6).astype(np.int64)
     places: IndexArray = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
     return places
@@ -67,7 +68,8 @@ def places_of(mesh: Mesh) -> IndexArray:
 
 @dataclass(frozen=True, eq=False)
 class FaceChange:
-    """Change of a face: linear maps ``turns`` (A, 3, 3) at places ``anchors`` (A, 3) of the body before."""
+    """Change of a face from one body to another: linear maps ``turns`` (A, 3, 3) at A places ``anchors`` (A, 3) of the
+    body before."""
 
     anchors: FloatArray
     turns: FloatArray
@@ -110,7 +112,8 @@ def face_change(before: Character, mesh: Mesh, after_m: FloatArray) -> FaceChang
 
 
 def _spread(positions: FloatArray, rows: IndexArray) -> IndexArray:
-    """Some of the rows, each as far from those before as may be."""
+    """Return at most `ANCHORS` of the rows of vertices, spread out: each is as far as possible from those chosen
+    before."""
     chosen = [int(rows[np.argmax(positions[rows, 2])])]
     far = np.full(len(rows), np.inf)
     for _ in range(min(ANCHORS, len(rows)) - 1):

@@ -84,7 +84,7 @@ def _uncovered(mesh: Mesh, facts: OutfitFacts, finished: Character) -> Mesh:
 
 @lru_cache(maxsize=32)
 def _seen_triangles(finished: Character, hidden: tuple[int, ...]) -> BoolArray:
-    """By triangle of a finished body's skin whether it is seen."""
+    """For each triangle (T,) of a finished body's skin whether clothes leave it visible."""
     made, shapes = finished_body(finished, finished.id), body_shapes()
     covered = np.isin(shapes.vertices[made.bindings[SKIN].corners[:, 0]], hidden)
     skin = next(mesh for mesh in finished.meshes if mesh.name == SKIN)

@@ -84,7 +84,7 @@ def _hand_shares(character: Character, mesh: Mesh) -> FloatArray:
 
 
 def _weight_below(character: Character, mesh: Mesh, name: str) -> FloatArray:
-    """Weight (N,) of vertices on a joint and all below it."""
+    """Sum of each vertex's weights (N,) on a joint and all joints below it."""
     top = character.skeleton.index(name)
     joints = [joint for joint in range(len(character.skeleton.names)) if top in ancestors(character.skeleton, joint)]
     return np.asarray((mesh.weights * np.isin(mesh.joints, joints)).sum(axis=1), dtype=np.float64)
@@ -155,7 +155,7 @@ def carried(original: Original, shapes: BodyShapes, phenotype: Phenotype, hands:
 
 
 def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh, Original]]:
-    """The meshes of a person and whose they are."""
+    """The meshes of a person, each with the bundled person from whom it is taken."""
     found = []
     for mesh in original.character.meshes:
         owner = worn.get(mesh.name, original)
@@ -165,7 +165,8 @@ def _chosen(original: Original, worn: Mapping[str, Original]) -> list[tuple[Mesh
 
 
 def _with_hip_joints(original: Original, shapes: BodyShapes, body: FloatArray, apart_m: float) -> FloatArray:
-    """A body whose hip joints move to a distance between them."""
+    """Return a body whose hip joints lie ``apart_m`` from each other, symmetrically; the other points of ``body``
+    stay."""
     moved, before = body.copy(), original.character
     for side, sign in SIDES:
         joint = before.skeleton.index(f"{side}UpperLeg")
@@ -183,7 +184,7 @@ def _joints(original: Original, shapes: BodyShapes, body: FloatArray, hands: flo
 
 
 def _moved(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoints) -> FloatArray:
-    """Move the vertices (N, 3) of a mesh."""
+    """Return the vertices (N, 3) of a mesh, moved with the ``body`` and its lengthened limbs."""
     binding, points = original.bindings[mesh.name], mesh.positions_m.astype(np.float64)
     moved = points + binding.carried(body - original.base_m) + original.arms[mesh.name] @ joints.lengthened
     skeleton = original.character.skeleton
@@ -214,7 +215,8 @@ def _changed(original: Original, mesh: Mesh, body: FloatArray, joints: MovedJoin
 def _shape(
     original: Original, morph: Morph, points: FloatArray, moved: FloatArray, joints: MovedJoints, turns: FloatArray
 ) -> Morph:
-    """A shape of the face on another face: turned and stretched with the skin, lids still on the eyeballs."""
+    """Return a morph of the face as it is on another person's face: turned and stretched with the skin, lids still on
+    the eyeballs."""
     rows = morph.vertices
     before = points[rows] + morph.deltas_m
     after = moved[rows] + np.einsum("nij,nj->ni", turns[rows], morph.deltas_m)
@@ -223,7 +225,8 @@ def _shape(
 
 
 def _off_the_eyes(original: Original, before: FloatArray, after: FloatArray, joints: MovedJoints) -> FloatArray:
-    """Places (N, 3), those near an eyeball as far from its middle as they had been."""
+    """Return the points ``after`` (N, 3) with those near an eyeball put as far from its middle as in ``before``, so
+    that lids still fit."""
     for side, _ in SIDES:
         eye = original.character.skeleton.index(f"{side}Eye")
         radius_m = _ball_m(original.character, eye)

@@ -99,7 +99,7 @@ def arm_after_m(original: Character, moved_m: Mapping[str, FloatArray]) -> float
 
 
 def t_positions(skeleton: Skeleton, joints: FloatArray) -> FloatArray:
-    """Places (J, 3) of joints in the T-pose from their frames (J, 4, 4) in the rest pose."""
+    """Return the positions (J, 3) of J joints in the T-pose from their frames (J, 4, 4) in the rest pose."""
     places = np.zeros((len(joints), 3))
     for joint, parent in enumerate(skeleton.parents):
         if parent >= 0:
@@ -111,7 +111,7 @@ def t_positions(skeleton: Skeleton, joints: FloatArray) -> FloatArray:
 def _limb_frames(
     skeleton: Skeleton, before: FloatArray, after: FloatArray, side: str, sign: float
 ) -> dict[int, tuple[FloatArray, FloatArray]]:
-    """Frames of arm and leg as their joints stand, before and after."""
+    """Frames (4, 4) along the bones of an arm and a leg in two poses, by joint index: before, after."""
     found: dict[int, tuple[FloatArray, FloatArray]] = {}
     names = [f"{side}{part}" for part in ("UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes")]
     rows = [skeleton.index(name) for name in names]

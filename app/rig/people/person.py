@@ -135,7 +135,7 @@ def ranges(ids: Collection[str]) -> tuple[tuple[float, float], tuple[float, floa
 
 
 def _bounded(person: Person) -> list[tuple[str, float, float, float]]:
-    """Numbers of a person with their places and bounds."""
+    """Return place, least allowed value, value and greatest allowed value of each number of a person."""
     phenotype, original = person.phenotype, originals()[person.original]
     (least_m, most_m), (youngest, oldest) = original.heights_m, map(age_of, original.years)
     found = [("phenotype.height_m", least_m, phenotype.height_m, most_m)]

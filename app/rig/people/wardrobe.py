@@ -103,7 +103,7 @@ class Outfit:
 
     @property
     def tints(self) -> tuple[Tint, ...]:
-        """Colours that can be chosen of it."""
+        """Parts of an outfit whose colour can be chosen."""
         return tuple(self.colours)
 
 
@@ -169,13 +169,13 @@ def _factors(document: dict[str, Any]) -> dict[str, list[float]]:
 
 
 def linear_colour(colour: str) -> tuple[float, float, float]:
-    """Linear values of ``#rrggbb`` (IEC 61966-2-1)."""
+    """Convert a colour ``#rrggbb`` to linear red, green and blue 0..1 (IEC 61966-2-1)."""
     red, green, blue = (int(colour[place : place + 2], 16) / 255.0 for place in (1, 3, 5))
     return _linear(red), _linear(green), _linear(blue)
 
 
 def _hexadecimal(linear: Sequence[float]) -> str:
-    """A colour of linear values as ``#rrggbb``."""
+    """Convert a colour of linear red, green and blue 0..1 to ``#rrggbb``."""
     parts = [12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055 for value in linear]
     return "#" + "".join(f"{round(255.0 * min(max(part, 0.0), 1.0)):02x}" for part in parts)
 

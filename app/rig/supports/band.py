@@ -75,7 +75,7 @@ def mesh_of(name: str, strips: Sequence[SurfaceStrip], materials: tuple[Material
 
 
 def _padded(weights: Sequence[Shares], columns: int) -> tuple[IntArray, FloatArray]:
-    """The strongest bones of each ring (R, K) with shares that add up to 1."""
+    """Return the K strongest bones (R, K) of each of R rings of a band, and their shares, which add up to 1."""
     bones, shares = np.zeros((len(weights), columns), np.int64), np.zeros((len(weights), columns))
     for row, own in enumerate(weights):
         strongest = sorted(own, key=lambda one: -one[1])[:columns]
@@ -85,7 +85,8 @@ def _padded(weights: Sequence[Shares], columns: int) -> tuple[IntArray, FloatArr
 
 
 def _normals(points: FloatArray, closed: bool) -> FloatArray:
-    """Normals (R, C, 3) of a grid; a ring of no width has those of its neighbour."""
+    """Return the normals (R, C, 3) of a grid of R rings with C corners; a ring of no width has those of its
+    neighbour."""
     along = np.gradient(points, axis=0)
     if closed:
         wrapped = np.concatenate([points[:, -2:-1], points, points[:, 1:2]], axis=1)
@@ -147,7 +148,7 @@ def band(
 def tube(
     line_m: FloatArray, radii_m: FloatArray, weights: Sequence[Shares], material: int = 0, sides: int = 10
 ) -> SurfaceStrip:
-    """A round tube along a line (R, 3); radii of 0 close its ends."""
+    """Return the surface of a round tube along a line of R points (R, 3); radii of 0 close its ends."""
     tangents = np.gradient(line_m, axis=0)
     tangents /= np.maximum(np.linalg.norm(tangents, axis=1, keepdims=True), 1e-12)
     first = np.array([0.0, 0.0, 1.0]) if abs(tangents[0][2]) < 0.9 else np.array([1.0, 0.0, 0.0])

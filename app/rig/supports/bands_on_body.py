@@ -173,8 +173,8 @@ def _low_bow(
 
 
 def _aim(route: BandRoute, meet_m: FloatArray) -> FloatArray:
-    """Point that a band is laid to on the body: lower than its end where that is ahead, since it goes over the collar
-    bone there and not around the shoulders."""
+    """Point (3,) to which a band is laid on the body: ``meet_m``, lowered if it lies ahead, because the band crosses
+    the collar bone there instead of going around the shoulders."""
     ahead = float(np.linalg.norm((meet_m - route.via_m)[[0, 2]]))
     least = _LEAST_DROP * ahead
     if route.via_m[1] - meet_m[1] >= least:
@@ -239,7 +239,7 @@ def _unit(ways: FloatArray) -> FloatArray:
 
 
 def _lengths(points: FloatArray) -> FloatArray:
-    """Share of the whole way at each point of a line."""
+    """Share 0..1 (N,) of the whole length at each point of a line (N, 3)."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     way = np.concatenate([[0.0], np.cumsum(steps)])
     found: FloatArray = way / max(float(way[-1]), 1e-9)
@@ -254,7 +254,8 @@ def _evened(points: FloatArray, window: int, degree: int) -> FloatArray:
 
 
 def _resampled(string: TautString, first: float, last: float, count: int) -> tuple[FloatArray, FloatArray]:
-    """Points and ways outwards (R, 3) of a part of a string, at even distances."""
+    """Return ``count`` points at even distances on a part (shares ``first`` to ``last``) of a string, and the
+    directions outwards there, both (R, 3)."""
     at, asked = _lengths(string.points_m), np.linspace(first, last, count)
     points = np.stack([np.interp(asked, at, string.points_m[:, axis]) for axis in range(3)], axis=1)
     # Corners of the hull are those of triangles; what bends evenly is left as it is.
@@ -264,7 +265,7 @@ def _resampled(string: TautString, first: float, last: float, count: int) -> tup
 
 
 def _smoothed(rows: FloatArray) -> FloatArray:
-    """Means over some neighbours; the ends stay."""
+    """Moving average along the points (N, 3) of a line; both ends stay."""
     padded = np.concatenate([np.repeat(rows[:1], _SMOOTHED, 0), rows, np.repeat(rows[-1:], _SMOOTHED, 0)])
     found: FloatArray = np.mean([padded[k : k + len(rows)] for k in range(2 * _SMOOTHED + 1)], axis=0)
     return found

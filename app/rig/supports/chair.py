@@ -54,7 +54,7 @@ class ChairFit:
 
     @property
     def middle_m(self) -> FloatArray:
-        """The middle of the seat's top (3,)."""
+        """Middle (3,) of the top of the seat in the player's frame, metres."""
         return np.array([0.0, self.top_m, self.rear_m + self.size * (0.5 * _DEPTH_M - 0.015)])
 
 
@@ -86,7 +86,7 @@ def chair(fit: ChairFit, bone: int) -> Mesh:
 
 
 def _cushion(middle: FloatArray, half: float, deep: float, thick: float, only: Shares) -> SurfaceStrip:
-    """A seat with rounded edges, its top flat."""
+    """A seat with rounded edges and a flat top; ``half`` width, depth and thickness in metres around its ``middle``."""
     rounding = 0.42 * thick
     edge = [(1.5 * rounding, 0.0), (rounding, 0.0), (0.3 * rounding, 0.25 * rounding), (0.0, rounding)]
     profile = [(0.4, -thick), *((inset, height - thick) for inset, height in edge)]
@@ -97,7 +97,7 @@ def _cushion(middle: FloatArray, half: float, deep: float, thick: float, only: S
 def _back(
     half: float, size: float, top: float, z: float, edges_m: tuple[float, float], only: Shares
 ) -> list[SurfaceStrip]:
-    """A padded back that leans."""
+    """A padded back of a chair that leans, between the heights ``edges_m``."""
     low, high = edges_m
     tall, thick = 0.5 * (high - low), 0.028 * size
     middle = np.array([0.0, low + tall, z - _LEAN * (low + tall - top)])
@@ -120,8 +120,8 @@ def _slab(
     turn: FloatArray,
     only: Shares,
 ) -> SurfaceStrip:
-    """A rounded rectangle with a profile of insets and heights, from below to above; an inset of 0.4 or more is the
-    middle."""
+    """Return the surface of a rounded rectangle with a profile of (inset, height), from below to above; an inset of 0.4
+    or more is the middle."""
     rings = []
     for inset, height in profile:
         if inset >= 0.4:
@@ -161,7 +161,7 @@ def _foot(x_m: float, z_m: float, only: Shares) -> SurfaceStrip:
 
 
 def _bent(corners: Sequence[tuple[float, float, float]]) -> FloatArray:
-    """A line (N, 3) with rounded corners."""
+    """Return a line (N, 3) through the given corners, which are rounded."""
     points = np.array(corners)
     line = [points[0]]
     for before, corner, after in zip(points[:-2], points[1:-1], points[2:], strict=True):

@@ -113,8 +113,8 @@ def _lowered(strap: Strap, carried: FloatArray, end: FloatArray) -> FloatArray:
 
 
 def _bow(strap: Strap, leg: StrapLeg, chord: FloatArray, body: FloatArray, lowered: FloatArray) -> FloatArray:
-    """Way out (F, 3) of the control point in the middle of a leg: where the leg is longer than the way, and
-    where the body is in the way."""
+    """Return the displacement (F, 3) of the control point in the middle of a strap's leg: outwards where the leg is
+    longer than its way, and where the body is in the way."""
     length = float(np.linalg.norm(leg.top_m - strap.meet_m))
     way = np.maximum(np.linalg.norm(chord, axis=-1, keepdims=True), 1e-6)
     out = body @ leg.out
@@ -138,7 +138,7 @@ def _unit(ways: FloatArray) -> FloatArray:
 
 
 def _tops(supports: Supports, strap: Strap, joints: FloatArray) -> FloatArray:
-    """Upper ends of the legs, (F, L, 3)."""
+    """Return the upper ends (F, L, 3) of a strap's L legs in the world, metres, moved with the joints."""
     tops = np.zeros((len(joints), len(strap.legs), 3))
     for number, leg in enumerate(strap.legs):
         if not leg.joints:

@@ -44,7 +44,7 @@ def chair_fit(character: Character, joints: FloatArray) -> ChairFit:
 
 
 def _skin(character: Character, joints: FloatArray, names: tuple[str, ...]) -> FloatArray:
-    """Posed vertices (N, 3) that some joints carry."""
+    """Return the posed vertices (N, 3) of the skin that the named joints move."""
     skeleton = character.skeleton
     carrying: BoolArray = np.isin(skeleton.names, names)
     world = np.zeros((1, len(skeleton.names), 4, 4))

@@ -42,7 +42,7 @@ class Sitter:
 
 @dataclass(frozen=True, eq=False)
 class MadeStrap:
-    """A strap with its mesh, whose bones are numbered within itself, behind those of joints."""
+    """A strap or band with its mesh, whose bones are numbered within the strap, behind the joints it is tied to."""
 
     strap: Strap
     mesh: Mesh
@@ -69,14 +69,15 @@ class Wearer:
     sitter: Sitter | None
 
     def at(self, *names: str) -> FloatArray:
-        """Place (3,) of the first of these joints that there is."""
+        """Return the position (3,) of the first of the named joints that the skeleton has, metres."""
         name = next(one for one in names if one in self.skeleton.names)
         place: FloatArray = self.joints[self.skeleton.index(name), :, 3]
         return place
 
     @property
     def neck_m(self) -> FloatArray:
-        """The root of the neck."""
+        """Position (3,) of the root of the neck in metres; estimated from shoulders and head where the skeleton has no
+        neck."""
         if "neck" in self.skeleton.names:
             return self.at("neck")
         shoulders = 0.5 * (self.at("leftUpperArm") + self.at("rightUpperArm"))
@@ -161,7 +162,7 @@ def _on_bones(strap: Strap, legs: Sequence[LegShape], number: int) -> MadeStrap:
 
 
 def leg_bones(strap: Strap, leg: StrapLeg, number: int, index: int) -> list[SupportBone]:
-    """The three bones of a leg."""
+    """Return the three bones (top, middle, end) that bend one leg of a strap."""
     middle_m = 0.5 * (leg.top_m + strap.meet_m)
     places: tuple[tuple[BoneRole, FloatArray], ...] = (
         ("top", leg.top_m),

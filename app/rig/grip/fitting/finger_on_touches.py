@@ -77,7 +77,7 @@ class FingerOnTouches:
         return result
 
     def shuts(self, x: FloatArray) -> bool:
-        """Return whether a finger with angles (S, n) closes or nearly closes a hole to be left open."""
+        """Return whether a finger with n angles in S samples (S, n) closes or nearly closes a hole to be left open."""
         pose = self.pose.copy()
         pose[:, self.joints, self.kinds] = x
         matrices = wrist_from_mesh(
@@ -146,7 +146,8 @@ class FingerOnTouches:
         depth: FloatArray,
         slope: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:
-        """Jacobian (S, m, n) and residuals (S, m)."""
+        """Return Jacobian (S, m, n) and residuals (S, m) of the finger angles ``x`` by finite differences, the skin's
+        part from its ``depth`` and ``slope``."""
         count = x.shape[1]
         tried = np.repeat(x[None], count + 1, axis=0)
         step = np.where(x + STEP < self.high, STEP, -STEP).T
@@ -188,9 +189,8 @@ class FingerOnTouches:
 
 
 def _kept_open(problem: HandProblem, scene: GripScene, number: int, station: Station) -> list[tuple[str, FloatArray]]:
-    """Return the holes that a finger closes at other stations and must leave open here: the part of the finger and the
-    places.
-    """
+    """Return the holes that a finger must leave open at station ``number`` because it closes them elsewhere: name of
+    the finger's part and position of the hole (3,)."""
     instrument, found = scene.instrument_map, []
     for place in problem.stations[number]:
         for contact in (instrument.contacts[index] for index in place.contacts):

@@ -178,7 +178,8 @@ def _held(
 def _leant_tables(
     problem: HandProblem, leant: Sequence[Leaning]
 ) -> dict[tuple[int, int], tuple[GripScene, dict[int, StationTable]]]:
-    """Return the wrist and the other fingers for each offset of the hand."""
+    """Return for each hand that leans towards a station, by (finger, station), its wrist and the other fingers'
+    poses."""
     result = {}
     for one in leant:
         tables = {

@@ -23,7 +23,7 @@ PLACES_VERSION = 3
 
 
 def no_progress(share: float) -> None:
-    """Ignore the progress."""
+    """Ignore the share of the work that is done, for callers without a progress bar."""
 
 
 def require_landmarks(character: Character, instrument_map: InstrumentMap) -> None:
@@ -37,7 +37,8 @@ def require_landmarks(character: Character, instrument_map: InstrumentMap) -> No
 
 @dataclass(frozen=True, eq=False)
 class GripScene:
-    """A solved wrist on its instrument."""
+    """A hand whose wrist is solved on its instrument: the position and basis of the wrist for samples of the control
+    that carries it."""
 
     model: InstrumentModel
     instrument_map: InstrumentMap
@@ -46,15 +47,16 @@ class GripScene:
     basis: FloatArray
 
     def placed(self, points: FloatArray) -> FloatArray:
-        """Convert points (..., S, V, 3) from the wrist's frame to the instrument's, sample by sample."""
+        """Convert points (..., S, V, 3) of V vertices in S samples from the wrist's frame to the instrument's, sample
+        by sample."""
         return points @ self.basis.transpose(0, 2, 1) + self.position_m[:, None]
 
     def turned(self, vectors: FloatArray) -> FloatArray:
-        """Convert directions from the wrist's frame to the instrument's."""
+        """Convert directions (N, ..., 3) from the wrist's frame to the instrument's."""
         return vectors @ self.basis.transpose(0, 2, 1)
 
     def only(self, which: IndexArray) -> GripScene:
-        """Return the scene at some of its samples."""
+        """Return the scene reduced to the samples with the given indices."""
         return replace(self, position_m=self.position_m[which], basis=self.basis[which])
 
     def over(self, values: FloatArray) -> GripScene:

@@ -71,7 +71,8 @@ def fitted_to_body(
 
 
 def notes_on_body(character: Character) -> tuple[Message, ...]:
-    """Return notes about a character, checked with a reference instrument."""
+    """Return notes about a character's body that are independent of the instrument, found with a reference
+    instrument."""
     body = load_body()
     instrument = find_map(body.checked_with)
     return fitted_to_body(
@@ -80,7 +81,8 @@ def notes_on_body(character: Character) -> tuple[Message, ...]:
 
 
 def _touched(character: Character, instrument: InstrumentMap) -> tuple[InstrumentMap, tuple[Message, ...]]:
-    """Return the map with the contacts that are possible for the body, and notes about the others."""
+    """Return the instrument's map with only those contacts that are possible for the body, and notes about the
+    others."""
     reported = []
     contacts, hands = instrument.contacts, instrument.hands
     for side in dict.fromkeys(seed.hand for seed in instrument.hands):
@@ -117,7 +119,8 @@ def _of(contact: Contact, side: str) -> str:
 
 
 def _guided(contacts: tuple[Contact, ...], side: Hand, stiff: frozenset[str]) -> tuple[Contact, ...]:
-    """Return contacts in which some fingers only position the hand: each at the first place of its parts."""
+    """Return the contacts without all but the first one of each finger part in ``stiff``, since those fingers only
+    position the hand."""
     result: list[Contact] = []
     placed: set[str] = set()
     for contact in contacts:
@@ -241,7 +244,7 @@ def _asked(
 
 
 def _palm_m(character: Character, side: Hand) -> FloatArray:
-    """The middle of the palm's skin in the wrist's frame at rest."""
+    """Return the middle (3,) of the palm's skin in the wrist's frame at rest."""
     skeleton = character.skeleton
     name = f"{side}.palm"
     still = forward(

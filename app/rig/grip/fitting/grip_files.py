@@ -89,7 +89,8 @@ def digest_of(character: Character, model: InstrumentModel, instrument: Instrume
 
 
 def _of_body(character: Character, instrument: InstrumentMap) -> tuple[list[str], list[npt.NDArray[Any]]]:
-    """Return all of a body that a fit depends on: joints of the hands and the head, and skin of hands and lips.
+    """Return all of a body that a fit of hands depends on, as texts and arrays to be hashed: joints of the hands and
+    the head, and skin of hands and lips.
 
     Hair, eyes, clothes and face shapes are not included.
     """

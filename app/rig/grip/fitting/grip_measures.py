@@ -57,7 +57,7 @@ def judge(
 
 
 def _finer(scene: GripScene, values: FloatArray, fine: FloatArray) -> GripScene:
-    """Return the scene interpolated between its samples."""
+    """Return the scene at the control values ``fine``, interpolated between its samples at ``values``."""
     if len(values) == 1:
         return scene
     between = np.interp(fine, values, np.arange(len(values), dtype=np.float64))
@@ -71,7 +71,8 @@ def _finer(scene: GripScene, values: FloatArray, fine: FloatArray) -> GripScene:
 
 
 def _posed(tables: Mapping[int, StationTable], values: Mapping[int, FloatArray], count: int) -> FloatArray:
-    """Return rotations (S, 16, 4) of a hand: fingers in ``values`` at these values, others at rest."""
+    """Return the rotations (S, 16, 4) of a hand's 16 joints in S samples: fingers in ``values`` at these values of
+    their controls, others at rest."""
     rotations = np.tile(quaternion.IDENTITY, (count, 16, 1))
     for number, table in tables.items():
         at = values.get(number, np.zeros(count))
@@ -87,7 +88,8 @@ def _judged(
     own: Sequence[int],
     values: FloatArray,
 ) -> tuple[list[ContactFit], float]:
-    """Some contacts of the map and the depth of the skin while the ``moved`` controls go along."""
+    """Return the distances and angles of the contacts with the indices ``own``, and the greatest depth of the hand's
+    skin in the instrument, while the ``moved`` controls go through ``values``."""
     hand, instrument = problem.hand, scene.instrument_map
     transforms = wrist_from_joint(hand, rotations)
     matrices = wrist_from_mesh(hand, transforms)

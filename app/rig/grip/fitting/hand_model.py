@@ -41,7 +41,7 @@ bars.
 
 @dataclass(frozen=True, eq=False)
 class HandModel:
-    """A hand in its wrist's frame.
+    """A hand in its wrist's frame, with 16 joints, by which grips are solved.
 
     Attributes
     ----------
@@ -98,7 +98,8 @@ class HandModel:
 
 
 def joint_rotations(hand: HandModel, angles: FloatArray) -> FloatArray:
-    """Rotations (B, 16, 4) for angles (B, 16, 3) of flexion, sideways and twist: swing after twist."""
+    """Return the rotations (B, 16, 4) of 16 joints in B poses for angles (B, 16, 3) of flexion, sideways and twist:
+    swing after twist."""
     swing = angles[..., 0, None] * hand.axes[:, 0] + angles[..., 1, None] * hand.axes[:, 1]
     return quaternion.multiply(
         quaternion.from_rotation_vector(swing), quaternion.from_axis_angle(hand.axes[:, 2], angles[..., 2])
@@ -106,7 +107,8 @@ def joint_rotations(hand: HandModel, angles: FloatArray) -> FloatArray:
 
 
 def wrist_from_joint(hand: HandModel, rotations: FloatArray) -> FloatArray:
-    """Transforms (B, 17, 3, 4) of the joints and the forearm in the wrist's frame; the wrist itself is the identity."""
+    """Return the transforms (B, 17, 3, 4) of the joints and the forearm in the wrist's frame in B poses; the wrist
+    itself is the identity."""
     turn = quaternion.to_matrix(rotations)
     result = np.zeros((len(rotations), 17, 3, 4))
     result[:, 0, :, :3] = result[:, 16, :, :3] = np.eye(3)
@@ -129,14 +131,16 @@ def wrist_from_mesh(hand: HandModel, transforms: FloatArray) -> FloatArray:
 
 
 def skinned(matrices: FloatArray, points: FloatArray) -> FloatArray:
-    """Deformed points (B, V, 3) of moments (17, 4, V)."""
+    """Return the points (B, V, 3) of V vertices in B poses of the hand, from homogeneous points weighted by frame (17,
+    4, V)."""
     count = points.shape[2]
     flat = matrices.transpose(0, 2, 1, 3).reshape(len(matrices) * 3, 17 * 4) @ points.reshape(17 * 4, count)
     return flat.reshape(len(matrices), 3, count).transpose(0, 2, 1)
 
 
 def turned(matrices: FloatArray, normals: FloatArray) -> FloatArray:
-    """Deformed unit normals (B, L, 3) of moments (17, 3, L)."""
+    """Return the unit normals (B, L, 3) of L vertices in B poses of the hand, from normals weighted by frame (17, 3,
+    L)."""
     count = normals.shape[2]
     flat = matrices[..., :3].transpose(0, 2, 1, 3).reshape(len(matrices) * 3, 17 * 3) @ normals.reshape(17 * 3, count)
     result = flat.reshape(len(matrices), 3, count).transpose(0, 2, 1)
@@ -152,13 +156,13 @@ def rest_landmark(hand: HandModel, name: str) -> FloatArray:
 
 
 def flesh_radius(hand: HandModel) -> FloatArray:
-    """Return the radii of the balls that must stay outside the instrument, the forearm's last."""
+    """Return the radii (balls,) of the balls that must stay outside the instrument, the forearm's last, metres."""
     firm = np.where(hand.ball_finger >= 0, _FINGER_FLESH, _PALM_FLESH) * hand.balls[:, 3]
     return np.concatenate([firm, _PALM_FLESH * hand.forearm_balls[:, 1]])
 
 
 def ball_centres(hand: HandModel, transforms: FloatArray) -> FloatArray:
-    """Centres (B, balls, 3) of the balls in the wrist's frame."""
+    """Return the centres (B, balls, 3) of the hand's balls in B poses in the wrist's frame."""
     carrier = transforms[:, hand.ball_joints]
     result: FloatArray = np.einsum("bkij,kj->bki", carrier[..., :3], hand.balls[:, :3]) + carrier[..., 3]
     return result
@@ -226,7 +230,8 @@ def hand_model(character: Character, side: Side, body: Body, profile: SkeletonPr
 
 
 def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> IndexArray:
-    """Return the index among the 17 frames for each joint of the skeleton: the nearest ancestor, else the forearm."""
+    """Return for each joint of the skeleton (J,) the index of the frame of the hand model, 0..16, that carries it: the
+    nearest ancestor's, else the forearm's (16)."""
     place = {joint: index for index, joint in enumerate(joints)}
     table = np.full(len(character.skeleton.names), 16, dtype=np.intp)
     for joint in range(len(table)):
@@ -240,7 +245,7 @@ def _carrier_table(character: Character, joints: Sequence[int], elbow: int) -> I
 def _moments(
     character: Character, mesh_name: str, vertices: AnyIntArray, table: IndexArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Weighted homogeneous points (17, 4, V) and normals (17, 3, V) of vertices."""
+    """Return homogeneous points (17, 4, V) and normals (17, 3, V) of V vertices, weighted by the hand's 17 frames."""
     part = patch(character, mesh_named(character, mesh_name), vertices)
     weights = np.zeros((17, len(vertices)))
     np.add.at(weights, table[part.joints], part.weights.T)
@@ -285,7 +290,7 @@ def _with_skin(hand: HandModel) -> HandModel:
 def _finger_balls(
     hand: HandModel, rest: FloatArray, skin: FloatArray, owner: IndexArray, weights: FloatArray
 ) -> list[tuple[int, list[float]]]:
-    """Balls along the bones of the fingers and the thumb's metacarpal: joint, and centre and radius."""
+    """Return balls that stand for the flesh of fingers and thumb, along their bones: joint; centre and radius."""
     found = []
     for joint in range(1, 16):
         own = skin[(owner == joint) & (weights[joint] > 0.6)] - rest[0, joint, :, 3]
@@ -308,7 +313,8 @@ def _finger_balls(
 
 
 def _palm_balls(hand: HandModel, skin: FloatArray, owner: IndexArray) -> list[tuple[int, list[float]]]:
-    """Return balls between the wrist and the knuckles, half as thick as the palm there."""
+    """Return balls that stand for the flesh of the palm, from the wrist to each knuckle, half as thick as the palm
+    there: index of the frame; middle and radius."""
     found = []
     flesh = skin[(owner == 0) | (owner == 16) | (owner == 1) | ((owner - 1) % 3 == 0)]
     for knuckle in (4, 7, 10, 13):

@@ -50,7 +50,7 @@ NEAR_M = 0.28
 
 @dataclass(frozen=True, eq=False)
 class Dof:
-    """One angle of a finger joint: present value, range and relaxed value."""
+    """One angle of a finger joint that the solver changes: present value, range and relaxed value."""
 
     joint: int
     kind: int
@@ -77,7 +77,7 @@ class Elsewhere:
 
 @dataclass(frozen=True, eq=False)
 class HandProblem:
-    """Constants of the problem of solving a hand's grip."""
+    """Everything constant in the problem of solving a hand's grip on its instrument."""
 
     hand: HandModel
     seed_m: FloatArray
@@ -172,7 +172,8 @@ def grip_problem(
 
 
 def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, float]]:
-    """Return the elbow's swivel angle from the ribs and its range in radians."""
+    """Return the usual swivel of the elbow away from the ribs about the line from shoulder to wrist, and its range, in
+    radians."""
     if seed.elbow_off_ribs_deg is None:
         return float(np.radians(posture.elbow_off_ribs_deg)), SWIVEL_RANGE_RAD
     usual = float(np.radians(seed.elbow_off_ribs_deg))
@@ -182,7 +183,7 @@ def _swivels(seed: HandSeed, posture: Posture) -> tuple[float, tuple[float, floa
 def _contacts_at_home(
     instrument_map: InstrumentMap, side: Side, stations: tuple[tuple[Station, ...], ...]
 ) -> Iterator[tuple[Contact, int]]:
-    """Yield the contacts of a hand with its fingers at home, each with the finger's number, -1 for the palm."""
+    """Yield each contact of a hand whose fingers are at home, with the finger's number, or -1 for the palm."""
     for index, contact in enumerate(instrument_map.contacts):
         if contact.part.startswith(f"{side}."):
             finger = contact.part.split(".")[1]
@@ -288,7 +289,7 @@ def start_at(problem: HandProblem, turn: FloatArray) -> FloatArray:
 
 
 def wrist_transform(problem: HandProblem, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Wrist in the instrument's frame: positions (B, 3) and rotations (B, 4)."""
+    """Return the wrist in the instrument's frame for B candidates: positions (B, 3) and rotations (B, 4)."""
     turn = quaternion.multiply(quaternion.from_rotation_vector(x[:, 3:6]), problem.seed_rotation)
     return problem.seed_m + METRES * x[:, :3], turn
 

@@ -54,7 +54,7 @@ VALUES = np.array([0.0, 1.0])
 
 @dataclass(frozen=True, eq=False)
 class Leaning:
-    """A hand offset for one finger at one station.
+    """A shift of the hand by which one finger reaches a station that it cannot reach otherwise.
 
     ``solved`` is that finger at the station, ``others`` the fingers at home, ``scene`` the wrist.
     """
@@ -72,7 +72,8 @@ def leanings(
     solved: Sequence[Solved],
     reported: Progress = lambda share: None,
 ) -> tuple[Leaning, ...]:
-    """Return the offsets of the hand for every station that its finger misses."""
+    """Return the shift of the hand for every station that its finger cannot reach; empty if the hand moves with a part
+    of the instrument."""
     found = []
     if scene.carrier is not None:
         return ()
@@ -122,9 +123,8 @@ def _leant(
 def _lean_problem(
     problem: HandProblem, scene: GripScene, number: int, station: Station, x: FloatArray, eased: float
 ) -> HandProblem:
-    """Return the problem with all working fingers at once: one at its station, the others at home, the wrist near its
-    former position.
-    """
+    """Return the problem of a hand whose finger ``number`` is at a station while the others stay at home, with the
+    wrist near that in ``x``."""
     instrument, hand = scene.instrument_map, problem.hand
     chosen = [station if n == number else places[0] for n, places in enumerate(problem.stations) if places]
     worked = home_controls([[place] for place in chosen])

@@ -87,7 +87,8 @@ class Residuals:
         return np.concatenate([np.pad(home, ((0, 0), (0, len(x) - count))), *blocks])
 
     def _elsewhere_jacobian(self, one: Elsewhere, x: FloatArray, step: FloatArray) -> FloatArray:
-        """Return the rows of one finger at another station, which depend only on the wrist and its own angles."""
+        """Return the rows of the Jacobian for one finger at another station; they depend only on the wrist (first six
+        columns) and that finger's angles."""
         columns = np.r_[0:6, one.angles]
         tried = np.repeat(x[None], len(columns) + 1, axis=0)
         tried[np.arange(1, len(tried)), columns] += step[columns]
@@ -97,7 +98,7 @@ class Residuals:
         return result
 
     def _elsewhere(self, one: Elsewhere, x: FloatArray) -> FloatArray:
-        """Residuals (B, m) of a finger at another station."""
+        """Return the m residuals (B, m) of a finger at another station for B candidates."""
         problem, hand = self.problem, self.problem.hand
         place, turn = wrist_transform(problem, x)
         angles = np.zeros((len(x), 16, 3))
@@ -121,7 +122,8 @@ class Residuals:
         return pressure_cost(depth) if self.stiff else (depth, (depth > 0.0).astype(np.float64))
 
     def _depth(self, skin: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Depth (configs, V) of skin below the proxy's surface, and the gradient of the distance."""
+        """Return the depth (configs, V) of V skin vertices below the surface of the instrument's bodies, and the
+        gradient of the distance."""
         depth, slope = np.zeros(skin.shape[:2]), np.zeros(skin.shape)
         for config in range(len(skin)):
             depth[config], slope[config] = inside_proxy(
@@ -134,7 +136,8 @@ class Residuals:
         return depth, slope
 
     def _parts(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Residuals but the proxy's (B, m), and skin and balls (B, configs, V, 3) in the instrument's frame."""
+        """Return the residuals without those of the instrument's bodies (B, m), and skin and balls (B, configs, V, 3)
+        in the instrument's frame, for B candidates."""
         problem, hand = self.problem, self.problem.hand
         place, turn = wrist_transform(problem, x)
         angles = joint_angles(problem, x)
@@ -196,7 +199,7 @@ class Residuals:
         return np.stack(parts, axis=1)
 
     def arm(self, x: FloatArray, place: FloatArray, turn: FloatArray) -> FloatArray:
-        """Return the residuals of a straight wrist: direction and twist of the forearm, place of the elbow."""
+        """Return the residuals that keep the wrist straight: direction and twist of the forearm, place of the elbow."""
         problem = self.problem
         wrist = place + problem.reference_shift_m
         bent, over = self._bend(x, wrist, turn, problem.shoulder_m)
@@ -214,9 +217,8 @@ class Residuals:
     def _bend(
         self, x: FloatArray, wrist: FloatArray, turn: FloatArray, shoulder_m: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Return flexion, deviation and pronation (B, 3), and by how much these and the judged values exceed limits (B,
-        5).
-        """
+        """Return for B candidates flexion, deviation and pronation of the wrist (B, 3), and the excess of these and the
+        judged values over their limits (B, 5)."""
         problem = self.problem
         elbow = _elbow_place(problem, wrist, x[:, 6], shoulder_m)
         forearm = wrist - elbow
@@ -237,7 +239,8 @@ class Residuals:
         return bent, np.maximum(both - high, 0.0) + np.minimum(both - low, 0.0)
 
     def _shared(self, forearm: FloatArray, hinge: FloatArray, turn: FloatArray) -> FloatArray:
-        """Return flexion and deviation (B, 2) of the hand joint if the forearm takes its share of the twist."""
+        """Return flexion and deviation (B, 2) of the hand joint for B candidates if the forearm takes its share of the
+        twist."""
         hand = self.problem.hand
         sign = 1.0 if hand.side == "left" else -1.0
         frame = quaternion.from_frames(sign * forearm, -sign * hinge)
@@ -248,9 +251,8 @@ class Residuals:
         return quaternion.to_rotation_vector(swing) @ hand.axes[0, :2].T
 
     def _anchored(self, x: FloatArray) -> FloatArray:
-        """Return the residuals that keep the hand near its seed, and grips of neighbouring knots similar with a common
-        swivel of the elbow.
-        """
+        """Return the residuals (B, m) that keep a hand near its seed, and grips of neighbouring knots similar with a
+        common swivel of the elbow."""
         if self.problem.anchor is None:
             off: FloatArray = x[:, :6] / np.repeat([SEED_M / METRES, SEED_RAD], 3)
         else:
@@ -260,7 +262,7 @@ class Residuals:
 
 
 def _elbow_place(problem: HandProblem, wrist: FloatArray, swivel: FloatArray, shoulder_m: FloatArray) -> FloatArray:
-    """Elbow (B, 3) for a wrist (B, 3) and swivel (B,) from straight down to the outside."""
+    """Return the elbow's position (B, 3) for B wrists (B, 3) and swivels (B,) from straight down to the outside."""
     a, b = problem.upper_m, problem.lower_m
     line = wrist - shoulder_m
     reach = np.clip(np.linalg.norm(line, axis=1), abs(a - b) + 1e-4, (a + b) * 0.9999)
@@ -289,7 +291,8 @@ def pressure_cost(depth: FloatArray) -> tuple[FloatArray, FloatArray]:
 def inside_proxy(
     proxies: Bodies, node_place: FloatArray, node_turn: FloatArray, skin: FloatArray, radius: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Depth (V,) of balls at (V, 3) below the proxy's surface, 0 outside, and the gradient (V, 3) of the distance."""
+    """Return the depth (V,) of V balls at (V, 3) below the surface of the instrument's bodies, 0 outside, and the
+    gradient (V, 3) of the distance."""
     nodes = InstrumentNodes(node_place, node_turn)
     depth, owner = inside(proxies, nodes, skin, radius)
     hit = np.flatnonzero(owner >= 0)

@@ -50,8 +50,8 @@ def with_own_arms(
 def arms_cost(
     grip: GripPose, character: Character, model: InstrumentModel, instrument: InstrumentMap, body: Body
 ) -> float:
-    """Return the strain of both arms when a character has the hold of another one with the same hands: the sum of
-    squared residuals of elbows and wrists in a fit."""
+    """Return the strain of both arms when a character has the hold of another one with the same hands: squares of a
+    fit's residuals of elbows and wrists."""
     stand = upright(character, instrument, body, fit_lips(character, instrument, body))
     hands = zip(grip.hands, instrument.hands, strict=True)
     return sum(
@@ -100,7 +100,7 @@ def _elbow(
 
 
 def _costs(hand: HandHold, problem: HandProblem) -> tuple[FloatArray, FloatArray]:
-    """Places of the elbow that are tried, and what each costs (`SWIVELS`,)."""
+    """Return the swivels of the elbow that are tried, and the cost of each (`SWIVELS`,)."""
     swivels = np.linspace(*problem.swivel_range, SWIVELS)
     tried = np.zeros((SWIVELS, len(problem.low)))
     tried[:, 6] = swivels

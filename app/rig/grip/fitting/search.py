@@ -39,9 +39,8 @@ TILTS = (
 
 
 def starts(problem: HandProblem, progress: Progress = no_progress) -> list[FloatArray]:
-    """Return solutions from the seed and rotations of it with soft contacts, and of the best few with harder ones; best
-    first.
-    """
+    """Return first solutions of a hand on its instrument, best first: from the seed and rotations of it with soft
+    contacts, then the best few again with harder ones."""
     loose = []
     for number, tilt in enumerate(TILTS):
         progress(0.8 * number / len(TILTS))
@@ -55,7 +54,8 @@ def starts(problem: HandProblem, progress: Progress = no_progress) -> list[Float
 
 
 def refined_solution(problem: HandProblem, start: FloatArray) -> FloatArray:
-    """Return the final solution from a start: first with contacts at full stiffness, then with skin at its own."""
+    """Return the parameters of the final solution from a start: first with contacts at full stiffness, then with skin
+    at its own."""
     hard = solve(Residuals(problem, 1.0), start, 25)
     return np.asarray(solve(Residuals(problem, 1.0, stiff=True), hard.x, 12).x)
 
@@ -67,7 +67,8 @@ def search_knots(
     carrier: Control,
     progress: Progress = no_progress,
 ) -> tuple[FloatArray, FloatArray]:
-    """Solve the hold of a carried hand at `KNOTS`: values ascending (K,) and parameters (K, n)."""
+    """Solve the hold of a hand that a control carries, at K values of the control: the values ascending (K,) and the n
+    parameters (K, n)."""
     found: dict[float, FloatArray] = {}
     for value in KNOTS:
         place, turn = nodes_at(model, instrument_map, home_controls(problem.stations), carrier, np.array([value]))
@@ -89,7 +90,8 @@ def search_knots(
 
 
 def solve(residuals: Residuals, start: FloatArray, rounds: int) -> Any:
-    """Least squares within the problem's bounds."""
+    """Minimise the residuals by least squares within the problem's bounds, in at most ``rounds`` steps; returns SciPy's
+    result."""
     problem = residuals.problem
     from scipy.optimize import least_squares  # heavy; holds are fitted seldom
 

@@ -41,7 +41,8 @@ STILL_VALUES = np.zeros(1)
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Angles (S, 16, 3) of one finger at one station over values (S,); other fingers have the given angles."""
+    """Angles (S, 16, 3) of the hand's 16 joints with one finger at one station, over S values of its control; other
+    fingers have the given angles."""
 
     number: int
     station: Station
@@ -50,7 +51,7 @@ class Solved:
 
 
 def values_of(scene: GripScene, station: Station) -> FloatArray:
-    """Return the values for which a finger is solved at a station."""
+    """Return the values of the finger's control at which its pose is solved at a station."""
     if scene.carrier is None and not station.controls:
         return STILL_VALUES
     return HOVER_VALUES if hover_m(station, scene.instrument_map) else MOVED_VALUES
@@ -144,7 +145,8 @@ def missed_m(problem: HandProblem, scene: GripScene, one: Solved) -> float:
 
 
 def _both_ways(finger: FingerOnTouches, first: FloatArray, last: FloatArray) -> FloatArray:
-    """Return the angles (S, n) of a finger followed from the end of its values with lower cost."""
+    """Return the angles (S, n) of a finger over S samples, followed from that end of its control's range which gives
+    the lower cost."""
     count = len(finger.values)
     if count == 1:
         return finger.solve(last[None], last[None], WORKED_RAD, np.arange(1))[0]
@@ -153,7 +155,7 @@ def _both_ways(finger: FingerOnTouches, first: FloatArray, last: FloatArray) -> 
 
 
 def _followed(finger: FingerOnTouches, start: FloatArray, order: Sequence[int]) -> tuple[FloatArray, float]:
-    """Return the angles (S, n) of a finger followed from sample to sample and smoothed, and their cost."""
+    """Return the angles (S, n) of a finger followed from sample to sample in an order and smoothed, and their cost."""
     found = np.zeros((len(order), len(start)))
     here = start
     for sample in order:
@@ -187,7 +189,8 @@ def finger_tables(problem: HandProblem, scene: GripScene, solved: Sequence[Solve
 
 
 def _tip(problem: HandProblem, scene: GripScene, one: Solved) -> tuple[int, FloatArray]:
-    """Return the finger's joint that carries a station's touching point, and that point in its frame."""
+    """Return the index of the finger's joint that carries a station's touching point, and the point (3,) in that
+    joint's frame; -1 if nothing is touched."""
     if not one.station.contacts:
         return -1, np.zeros(3)
     hand = problem.hand

@@ -30,7 +30,7 @@ HOVER_TURNS = 2.0
 
 @dataclass(frozen=True, eq=False)
 class TouchTarget:
-    """A contact in the instrument's frame for some values of the controls that its finger works.
+    """The place on the instrument that a finger touches, at S values of the controls that the finger works.
 
     ``positions`` and ``normals`` are (S, 3), ``active``, ``spread_m`` and ``spread_normal`` (S,).
     """
@@ -69,7 +69,7 @@ def touch_at(
 
 
 def counts(contact: Contact, values: FloatArray) -> BoolArray:
-    """Return the values of the control at which a contact must be kept."""
+    """Return a mask (S,) of the values of the control at which a contact must be kept."""
     if contact.when == "pressed":
         return values > 0.0
     return values == 0.0 if contact.when == "released" else values >= 0.0
@@ -83,7 +83,8 @@ def contact_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Place (S, 3) and normal (S, 3) of a contact in the instrument's frame while the worked controls are at values."""
+    """Return position (S, 3) and normal (S, 3) of a contact in the instrument's frame while the worked controls take S
+    values."""
     place = model.node_positions_m[model.node_names.index(contact.node)] + contact.position_m
     normal = np.asarray(contact.normal, dtype=np.float64)
     part = next((part for part in instrument_map.moving_parts if part.node == contact.node), None)
@@ -104,7 +105,7 @@ def nodes_at(
     carrier: Control | None,
     values: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return positions (S, N, 3) and bases (S, N, 3, 3) of the nodes while the worked controls are at values.
+    """Return positions (S, N, 3) and bases (S, N, 3, 3) of the N nodes while the worked controls take S values.
 
     For a hand moved by a control, its own node is fixed and all others move the opposite way.
     """

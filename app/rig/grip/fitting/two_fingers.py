@@ -38,9 +38,8 @@ ROUNDS = 25
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """A hand with two fingers at stations other than home; the parameters (6,) are the wrist's position in 0.1 m and
-    its rotation, added to its offsets.
-    """
+    """A hand with two fingers at stations other than home. The six parameters are the wrist's position in units of 0.1
+    m and its rotation, added to its offsets."""
 
     hand: HandHold
     stations: dict[str, int]
@@ -52,14 +51,15 @@ class _Pair:
         return [table for table in self.hand.fingers if table.stations and table.stations[0].tip_joint >= 0]
 
     def wrist(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Places (B, 3) and turns (B, 4) of the wrist for parameters (B, 6)."""
+        """Return positions (B, 3) and rotations (B, 4) of the wrist for B candidates (B, 6)."""
         ones = np.ones(len(x))
         given = [(one, ones) for one in self.hand.leans if self.stations.items() >= set(one.places)]
         extra = [(WristOffset("", 0, np.eye(6)[k, :3] * METRES, np.eye(6)[k, 3:]), x[:, k]) for k in range(6)]
         return wrist_given(self.hand, [*given, *extra])
 
     def missed_m(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the distances (B, fingers, 3) of fingers and (B, N, 3) of palm and web from their places in metres."""
+        """Return the vectors (B, fingers, 3) from fingers, and (B, N, 3) from the N places of palm and web, to where
+        they should be, in metres."""
         wrist = self.wrist(x)
         fingers = [_missed(self.hand, table, self.stations.get(table.finger, 0), wrist) for table in self.tables]
         home_m, home = wrist_given(self.hand, [])
@@ -68,7 +68,8 @@ class _Pair:
         return np.stack(fingers, axis=1), whole
 
     def residuals(self, x: FloatArray) -> FloatArray:
-        """Return the residuals (B, m)."""
+        """Return for candidates ``x`` (B, 6) the residuals (B, m): distances of fingers from their places, and the
+        shift of the hand."""
         fingers, whole = self.missed_m(x)
         spread = np.array([PLACE_M if table.finger in self.stations else HOME_M for table in self.tables])
         parts = [fingers / spread[:, None], whole / WHOLE_M]
@@ -80,7 +81,7 @@ class _Pair:
         return float(np.linalg.norm(self.missed_m(x[None])[0], axis=2).max())
 
     def solved(self) -> FloatArray:
-        """The parameters: damped Gauss-Newton from the single leans."""
+        """Return the six parameters of a hand that leans towards two stations, by damped Gauss-Newton."""
         x, damping = np.zeros(6), 1e-2
         cost = float(np.square(self.residuals(x[None])).sum())
         for _ in range(ROUNDS):
@@ -125,7 +126,8 @@ def leans_beside(
 
 
 def _missed(hand: HandHold, table: FingerTable, index: int, wrist: tuple[FloatArray, FloatArray]) -> FloatArray:
-    """Return the offset (B, 3) of a finger from its place in the instrument's frame, with its controls fully worked."""
+    """Return the vector (B, 3) by which a finger misses its place in the instrument's frame, metres, with its controls
+    fully worked."""
     station = table.stations[index]
     own = wrist_given(hand, [(one, np.ones(1)) for one in hand.leans if one.places == ((table.finger, index),)])
     requested = own[0] + quaternion.rotate(own[1], tip_m(table, station, station.rotations[-1:]))

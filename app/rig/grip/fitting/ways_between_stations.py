@@ -57,7 +57,8 @@ class _Height:
 def lifted_ways(
     problem: HandProblem, scene: GripScene, tables: tuple[FingerTable, ...], wrists: Mapping[tuple[int, int], GripScene]
 ) -> tuple[FingerTable, ...]:
-    """Return the tables with the heights of fingers on their ways between home and other stations."""
+    """Return the tables of fingers supplemented with the height by which each finger is lifted on its way between home
+    and another station."""
     result = []
     for number, table in enumerate(tables):
         found = [table.stations[0]] if table.stations else []
@@ -110,10 +111,9 @@ def _lifted_along(
     away: FloatArray,
     off: FloatArray,
 ) -> tuple[StationTable, _Height]:
-    """Return a station with its height on the way in direction ``away`` and while waiting in direction ``off``, in the
-    instrument's frame, and that height. ``scenes`` are at home and at the station, ``which`` are the numbers of finger
-    and station.
-    """
+    """Return a station with the height of its finger on the way in direction ``away`` and while waiting in direction
+    ``off`` (instrument's frame), and that height. ``scenes`` are at home and at the station, ``which`` are the numbers
+    of finger and station."""
     (scene, wrist), (number, index) = scenes, which
     home, there = table.stations[0], table.stations[index]
     away, off = away @ scene.basis[0], off @ scene.basis[0]
@@ -158,9 +158,8 @@ def _waiting(station: StationTable) -> FloatArray:
 def _least_lift(
     problem: HandProblem, scene: GripScene, number: int, lifted: Callable[[float], FloatArray], lifts_m: FloatArray
 ) -> tuple[float, float]:
-    """Return the first of some heights at which a finger's poses (K, n, 4) all clear the instrument, or the best, and
-    the greatest depth there.
-    """
+    """Return the first of the heights ``lifts_m`` at which all poses of a finger clear the instrument, or the best of
+    them, and the greatest depth there; ``lifted`` returns poses (K, n, 4) for a height."""
     hand = problem.hand
     own = slice(1 + 3 * number, 4 + 3 * number)
     carried = hand.all_points[own, 3].sum(axis=0) > 0.5
